@@ -17,7 +17,7 @@ from versions import core_sources
 
 STIFFNESS, TURN, BUCKLING = "rest and K", "turned, eigenvalues", "buckling factor"
 FUNCTIONS = {STIFFNESS: ("settle", "stiffness"), TURN: ("turn",), BUCKLING: ("buckling_factor",)}
-MOST_INSTRUCTIONS = {STIFFNESS: 6000, TURN: 550, BUCKLING: 7300}
+MOST_INSTRUCTIONS = {STIFFNESS: 6000, TURN: 550, BUCKLING: 13000}
 FIXED_FUNCTIONS = {STIFFNESS: ("fixed_settle", "fixed_stiffness"), TURN: ("fixed_turn",)}
 MOST_FIXED_INSTRUCTIONS = {STIFFNESS: 15000, TURN: 1700}
 LIMBS = {"beams": (beam_limb, "BEAM"), "coxa link yields": (coxa_limb, "COXA"), "tilted": (tilted_limb, "TILTED")}

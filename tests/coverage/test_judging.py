@@ -24,6 +24,12 @@ def test_an_exception_covers_its_lines_only() -> None:
     assert not entry.covers("firmware/app/src/app.c", "        return BRACE_OK;")
 
 
+def test_an_exception_of_branches_counts_them() -> None:
+    entry = coverage.Exception_("a.c", "if", "a reason of some length", branches=2)
+    texts = {"a.c": ["if (b && c) {", "x = 1;"]}
+    assert coverage.count_of(entry, {("a.c", 1, 0), ("a.c", 1, 3), ("a.c", 2, 0)}, texts) == 2
+
+
 @pytest.mark.parametrize(
     "entry", ['files = "*"\nline = "x"\nwhy = "so"', 'files = "*"\nline = ""\nwhy = "a reason of some length"']
 )

@@ -19,6 +19,10 @@ LINKS = ("coxa", "femur", "tibia")
 PATHS = ("float", "fixed")
 FACTOR_BELOW = 10.0  # accuracy is promised
 SOFTENED_BELOW = 3.0  # the flag is set
+# Integers see a link as one part; where it bends by large angles, most of all a short coxa link, that is too few.
+MEDIAN_OF_FACTOR = {"float": 1e-3, "fixed": 2e-3}
+NINE_OF_TEN = {"float": 6e-3, "fixed": 1.5e-2}
+BEYOND = {"float": 0.015, "fixed": 0.06}  # 2 %
 
 
 def yaw(case: Case) -> Array:
@@ -97,7 +101,7 @@ class CoreLimb:
         if self._path == "float":
             return float(lib.brace_loaded_space_buckling_factor(self._loaded, self.rest))
         search, factor = ffi.new("brace_buckling_search_t *"), ffi.new("float *")
-        lib.brace_loaded_space_buckling_begin(search)
+        lib.brace_loaded_space_fixed_buckling_begin(search)
         while not lib.brace_loaded_space_fixed_buckling_step(self._loaded, self.rest, search, factor):
             pass
         return float(factor[0])
@@ -167,10 +171,10 @@ def test_buckling_factor(limbs: int, seed: int, path: str) -> None:
     )
     assert wrong_flags <= 0.002 * len(cases)
     assert refused <= 0.05 * len(cases) and not_told <= 0.01 * len(cases)
-    assert np.median(error) <= 0.002
-    assert np.quantile(error, 0.9) <= 0.015
-    assert beyond <= 0.06  # links that are bent by large angles, most of them short coxa links
-    assert np.quantile(error, 0.99) <= 0.1
+    assert np.median(error) <= MEDIAN_OF_FACTOR[path]
+    assert np.quantile(error, 0.9) <= NINE_OF_TEN[path]
+    assert beyond <= BEYOND[path]
+    assert np.quantile(error, 0.99) <= (0.03 if path == "float" else 0.1)
     assert error.max() <= 0.3
 
 

@@ -8,7 +8,7 @@
 /* Of what must not change, so many words are looked over: all of them in less than 100 ms. */
 #define GUARDED_WORDS_PER_MS 8u
 #define GUARDED_WORDS_MOST 24u /* of the 364 */
-#define GUARDED_WORDS_IN_A_DEAR_TICK 2u /* in which a job has worked out a K, at most two of three */
+#define GUARDED_WORDS_IN_A_DEAR_TICK 2u /* in which a job works out a K or may, at most two of three */
 #define LISTENED_US 20000u /* a tick that comes later has not listened meanwhile, and has not moved the limb either */
 #define LATE_PERIODS 3u /* a tick that comes more than three periods after the one before is more than two late */
 
@@ -306,16 +306,16 @@ static bool step_loading(controller_t *controller, const brace_snapshot_t *now, 
 
 /* Looks over another slice of what must not change. What has changed is made anew from the store; where down is, as
  * the main computer told it, has to be told again. */
-static void step_guard(controller_t *controller)
+static void step_guard(controller_t *controller, bool is_dear)
 {
     if (controller->parameters.comes_in_force) {
         return;
     }
     const guard_span_t span = guarded(controller, controller->guard.span);
     const uint32_t plain = controller->parameters.in_force.controller.tick_us * GUARDED_WORDS_PER_MS / 1000u;
-    const uint32_t words = controller->has_worked        ? GUARDED_WORDS_IN_A_DEAR_TICK
+    const uint32_t words = is_dear                      ? GUARDED_WORDS_IN_A_DEAR_TICK
                            : plain < GUARDED_WORDS_MOST ? plain
-                                                         : GUARDED_WORDS_MOST;
+                                                        : GUARDED_WORDS_MOST;
     if (!guard_step(&controller->guard, &span, GUARDED_SPANS, words)) {
         controller->memory_is_wrong = true;
     }
@@ -479,11 +479,13 @@ void brace_app_tick(brace_app_t *app, uint32_t now_us)
     const bool is_counted_in_space = controller->model.is_spatial && snapshot->load.is_counted;
     const bool softening_works = softening_is_overdue(&controller->softening) && may_work && !job_has_worked;
     controller->has_worked = job_has_worked || softening_works;
-    if (!controller->has_worked) {
-        watch_sensors(controller); /* proofs take a quarter of a second: a tick that is dear already may be left out */
+    const bool is_dear = controller->has_worked || softening_may_search(&controller->softening);
+    if (!is_dear) {
+        watch_sensors(controller); /* proofs take a quarter of a second: a tick that is dear already may be left out, of
+                                      a limb in space every sixth at least */
     }
     part_is_done(controller, PART_JOBS);
-    step_guard(controller);
+    step_guard(controller, is_dear);
     part_is_done(controller, PART_GUARDED);
 
     /* Faults and mode, and what follows from them. */

@@ -56,7 +56,7 @@ void job_run(int index, float *out)
     }
     brace_buckling_search_t search;
     float factor = 0.0f;
-    brace_loaded_space_buckling_begin(&search);
+    brace_loaded_space_fixed_buckling_begin(&search);
     while (!brace_loaded_space_fixed_buckling_step(&fixed, &rest, &search, &factor)) {
     }
 #else

@@ -24,7 +24,7 @@ enum {
     K_MOST_TICKS = 8,        /* four ports, two ticks each, */
     SPACE_MOST_TICKS = 12,   /* and three of a limb in space */
     JOBS_TICKS = 1,          /* a K that the loading test works out itself, for the drift check */
-    SPACE_JOBS_TICKS = 2 + 2, /* that takes two in space, and every eighth tick is a step towards the buckling factor */
+    SPACE_JOBS_TICKS = 2 + 2, /* that takes two in space, and a step towards the buckling factor now and then */
     LINE_TICKS = 4 + 5,      /* on the line: bytes and the silence that ends them, read in every other tick; and a long
                                 answer, which leaves in five */
 };

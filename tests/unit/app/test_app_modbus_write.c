@@ -362,10 +362,29 @@ static void test_halves_of_two_masters_do_not_meet(void)
     TEST_ASSERT_EQUAL_HEX32(ours, value_at(&reply, 0));
 }
 
+/* A set beyond what the board allows is a wrong value to a Modbus master, and is not stored. */
+static void test_the_board_s_ceilings_hold_over_modbus(void)
+{
+    static const brace_hal_ceiling_t ceiling[3] = {
+        {12000.0f, -2.5f, 3.2f, 0.2f}, {12000.0f, -2.5f, 3.2f, 0.2f}, {12000.0f, -2.5f, 3.2f, 0.2f}};
+    fake.hal.ceiling = ceiling;
+    enum { FEMUR_ANGLE_MAX = 122 };
+    const uint32_t before = app.controller.parameters.crc;
+    configure();
+    accepted(write_value(FEMUR_ANGLE_MAX, bits(3.3f)), 16);
+    refused(write_value(COMMIT, go), 16, 3);
+    ticks(200);
+    TEST_ASSERT_EQUAL_HEX32(before, app.controller.parameters.crc);
+    accepted(write_value(FEMUR_ANGLE_MAX, bits(3.1f)), 16);
+    commit();
+    TEST_ASSERT_NOT_EQUAL(before, app.controller.parameters.crc);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_parameters_are_written_staged_committed_and_read_back);
+    RUN_TEST(test_the_board_s_ceilings_hold_over_modbus);
     RUN_TEST(test_nothing_is_written_outside_configuration);
     RUN_TEST(test_what_is_staged_is_forgotten_when_configuration_is_left);
     RUN_TEST(test_a_block_is_written_whole_or_not_at_all);

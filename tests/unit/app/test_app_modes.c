@@ -1,4 +1,6 @@
 /* The supervisor: starting, faults and their ends, time, what the snapshot promises. */
+#include <string.h>
+
 #include "app_bench.h"
 
 void setUp(void)
@@ -16,11 +18,67 @@ static void test_start_needs_a_whole_door(void)
     brace_hal_t hal = fake.hal;
     TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_start(NULL, &hal));
     TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_start(&app, NULL));
-    hal.joint_read = NULL;
-    TEST_ASSERT_EQUAL(BRACE_E_PARAMETER, brace_app_start(&app, &hal));
-    hal = fake.hal;
-    hal.nvm_erase = NULL;
-    TEST_ASSERT_EQUAL(BRACE_E_PARAMETER, brace_app_start(&app, &hal));
+#define WITHOUT(entry) (hal = fake.hal, hal.entry = NULL, brace_app_start(&app, &hal))
+    TEST_ASSERT_EQUAL(BRACE_E_PARAMETER, WITHOUT(now_us));
+    TEST_ASSERT_EQUAL(BRACE_E_PARAMETER, WITHOUT(joint_read));
+    TEST_ASSERT_EQUAL(BRACE_E_PARAMETER, WITHOUT(nvm_read));
+    TEST_ASSERT_EQUAL(BRACE_E_PARAMETER, WITHOUT(nvm_write));
+    TEST_ASSERT_EQUAL(BRACE_E_PARAMETER, WITHOUT(nvm_erase));
+    TEST_ASSERT_EQUAL(BRACE_E_PARAMETER, WITHOUT(watchdog_feed));
+    TEST_ASSERT_EQUAL(BRACE_E_PARAMETER, WITHOUT(reset_cause));
+    TEST_ASSERT_EQUAL(BRACE_E_PARAMETER, WITHOUT(crash_clear));
+}
+
+/* What is asked of an entry that stands alone: nothing. */
+static void runs_without_asking(brace_fake_entry_t first, brace_fake_entry_t last)
+{
+    ticks(50);
+    TEST_ASSERT_EQUAL(BRACE_MODE_MONITOR, now()->mode);
+    TEST_ASSERT_EQUAL(0, now()->faults);
+    TEST_ASSERT_TRUE(now()->k_is_valid);
+    for (int entry = first; entry <= (int)last; entry++) {
+        TEST_ASSERT_EQUAL(0, fake.calls[entry]);
+    }
+}
+
+static void test_a_wire_of_which_an_entry_is_absent_is_none(void)
+{
+    brace_hal_t hal;
+    for (int i = 0; i < 8; i++) {
+        setUp();
+        memset(fake.calls, 0, sizeof fake.calls);
+        hal = fake.hal;
+        switch (i) {
+        case 0: hal.can_setup = NULL; break;
+        case 1: hal.can_send = NULL; break;
+        case 2: hal.can_receive = NULL; break;
+        case 3: hal.can_health = NULL; break;
+        case 4: hal.can_recover = NULL; break;
+        case 5: hal.serial_setup = NULL; break;
+        case 6: hal.serial_read = NULL; break;
+        default: hal.serial_write = NULL; break;
+        }
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_app_start(&app, &hal));
+        runs_without_asking(i < 5 ? BRACE_FAKE_CAN_SETUP : BRACE_FAKE_SERIAL_SETUP,
+                            i < 5 ? BRACE_FAKE_CAN_RECOVER : BRACE_FAKE_SERIAL_READ);
+    }
+}
+
+/* A board that keeps a key but has no source of random numbers, or has no key yet, lets nobody move it. */
+static void test_a_board_without_all_that_a_key_needs_refuses_motion(void)
+{
+    static const uint8_t key[BRACE_HAL_KEY_BYTES] = {1, 2, 3};
+    static const brace_setting_t wanted[] = {BRACE_SETTING_NO_KEY, BRACE_SETTING_NO_KEY, BRACE_SETTING_GUARDED};
+    for (int i = 0; i < 3; i++) {
+        setUp();
+        brace_fake_guarded(&fake, i == 1 ? NULL : key);
+        fake.hal.random_read = i == 0 ? NULL : fake.hal.random_read;
+        fake.hal.silence_us = 130000u;
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_app_start(&app, &fake.hal));
+        TEST_ASSERT_EQUAL(wanted[i], brace_app_setting(&app));
+        brace_app_become_bench(&app);
+        TEST_ASSERT_EQUAL(BRACE_SETTING_BENCH, brace_app_setting(&app));
+    }
 }
 
 static void test_before_the_first_tick_nothing_is_known(void)
@@ -141,7 +199,12 @@ static void test_null_is_refused_everywhere(void)
     brace_k_answer_t k;
     TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_take_up(NULL, 1, 1));
     TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_let_go(NULL));
+    const brace_loading_setup_t setup = {.axis = BRACE_AXIS_X};
+    brace_store_status_t status;
     TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_loading_start(&app, NULL));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_loading_start(NULL, &setup));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_stop(NULL));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_store_status(NULL, &status));
     TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_loading_stop(NULL));
     TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_configuration_enter(NULL));
     TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_configuration_leave(NULL));
@@ -163,12 +226,19 @@ static void test_null_is_refused_everywhere(void)
     TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_row(NULL, 0, &row));
     TEST_ASSERT_EQUAL(BRACE_E_RANGE, brace_app_row(&app, 0, &row));
     TEST_ASSERT_EQUAL(0, brace_app_row_count(NULL));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_row(&app, 0, NULL));
+    float value;
+    row = (brace_row_t){0};
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_row_value(NULL, 0, &value));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_row_value(&row, 0, NULL));
 }
 
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_start_needs_a_whole_door);
+    RUN_TEST(test_a_wire_of_which_an_entry_is_absent_is_none);
+    RUN_TEST(test_a_board_without_all_that_a_key_needs_refuses_motion);
     RUN_TEST(test_before_the_first_tick_nothing_is_known);
     RUN_TEST(test_sound_samples_lead_to_monitor);
     RUN_TEST(test_no_samples_at_start_is_a_fault_that_names_the_joints);

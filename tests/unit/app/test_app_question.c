@@ -261,6 +261,28 @@ static void test_other_requests_wait_for_one_tick_at_most(void)
 }
 
 /* Who does not come back for its answer blocks nobody. */
+/* Who asks another question before the answer to the first has come is answered the second. */
+static void test_the_last_question_is_answered(void)
+{
+    brace_k_answer_t answer = {0}, wanted = {0};
+    const brace_k_question_t first = {.where = BRACE_K_AT_POSTURE, .theta_rad = {0.0f, 0.5f, 1.0f}};
+    const brace_k_question_t second = {.where = BRACE_K_AT_POSTURE, .theta_rad = {0.0f, 0.5f, 1.3f}};
+    for (int i = 0; i < 2; i++) { /* alone, then behind the other */
+        if (i == 1) {
+            TEST_ASSERT_EQUAL(BRACE_APP_LATER, brace_app_ask_k(&app, BRACE_ASKER_PROGRAM, &first, &answer));
+        }
+        int32_t status = brace_app_ask_k(&app, BRACE_ASKER_PROGRAM, &second, &answer);
+        TEST_ASSERT_EQUAL(BRACE_APP_LATER, status);
+        for (int tick = 0; tick < 10 && status == BRACE_APP_LATER; tick++) {
+            ticks(1);
+            status = brace_app_ask_k(&app, BRACE_ASKER_PROGRAM, &second, &answer);
+        }
+        TEST_ASSERT_EQUAL(BRACE_OK, status);
+        wanted = i == 0 ? answer : wanted;
+    }
+    TEST_ASSERT_EQUAL_MEMORY(&wanted.k, &answer.k, sizeof answer.k);
+}
+
 static void test_a_port_that_is_closed_loses_its_question(void)
 {
     uint8_t data[8];
@@ -352,6 +374,7 @@ int main(void)
     RUN_TEST(test_four_ports_that_ask_at_once_are_answered_within_eight_ticks);
     RUN_TEST(test_other_requests_are_answered_in_the_tick_that_finds_them);
     RUN_TEST(test_other_requests_wait_for_one_tick_at_most);
+    RUN_TEST(test_the_last_question_is_answered);
     RUN_TEST(test_a_port_that_is_closed_loses_its_question);
     RUN_TEST(test_the_main_computer_sets_where_down_is_until_the_next_start);
     RUN_TEST(test_down_is_set_over_Modbus_too);

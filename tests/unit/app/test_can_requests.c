@@ -1,4 +1,7 @@
 /* Requests over CAN: every one answered or refused, K elsewhere, parameters changed by nothing but a commit. */
+#include <stddef.h>
+
+#include "brace/answering.h"
 #include "brace/codes.h"
 #include "can_bench.h"
 
@@ -480,6 +483,26 @@ static void test_take_up_and_loading_test_over_the_bus(void)
     TEST_ASSERT_EQUAL(BRACE_MODE_MONITOR, now()->mode);
 }
 
+/* Stop is an entry that is written, so that every wire has it. */
+static void test_stop_is_heard_while_something_moves(void)
+{
+    const uint32_t stop = BRACE_ENTRY_COMMANDS + offsetof(brace_commands_t, stop) / 4u;
+    uint8_t data[8];
+    answer_t answer = write_entry(stop, 1);
+    TEST_ASSERT_EQUAL(BRACE_E_MODE, refusal_of(&answer, BRACE_REQUEST_WRITE_ENTRY).status);
+    brace_can_pack_loading_test_start_request(&(brace_can_loading_test_start_request_t){1, 0, 2, 0.5f, 20}, data);
+    begin_to_live();
+    (void)ask(data);
+    ticks(140);
+    drain();
+    TEST_ASSERT_EQUAL(BRACE_MODE_LOADING_TEST, now()->mode);
+    answer = write_entry(stop, 1);
+    TEST_ASSERT_EQUAL_HEX8(BRACE_REQUEST_WRITE_ENTRY, answer.part[0][0]);
+    TEST_ASSERT_EQUAL(BRACE_LOADING_STOPPED, brace_app_loading_result(&app)->outcome);
+    answer = write_entry(BRACE_ENTRY_COMMANDS + sizeof(brace_commands_t) / 4u, 1); /* there is none behind the last */
+    TEST_ASSERT_EQUAL(BRACE_E_RANGE, refusal_of(&answer, BRACE_REQUEST_WRITE_ENTRY).status);
+}
+
 /* The way back takes its time: who asks for the next test meanwhile is told to ask again, and then has it. */
 static void test_the_next_loading_test_waits_for_the_way_back(void)
 {
@@ -503,6 +526,38 @@ static void test_the_next_loading_test_waits_for_the_way_back(void)
         answer = ask(data);
     }
     TEST_ASSERT_EQUAL(BRACE_LOADING_RUNNING, brace_app_loading_result(&app)->outcome);
+}
+
+static answer_t download(uint32_t word)
+{
+    uint8_t data[8];
+    brace_can_pack_download_word_request(&(brace_can_download_word_request_t){2, word}, data);
+    return ask(data);
+}
+
+static void test_a_download_is_of_one_set_in_order(void)
+{
+    for (uint32_t word = 0; word < 4u; word++) {
+        TEST_ASSERT_EQUAL_HEX8(BRACE_REQUEST_DOWNLOAD_WORD, download(word).part[0][0]);
+    }
+    TEST_ASSERT_EQUAL_HEX8(BRACE_REQUEST_DOWNLOAD_WORD, download(3).part[0][0]); /* its answer was lost */
+    static const uint32_t out_of_order[] = {2, 5, BRACE_BLOCK_BYTES / 4};
+    for (int i = 0; i < 3; i++) {
+        const answer_t answer = download(out_of_order[i]);
+        TEST_ASSERT_EQUAL(BRACE_REFUSED_ORDER, refusal_of(&answer, BRACE_REQUEST_DOWNLOAD_WORD).status);
+    }
+    (void)set_mode(BRACE_MODE_CONFIGURATION);
+    (void)write_entry(brace_parameter_number(BRACE_PARAMETER_CONTROLLER_MODBUS_ADDRESS), 17);
+    TEST_ASSERT_EQUAL(2, commit(0).count);
+    ticks(200);
+    drain();
+    const answer_t answer = download(4); /* of another set than the words before */
+    TEST_ASSERT_EQUAL(BRACE_REFUSED_CHANGED, refusal_of(&answer, BRACE_REQUEST_DOWNLOAD_WORD).status);
+    for (uint32_t word = 0; word < BRACE_BLOCK_BYTES / 4; word++) {
+        TEST_ASSERT_EQUAL_HEX8(BRACE_REQUEST_DOWNLOAD_WORD, download(word).part[0][0]);
+    }
+    const answer_t beyond = download(BRACE_BLOCK_BYTES / 4);
+    TEST_ASSERT_EQUAL(BRACE_REFUSED_ORDER, refusal_of(&beyond, BRACE_REQUEST_DOWNLOAD_WORD).status);
 }
 
 static void test_faults_that_stay_are_cleared(void)
@@ -589,6 +644,8 @@ int main(void)
     RUN_TEST(test_a_push_with_a_word_missing_twice_or_changed_is_refused);
     RUN_TEST(test_take_up_and_loading_test_over_the_bus);
     RUN_TEST(test_the_next_loading_test_waits_for_the_way_back);
+    RUN_TEST(test_stop_is_heard_while_something_moves);
+    RUN_TEST(test_a_download_is_of_one_set_in_order);
     RUN_TEST(test_faults_that_stay_are_cleared);
     RUN_TEST(test_two_commits_are_two_answers_whenever_the_second_comes);
     return UNITY_END();

@@ -385,13 +385,29 @@ static void parameters_out_of_range_are_refused(void)
     p = sound_params();
     p.takeup.verify_us = 0;
     TEST_ASSERT_EQUAL_INT(BRACE_E_RANGE, brace_backlash_init(&fresh, &p));
+    static const uint32_t times_us[][3] = { /* tick, whole take-up, verifying; one of them beyond its range */
+        {5001, 3000000, 100000}, {1000, 0, 100000}, {1000, 60000001, 100000}, {1000, 3000000, 19999},
+        {1000, 3000000, 10000001}};
+    for (size_t i = 0; i < sizeof times_us / sizeof *times_us; i++) {
+        p = sound_params();
+        p.tick_us = times_us[i][0], p.takeup.time_max_us = times_us[i][1], p.takeup.verify_us = times_us[i][2];
+        TEST_ASSERT_EQUAL_INT(BRACE_E_RANGE, brace_backlash_init(&fresh, &p));
+    }
+    p = sound_params();
+    p.takeup.reach_max_rad = 2.1f;
+    TEST_ASSERT_EQUAL_INT(BRACE_E_RANGE, brace_backlash_init(&fresh, &p));
     p = sound_params();
     p.takeup.torque_max_n_mm = 900.0f; /* could not be told from friction and noise */
     TEST_ASSERT_EQUAL_INT(BRACE_E_PARAMETER, brace_backlash_init(&fresh, &p));
     TEST_ASSERT_EQUAL_INT(0, memcmp(&before, &fresh, sizeof fresh));
-    TEST_ASSERT_EQUAL_INT(BRACE_E_NULL, brace_backlash_tick(NULL, NULL, NULL));
+    const brace_backlash_sample_t sample = {.now_us = 1000};
+    TEST_ASSERT_EQUAL_INT(BRACE_E_NULL, brace_backlash_tick(NULL, &sample, &out));
+    TEST_ASSERT_EQUAL_INT(BRACE_E_NULL, brace_backlash_tick(&joint, NULL, &out));
+    TEST_ASSERT_EQUAL_INT(BRACE_E_NULL, brace_backlash_tick(&joint, &sample, NULL));
     TEST_ASSERT_EQUAL_INT(BRACE_E_NULL, brace_takeup_request(NULL, 1));
     TEST_ASSERT_EQUAL_INT(BRACE_E_RANGE, brace_takeup_request(&joint, 0));
+    TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_takeup_request(&joint, 1));
+    TEST_ASSERT_EQUAL_INT(BRACE_E_RANGE, brace_takeup_request(&joint, -1)); /* the first stands */
     TEST_ASSERT_EQUAL_INT(BRACE_E_NULL, brace_takeup_let_go(NULL));
     TEST_ASSERT_EQUAL_UINT32(0, brace_backlash_detection_us(NULL));
 }
@@ -409,6 +425,7 @@ static void the_tip_shifts_by_gap_times_lever(void)
     ASSERT_CLOSE((double)shifted.tip.x_mm - (double)at.tip.x_mm, shift.x_mm, 0.02);
     ASSERT_CLOSE((double)shifted.tip.z_mm - (double)at.tip.z_mm, shift.z_mm, 0.02);
     TEST_ASSERT_EQUAL_INT(BRACE_E_NULL, brace_backlash_tip_shift(NULL, one, two, &shift));
+    TEST_ASSERT_EQUAL_INT(BRACE_E_NULL, brace_backlash_tip_shift(&at, one, two, NULL));
     TEST_ASSERT_EQUAL_INT(BRACE_E_NOT_FINITE, brace_backlash_tip_shift(&at, NAN, two, &shift));
     TEST_ASSERT_EQUAL_INT(BRACE_E_RANGE, brace_backlash_tip_shift(&at, one, 0.6f, &shift));
 }

@@ -123,6 +123,7 @@ static void test_what_is_refused_leaves_outputs_alone(void)
     TEST_ASSERT_EQUAL(BRACE_E_NOT_FINITE, brace_chain_stiffness(&chain, 0.0f, -INFINITY, &k));
     TEST_ASSERT_EQUAL(BRACE_E_NOT_FINITE, brace_chain_compliance(&chain, 0.0f, NAN, &c, &det));
     TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_chain_compliance(&chain, 0.0f, 1.0f, NULL, &det));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_chain_compliance(NULL, 0.0f, 1.0f, &c, &det));
     TEST_ASSERT_EQUAL_MEMORY(&k_before, &k, sizeof k);
     TEST_ASSERT_EQUAL_MEMORY(&c_before, &c, sizeof c);
     TEST_ASSERT_EQUAL_FLOAT(-1.0f, det);

@@ -254,6 +254,23 @@ static void test_the_outlook_tells_where_a_loss_shows(void)
                      2.0f * stretched.sigma_of_loss_ratio[BRACE_DRIFT_TIBIA_OR_KNEE]);
 }
 
+/* A run ends by itself where its posture does, in either joint, and after 64 readings. */
+static void test_a_run_is_of_one_posture_and_of_64_readings(void)
+{
+    const brace_stiffness_t model = stiffness_of(&believed, postures[0]);
+    brace_drift_reading_t reading = {postures[0][0], postures[0][1], 1.0f, 0.0f, 4.0f, 0.0f, 0.0f};
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_drift_run(&drift));
+    for (int i = 1; i <= 70; i++) {
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_drift_step(&drift, &believed, &model, &reading));
+        TEST_ASSERT_EQUAL(i <= 64 ? i : i - 64, drift.run_count);
+    }
+    for (int joint = 0; joint < 2; joint++) {
+        *(joint == 0 ? &reading.theta1_rad : &reading.theta2_rad) += 0.1f;
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_drift_step(&drift, &believed, &model, &reading));
+        TEST_ASSERT_EQUAL(1, drift.run_count);
+    }
+}
+
 static void test_refused_calls_leave_everything_as_it_was(void)
 {
     const brace_stiffness_t model = stiffness_of(&believed, postures[0]);
@@ -282,11 +299,32 @@ static void test_refused_calls_leave_everything_as_it_was(void)
     reading = sound;
     reading.theta2_rad = 8.0f;
     TEST_ASSERT_EQUAL(BRACE_E_RANGE, brace_drift_step(&drift, &believed, &model, &reading));
+    float *const value[] = {&reading.theta1_rad, &reading.theta2_rad, &reading.dx_mm, &reading.dz_mm,
+                            &reading.fx_n,       &reading.fz_n,       &reading.warmer_degc};
+    static const float beyond[] = {8.0f, 8.0f, 1.1e4f, 1.1e4f, 1.1e6f, 1.1e6f, 201.0f};
+    for (size_t i = 0; i < sizeof beyond / sizeof *beyond; i++) {
+        reading = sound;
+        *value[i] = -beyond[i];
+        TEST_ASSERT_EQUAL(BRACE_E_RANGE, brace_drift_step(&drift, &believed, &model, &reading));
+    }
+    brace_drift_report_t report;
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_drift_report(NULL, &believed, &report));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_drift_report(&drift, NULL, &report));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_drift_outlook(NULL, &believed, &model, &sound, &outlook));
     brace_stiffness_t broken = model;
+    broken.lambda_max_n_per_mm = 2e12f;
+    TEST_ASSERT_EQUAL(BRACE_E_RANGE, brace_drift_step(&drift, &believed, &broken, &sound));
+    broken = model;
     broken.lambda_min_n_per_mm = -1.0f;
     TEST_ASSERT_EQUAL(BRACE_E_RANGE, brace_drift_step(&drift, &believed, &broken, &sound));
     brace_drift_setup_t wrong = setup;
     wrong.noise_n = 0.0f;
+    TEST_ASSERT_EQUAL(BRACE_E_RANGE, brace_drift_learn(&drift, &believed, &wrong));
+    wrong = setup;
+    wrong.model_error_ratio = -0.001f;
+    TEST_ASSERT_EQUAL(BRACE_E_RANGE, brace_drift_learn(&drift, &believed, &wrong));
+    wrong = setup;
+    wrong.joint_compliance_trust_ratio = -0.001f;
     TEST_ASSERT_EQUAL(BRACE_E_RANGE, brace_drift_learn(&drift, &believed, &wrong));
     wrong = setup;
     wrong.joint_compliance_trust_ratio = NAN;
@@ -312,6 +350,7 @@ int main(void)
     RUN_TEST(test_short_runs_count_the_noise_of_their_first_reading);
     RUN_TEST(test_a_calibration_that_does_not_fit_shows_in_the_baseline);
     RUN_TEST(test_the_outlook_tells_where_a_loss_shows);
+    RUN_TEST(test_a_run_is_of_one_posture_and_of_64_readings);
     RUN_TEST(test_refused_calls_leave_everything_as_it_was);
     return UNITY_END();
 }

@@ -156,6 +156,78 @@ static void test_what_is_refused(void)
     TEST_ASSERT_EQUAL_MEMORY(&untouched, &result, sizeof result);
 }
 
+static void test_each_input_has_its_range(void)
+{
+    brace_loaded_stiffness_t result;
+    memset(&result, 0x5a, sizeof result);
+    const brace_loaded_stiffness_t untouched = result;
+    take_springs();
+    float theta1 = 1.0f, theta2 = 1.4f;
+    float *const finite[] = {&theta1, &theta2, &load.tip.x_n, &load.tip.z_n};
+    for (int i = 0; i < 4; i++) {
+        const float sound = *finite[i], beyond = i < 2 ? 8.1f : 1.7e4f;
+        for (int sign = -1; sign <= 1; sign += 2) {
+            *finite[i] = (float)sign * INFINITY;
+            TEST_ASSERT_EQUAL(BRACE_E_NOT_FINITE, status_at(theta1, theta2, &result));
+            *finite[i] = (float)sign * beyond;
+            TEST_ASSERT_EQUAL(BRACE_E_RANGE, status_at(theta1, theta2, &result));
+        }
+        *finite[i] = sound;
+    }
+    float *const down[] = {&load.down.x, &load.down.z};
+    for (int i = 0; i < 2; i++) {
+        const float sound = *down[i];
+        static const float beyond[] = {1.01f, -1.01f, 3.0f, NAN};
+        for (int j = 0; j < 4; j++) {
+            *down[i] = beyond[j];
+            TEST_ASSERT_EQUAL(BRACE_E_RANGE, status_at(theta1, theta2, &result));
+        }
+        *down[i] = sound;
+    }
+    brace_loaded_joint_t *const joint[] = {&load.hip, &load.knee};
+    for (int i = 0; i < 2; i++) {
+        const brace_loaded_joint_t sound = *joint[i];
+        joint[i]->yields_by_rad_per_n_mm = -1e-6f;
+        TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, status_at(theta1, theta2, &result));
+        *joint[i] = (brace_loaded_joint_t){sound.yields_by_rad_per_n_mm, -1e-6f};
+        TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, status_at(theta1, theta2, &result));
+        *joint[i] = sound;
+    }
+    TEST_ASSERT_EQUAL_MEMORY(&untouched, &result, sizeof result);
+    TEST_ASSERT_EQUAL(BRACE_OK, status_at(theta1, theta2, &result));
+}
+
+/* A limb that yields nowhere but in its joints, by so much. */
+static void be_rigid(float hip_rad_per_n_mm, float knee_rad_per_n_mm)
+{
+    limb.base = (brace_base_t){0.0f, 0.0f, 0.0f};
+    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
+        limb.link[i] = (brace_link_t){.moment_transfer_ratio = 1.0f};
+    }
+    limb.joint[BRACE_FEMUR].compliance_rad_per_n_mm = hip_rad_per_n_mm;
+    limb.joint[BRACE_TIBIA].compliance_rad_per_n_mm = knee_rad_per_n_mm;
+    take_springs();
+}
+
+static void test_limbs_that_do_not_yield_are_refused(void)
+{
+    brace_loaded_stiffness_t result;
+    be_rigid(0.0f, 0.0f);
+    TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, status_at(1.0f, 1.4f, &result));
+    be_rigid(1e-24f, 1e-24f); /* moves by less than a word holds under this load */
+    load.tip.x_n = 1e4f;
+    TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, status_at(1.0f, 1.4f, &result));
+    load.tip.x_n = 0.0f;
+    limb.femur_mm = 1e4f, limb.tibia_mm = 0.01f; /* what yields moves the tip by next to nothing */
+    be_rigid(0.0f, 1e-5f);
+    TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, status_at(1.0f, 1.4f, &result));
+    limb = sample_limb[SAMPLE_PAPER];
+    be_rigid(1e-5f, 0.0f); /* one way only */
+    TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, status_at(1.0f, 1.4f, &result));
+    be_rigid(1e-5f, 1e-5f);
+    TEST_ASSERT_EQUAL(BRACE_OK, status_at(1.0f, 1.4f, &result));
+}
+
 /* --- any input ------------------------------------------------------------------------------------------------ */
 
 static uint32_t state = 12345u;
@@ -222,6 +294,83 @@ static void test_any_input(void)
     TEST_ASSERT_TRUE(told > 3000 && compared > 2000);
 }
 
+/* The units of length and force of the limbs and loads below. */
+static const float length_unit_mm = 256.0f, force_unit_n = 16.0f;
+
+/* Of a radian, by a moment of both units: too little to matter, or up to the most that a word holds. */
+static float any_turn(void)
+{
+    return any(0.0f, 1.0f) < 0.5f ? any_size(-6.0f, -1.0f) : any(0.0f, 2.0f);
+}
+
+/* A limb whose compliances fill their words under the loads below: they bend it far, or fold it. */
+static void any_soft_limb(void)
+{
+    const float moment_n_mm = length_unit_mm * force_unit_n, reach_mm = any(190.0f, 255.0f);
+    const float femur = any(0.0f, 1.0f) < 0.5f ? any(0.1f, 0.9f) : any(0.0f, 1.0f) < 0.5f ? 0.01f : 0.99f;
+    limb = sample_limb[SAMPLE_PAPER];
+    limb.femur_mm = femur * reach_mm, limb.tibia_mm = reach_mm - limb.femur_mm;
+    for (int i = BRACE_FEMUR; i <= BRACE_TIBIA; i++) {
+        const float length_mm = i == BRACE_FEMUR ? limb.femur_mm : limb.tibia_mm;
+        limb.link[i] = (brace_link_t){
+            .axial_mm_per_n = any_size(-6.0f, -0.7f) * length_unit_mm / force_unit_n,
+            .bending_mm_per_n = any_turn() * length_mm * length_mm / (1.5f * moment_n_mm),
+            .tilt_rad = any(0.0f, 1.0f) < 0.5f ? 0.0f : any(-0.3f, 0.3f),
+            .moment_transfer_ratio = any(0.0f, 1.0f) < 0.7f ? 1.0f : any(0.0f, 1.0f)};
+        limb.joint[i].compliance_rad_per_n_mm = any_turn() / moment_n_mm;
+    }
+    limb.base = (brace_base_t){1e-3f, 1e-3f, any_size(-6.0f, 0.0f) / moment_n_mm};
+}
+
+/* Pressed from the tip towards the hip, or anywhere. */
+static void any_press(float theta1_rad, float theta2_rad)
+{
+    const float tibia_rad = theta1_rad - theta2_rad;
+    const float x = limb.femur_mm * cosf(theta1_rad) + limb.tibia_mm * cosf(tibia_rad);
+    const float z = limb.femur_mm * sinf(theta1_rad) + limb.tibia_mm * sinf(tibia_rad);
+    const float direction = any(0.0f, 1.0f) < 0.7f ? atan2f(-z, -x) + any(-0.3f, 0.3f) : any(-3.2f, 3.2f);
+    const float force_n = any(0.3f, 0.97f) * force_unit_n, most_n = any(0.0f, 1.0f) < 0.7f ? 0.0f : 1.0f;
+    load.tip = (brace_force_t){force_n * cosf(direction), force_n * sinf(direction)};
+    weights = (brace_gravity_t){
+        .femur_n = any(0.0f, most_n), .knee_n = any(0.0f, most_n), .tibia_n = any(0.0f, most_n)};
+}
+
+/* Loads near and beyond what bends the limb out of its range, or buckles it: it is refused, or K is that of a limb that
+ * stands; and where the float path is sure of it, the same. */
+static void test_soft_limbs_near_their_buckling(void)
+{
+    int told = 0, refused = 0, compared = 0;
+    for (int i = 0; i < 60000; i++) {
+        any_soft_limb();
+        take_springs();
+        const float theta1 = any(-3.0f, 3.0f), theta2 = i % 3 == 0 ? any(-3.0f, 3.0f) : any(-0.5f, 0.5f);
+        any_press(theta1, theta2);
+        brace_loaded_stiffness_t is, want;
+        brace_loaded_t loaded;
+        memset(&is, 0x5a, sizeof is);
+        const brace_loaded_stiffness_t untouched = is;
+        brace_loaded_collapse(&limb, &weights, &loaded);
+        const bool has_float = brace_loaded_stiffness(&loaded, theta1, theta2, &load, &want) == BRACE_OK;
+        TEST_ASSERT_TRUE(!has_float || want.stiffness.lambda_min_n_per_mm > 0.0f);
+        if (status_at(theta1, theta2, &is) != BRACE_OK) {
+            TEST_ASSERT_EQUAL_MEMORY(&untouched, &is, sizeof is);
+            refused++;
+            continue;
+        }
+        told++;
+        TEST_ASSERT_TRUE(is.stiffness.lambda_min_n_per_mm > 0.0f && isfinite(is.stiffness.lambda_max_n_per_mm));
+        TEST_ASSERT_TRUE(is.buckling_factor >= 1.0f);
+        if (has_float && want.stiffness.flags == 0u && is.stiffness.flags == 0u && want.buckling_factor >= 2.0f) {
+            compared++;
+            const float off = 5e-3f * want.stiffness.lambda_max_n_per_mm;
+            TEST_ASSERT_FLOAT_WITHIN(off, want.stiffness.k_xx_n_per_mm, is.stiffness.k_xx_n_per_mm);
+            TEST_ASSERT_FLOAT_WITHIN(off, want.stiffness.k_xz_n_per_mm, is.stiffness.k_xz_n_per_mm);
+            TEST_ASSERT_FLOAT_WITHIN(off, want.stiffness.k_zz_n_per_mm, is.stiffness.k_zz_n_per_mm);
+        }
+    }
+    TEST_ASSERT_TRUE(told > 10000 && refused > 10000 && compared > 5000);
+}
+
 /* Within a part in 8 million, one over every pivot that the solver lets through: powers of two, their neighbours, and what
  * lies between. */
 static void assert_inverse(int64_t pivot_q27)
@@ -252,6 +401,9 @@ int main(void)
     RUN_TEST(test_no_load_is_the_linear_limb);
     RUN_TEST(test_buckling_factor_of_one_hinge);
     RUN_TEST(test_what_is_refused);
+    RUN_TEST(test_each_input_has_its_range);
+    RUN_TEST(test_limbs_that_do_not_yield_are_refused);
     RUN_TEST(test_any_input);
+    RUN_TEST(test_soft_limbs_near_their_buckling);
     return UNITY_END();
 }

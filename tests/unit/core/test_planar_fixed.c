@@ -160,6 +160,18 @@ static void test_what_it_cannot_serve_is_refused_and_nothing_touched(void)
     refused(&limb, BRACE_E_UNSUPPORTED); /* too slender for 32 bits */
 
     limb = sample_limb[SAMPLE_PAPER];
+    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
+        limb.link[i].axial_mm_per_n *= 1e-12f;
+        limb.link[i].bending_mm_per_n *= 1e-12f;
+        limb.joint[i].compliance_rad_per_n_mm *= 1e-12f;
+    }
+    refused(&limb, BRACE_E_UNSUPPORTED); /* too hard */
+    limb = sample_limb[SAMPLE_PAPER];
+    limb.femur_mm = limb.tibia_mm = 9e3f;
+    limb.joint[BRACE_FEMUR].compliance_rad_per_n_mm = limb.joint[BRACE_TIBIA].compliance_rad_per_n_mm = 0.9f;
+    refused(&limb, BRACE_E_UNSUPPORTED); /* too soft */
+
+    limb = sample_limb[SAMPLE_PAPER];
     limb.femur_mm = NAN;
     refused(&limb, BRACE_E_NOT_FINITE);
     limb.femur_mm = -1.0f;

@@ -204,6 +204,13 @@ static void test_null_is_refused(void)
     TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_spatial_stiffness(&spatial, 0.0f, 0.0f, 0.0f, NULL));
     TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_spatial_collapse(&sample_limb[0], NULL));
     TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_spatial_collapse(NULL, &spatial));
+    brace_stiffness_t plane = {0};
+    float across;
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_spatial_in_plane(NULL, 0.0f, 1.0f, &plane, &across));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_spatial_in_plane(&spatial, 0.0f, 1.0f, NULL, &across));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_spatial_in_plane(&spatial, 0.0f, 1.0f, &plane, NULL));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_spatial_turn(0.0f, NULL, 1.0f, &k));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_spatial_turn(0.0f, &plane, 1.0f, NULL));
 }
 
 static void test_bad_limbs_are_refused_and_nothing_touched(void)

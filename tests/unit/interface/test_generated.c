@@ -106,6 +106,7 @@ static void test_a_value_that_any_frame_of_the_snapshot_limits_is_flagged(void)
         {&measured.k_zz_n_per_mm, BRACE_CAN_STIFFNESS_B_K_ZZ_N_PER_MM_MOST, false},
         {&measured.lambda_min_n_per_mm, BRACE_CAN_EIGENVALUES_LAMBDA_MIN_N_PER_MM_MOST, false},
         {&measured.lambda_max_n_per_mm, BRACE_CAN_EIGENVALUES_LAMBDA_MAX_N_PER_MM_MOST, false},
+        {&measured.stiff_axis_rad, BRACE_CAN_EIGENVALUES_STIFF_AXIS_RAD_MOST, false},
         {&measured.space_k_xx_n_per_mm, BRACE_CAN_SPACE_0_K_XX_N_PER_MM_MOST, true},
         {&measured.space_k_xy_n_per_mm, BRACE_CAN_SPACE_0_K_XY_N_PER_MM_MOST, true},
         {&measured.space_k_xz_n_per_mm, BRACE_CAN_SPACE_1_K_XZ_N_PER_MM_MOST, true},
@@ -125,6 +126,56 @@ static void test_a_value_that_any_frame_of_the_snapshot_limits_is_flagged(void)
         *told[i].value = NAN;
         TEST_ASSERT_EQUAL_HEX32(in_plane, flags_in_plane(&measured));
         TEST_ASSERT_EQUAL_HEX32(in_space, flags_in_space(&measured));
+    }
+}
+
+static uint32_t flags_of_load(const brace_measured_t *measured)
+{
+    uint8_t data[8];
+    brace_can_load_1_t frame;
+    brace_can_make_load_1(measured, 0.0f, data);
+    brace_can_unpack_load_1(data, &frame);
+    return frame.flags;
+}
+
+static uint32_t flags_of_load_across(const brace_measured_t *measured)
+{
+    uint8_t data[8];
+    brace_can_load_across_1_t frame;
+    brace_can_make_load_across_1(measured, 0.0f, data);
+    brace_can_unpack_load_across_1(data, &frame);
+    return frame.flags;
+}
+
+static void test_a_value_that_any_frame_of_the_load_limits_is_flagged(void)
+{
+    brace_measured_t measured = {.flags = BRACE_FLAG_STALE, .space_flags = BRACE_FLAG_GAP_OPEN};
+    const struct {
+        float *value;
+        float most;
+        bool is_across;
+    } told[] = {
+        {&measured.unloaded_k_xx_n_per_mm, BRACE_CAN_LOAD_0_UNLOADED_K_XX_N_PER_MM_MOST, false},
+        {&measured.unloaded_k_xz_n_per_mm, BRACE_CAN_LOAD_0_UNLOADED_K_XZ_N_PER_MM_MOST, false},
+        {&measured.unloaded_k_zz_n_per_mm, BRACE_CAN_LOAD_1_UNLOADED_K_ZZ_N_PER_MM_MOST, false},
+        {&measured.gravity_lean_rad, BRACE_CAN_LOAD_1_GRAVITY_LEAN_RAD_MOST, false},
+        {&measured.counted_force_x_n, BRACE_CAN_LOAD_2_COUNTED_FORCE_X_N_MOST, false},
+        {&measured.counted_force_z_n, BRACE_CAN_LOAD_2_COUNTED_FORCE_Z_N_MOST, false},
+        {&measured.moved_x_mm, BRACE_CAN_LOAD_3_MOVED_X_MM_MOST, false},
+        {&measured.moved_z_mm, BRACE_CAN_LOAD_3_MOVED_Z_MM_MOST, false},
+        {&measured.counted_force_y_n, BRACE_CAN_LOAD_ACROSS_0_COUNTED_FORCE_Y_N_MOST, true},
+        {&measured.moved_y_mm, BRACE_CAN_LOAD_ACROSS_0_MOVED_Y_MM_MOST, true},
+        {&measured.unloaded_k_across_n_per_mm, BRACE_CAN_LOAD_ACROSS_1_UNLOADED_K_ACROSS_N_PER_MM_MOST, true},
+    };
+    const uint32_t in_plane = BRACE_FLAG_STALE, across = BRACE_FLAG_GAP_OPEN, saturated = BRACE_FLAG_SATURATED;
+    for (size_t i = 0; i < sizeof told / sizeof *told; i++) {
+        *told[i].value = -told[i].most;
+        TEST_ASSERT_EQUAL_HEX32(in_plane, flags_of_load(&measured));
+        TEST_ASSERT_EQUAL_HEX32(across, flags_of_load_across(&measured));
+        *told[i].value = 1.001f * told[i].most;
+        TEST_ASSERT_EQUAL_HEX32(in_plane | (told[i].is_across ? 0u : saturated), flags_of_load(&measured));
+        TEST_ASSERT_EQUAL_HEX32(across | (told[i].is_across ? saturated : 0u), flags_of_load_across(&measured));
+        *told[i].value = NAN;
     }
 }
 
@@ -274,6 +325,7 @@ int main(void)
     RUN_TEST(test_every_message_has_a_rate_of_the_controller);
     RUN_TEST(test_limits_are_what_a_frame_can_carry);
     RUN_TEST(test_a_value_that_any_frame_of_the_snapshot_limits_is_flagged);
+    RUN_TEST(test_a_value_that_any_frame_of_the_load_limits_is_flagged);
     RUN_TEST(test_a_frame_carries_the_measured_values);
     RUN_TEST(test_an_answer_s_frames_carry_its_fields);
     RUN_TEST(test_a_request_s_frame_carries_its_fields);

@@ -138,9 +138,9 @@ static void test_updates_take_turns_and_say_so(void)
     for (uint32_t i = 1; i <= 5; i++) {
         TEST_ASSERT_EQUAL(BRACE_STORE_DONE, update(i));
         uint32_t crc = 0;
-        TEST_ASSERT_EQUAL(BRACE_OK, brace_store_take(&store, &parameters, &crc));
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_store_take(&store, &parameters, i == 5 ? NULL : &crc));
         TEST_ASSERT_EQUAL(i, parameters.controller.node_id);
-        TEST_ASSERT_EQUAL_HEX32(brace_parameters_crc(&parameters), crc);
+        TEST_ASSERT_EQUAL_HEX32(i == 5 ? 0u : brace_parameters_crc(&parameters), crc);
         TEST_ASSERT_EQUAL(i, status_now().sequence);
         TEST_ASSERT_EQUAL(i > 1, status_now().can_roll_back);
         TEST_ASSERT_EQUAL(BRACE_E_UNSUPPORTED, brace_store_take(&store, &parameters, NULL));
@@ -487,6 +487,17 @@ static void test_a_memory_that_does_not_answer(void)
     expect_after_start(BRACE_PARAMETERS_DEFAULT, 0);
     hal.nvm_shape.write_bytes = 1;
     expect_after_start(BRACE_PARAMETERS_SLOT_A, 1);
+    const brace_hal_t whole = hal;
+    hal.nvm_read = NULL;
+    expect_after_start(BRACE_PARAMETERS_DEFAULT, 0);
+    hal = whole;
+    hal.nvm_write = NULL;
+    expect_after_start(BRACE_PARAMETERS_DEFAULT, 0);
+    hal = whole;
+    hal.nvm_erase = NULL;
+    expect_after_start(BRACE_PARAMETERS_DEFAULT, 0);
+    hal = whole;
+    expect_after_start(BRACE_PARAMETERS_SLOT_A, 1);
 }
 
 static void test_what_is_refused_at_once(void)
@@ -502,8 +513,11 @@ static void test_what_is_refused_at_once(void)
     TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_store_begin(&store, NULL, NULL));
     TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_store_rollback(NULL));
     TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_store_take(&store, NULL, NULL));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_store_take(NULL, &wrong, NULL));
     TEST_ASSERT_EQUAL(BRACE_STORE_IDLE, brace_store_step(NULL));
     brace_store_status(NULL, NULL);
+    brace_store_status(&store, NULL);
+    brace_store_expect(NULL, 1);
     TEST_ASSERT_EQUAL(BRACE_OK, brace_store_begin(&store, &wrong, NULL));
     TEST_ASSERT_EQUAL(BRACE_E_UNSUPPORTED, brace_store_begin(&store, &wrong, NULL));
     TEST_ASSERT_EQUAL(BRACE_E_UNSUPPORTED, brace_store_rollback(&store));

@@ -35,7 +35,7 @@ typedef struct {
     float force_x_n, force_y_n, force_z_n; /* of the ground on the tip, as counted; y: to the left of the limb's plane;
                                               NaN: limb in its plane, as moved_y_mm */
     float moved_x_mm, moved_y_mm, moved_z_mm; /* how far the load has moved the tip */
-    /* Of a limb in space the rest is worked out beside the tick: it belongs to a tick up to 80 ticks ago, and is NaN
+    /* Of a limb in space the rest is worked out beside the tick: it belongs to a tick up to 240 ticks ago, and is NaN
      * until there is one. */
     float buckling_factor;      /* brace/loaded.h; infinity: none */
     brace_stiffness_t unloaded; /* K in the limb's plane with neither force nor weight counted, every gap closed; NaN:

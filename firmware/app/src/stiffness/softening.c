@@ -1,8 +1,8 @@
 #include "stiffness/softening.h"
 
-#define EVERY_TICKS 4u
-#define PATIENCE_TICKS 8u /* in which requests go first */
-#define TOLD_TICKS_MOST 200u /* two searches, and ticks in which requests or other jobs went first */
+#define EVERY_TICKS 3u
+#define PATIENCE_TICKS 9u /* in which requests go first */
+#define TOLD_TICKS_MOST 240u /* two searches, and ticks in which requests or other jobs went first */
 
 static void forget_unloaded(softening_t *softening)
 {
@@ -13,7 +13,8 @@ static void forget_unloaded(softening_t *softening)
 
 void softening_start(softening_t *softening)
 {
-    *softening = (softening_t){.is_searchs_turn = true, .ticks_since_step = EVERY_TICKS, .factor = __builtin_nanf("")};
+    *softening = (softening_t){
+        .is_searchs_turn = true, .ticks_since_step = EVERY_TICKS - 1u, .factor = __builtin_nanf("")};
     forget_unloaded(softening);
 }
 
@@ -44,7 +45,9 @@ void softening_step(softening_t *softening, model_t *model, const brace_limb_t *
     if (softening->ticks_since_step < UINT8_MAX) {
         softening->ticks_since_step++;
     }
-    if (!is_counted || !may_work || softening->ticks_since_step < EVERY_TICKS) {
+    const bool is_due = softening->ticks_since_step % EVERY_TICKS == 0u ||
+                        softening->ticks_since_step >= EVERY_TICKS + PATIENCE_TICKS;
+    if (!is_counted || !may_work || !is_due) {
         softening->is_needed = is_counted;
         return;
     }
@@ -52,17 +55,23 @@ void softening_step(softening_t *softening, model_t *model, const brace_limb_t *
     softening->is_searchs_turn = !softening->is_searchs_turn;
     if (!softening->is_searchs_turn) {
         find_unloaded(softening, model, limb, unbent_rad);
+        if (!softening->runs) {
+            softening->runs = true;
+            space_path_buckling_begin(&model->loaded_space, &softening->now.at, &softening->shape, &softening->search);
+        }
         return;
     }
-    if (!softening->runs) {
-        softening->runs = true;
-        softening->at = softening->now.at;
-        brace_loaded_space_buckling_begin(&softening->search);
-    }
-    if (space_path_buckling_step(&model->loaded_space, &softening->at, &softening->search, &softening->factor)) {
+    if (softening->runs &&
+        space_path_buckling_step(&model->loaded_space, &softening->shape, &softening->search, &softening->factor)) {
         softening->runs = false;
         softening->ticks_told = 0;
     }
+}
+
+bool softening_may_search(const softening_t *softening)
+{
+    const bool is_due = (softening->ticks_since_step + 1u) % EVERY_TICKS == 0u;
+    return softening->is_needed && !softening->is_searchs_turn && is_due;
 }
 
 bool softening_is_overdue(const softening_t *softening)

@@ -12,6 +12,7 @@
 
 typedef brace_loaded_space_fixed_t space_path_limb_t;
 typedef brace_space_fixed_rest_t space_path_rest_t;
+typedef brace_space_fixed_rest_t space_path_shape_t; /* what the search for the buckling factor needs of it */
 
 static inline void space_path_collapse(const brace_limb_t *limb, const brace_gravity_t *weights,
                                        space_path_limb_t *collapsed)
@@ -44,16 +45,25 @@ static inline brace_status_t space_path_turn(float theta0_rad, const brace_k3_t 
     return brace_loaded_space_fixed_turn(theta0_rad, k, stiffness);
 }
 
-static inline bool space_path_buckling_step(const space_path_limb_t *limb, const space_path_rest_t *rest,
+static inline void space_path_buckling_begin(const space_path_limb_t *limb, const space_path_rest_t *rest,
+                                             space_path_shape_t *shape, brace_buckling_search_t *search)
+{
+    (void)limb;
+    *shape = *rest;
+    brace_loaded_space_fixed_buckling_begin(search);
+}
+
+static inline bool space_path_buckling_step(const space_path_limb_t *limb, const space_path_shape_t *shape,
                                             brace_buckling_search_t *search, float *factor)
 {
-    return brace_loaded_space_fixed_buckling_step(limb, rest, search, factor);
+    return brace_loaded_space_fixed_buckling_step(limb, shape, search, factor);
 }
 
 #else
 
 typedef brace_loaded_space_t space_path_limb_t;
 typedef brace_space_rest_t space_path_rest_t;
+typedef brace_space_shape_t space_path_shape_t; /* what the search for the buckling factor needs of it */
 
 static inline void space_path_collapse(const brace_limb_t *limb, const brace_gravity_t *weights,
                                        space_path_limb_t *collapsed)
@@ -84,10 +94,16 @@ static inline brace_status_t space_path_turn(float theta0_rad, const brace_k3_t 
     return brace_loaded_space_turn(theta0_rad, k, stiffness);
 }
 
-static inline bool space_path_buckling_step(const space_path_limb_t *limb, const space_path_rest_t *rest,
+static inline void space_path_buckling_begin(const space_path_limb_t *limb, const space_path_rest_t *rest,
+                                             space_path_shape_t *shape, brace_buckling_search_t *search)
+{
+    brace_loaded_space_buckling_begin(limb, rest, shape, search);
+}
+
+static inline bool space_path_buckling_step(const space_path_limb_t *limb, const space_path_shape_t *shape,
                                             brace_buckling_search_t *search, float *factor)
 {
-    return brace_loaded_space_buckling_step(limb, rest, search, factor);
+    return brace_loaded_space_buckling_step(limb, shape, search, factor);
 }
 
 #endif

@@ -32,7 +32,7 @@ void brace_loaded_space_collapse(const brace_limb_t *limb, const brace_gravity_t
  * rest: room to work in, and the equilibrium after BRACE_OK.
  * returns BRACE_OK, BRACE_E_RANGE, BRACE_E_NOT_FINITE, or BRACE_E_SINGULAR: two steps do not come near an equilibrium
  *         (they leave more than some 0.025 rad), or come to one far from the commanded posture.
- * Cost on a Cortex-M4F: 2,920 instructions, the same for every posture; stack at most 1,400 bytes. */
+ * Cost on a Cortex-M4F: 2,854 instructions, the same for every posture; stack at most 1,400 bytes. */
 brace_status_t brace_loaded_space_settle(const brace_loaded_space_t *loaded, float theta1_rad, float theta2_rad,
                                          const brace_space_load_t *load, brace_space_rest_t *rest);
 
@@ -45,7 +45,7 @@ brace_status_t brace_loaded_space_settle(const brace_loaded_space_t *loaded, flo
  *         limbs). tests/engine/test_core_in_space_under_load.py judges 600 random limbs. Of 52,000 such limbs, 81 are
  *         refused; of those told, 201 are off by more than 1 %, 43 by more than 2 %, the worst by 7.2 %, most of them
  *         because of a short, soft coxa link that turns by 0.2 rad and more within itself.
- * Cost on a Cortex-M4F: 3,034 instructions, the same for every posture; stack at most 1,200 bytes. */
+ * Cost on a Cortex-M4F: 2,716 instructions, the same for every posture; stack at most 1,200 bytes. */
 brace_status_t brace_loaded_space_stiffness(const brace_loaded_space_t *loaded, const brace_space_rest_t *rest,
                                             brace_space_result_t *result);
 
@@ -66,19 +66,19 @@ brace_status_t brace_loaded_space_turn(float theta0_rad, const brace_k3_t *k, br
 /* The smallest positive s for which diag(k) - s G is singular at this equilibrium with the posture held, as
  * brace/loaded.h says; infinity where it is above 16, and where it may be above 11.
  * loaded, rest: what brace_loaded_space_settle was given and left; neither may be null.
- * Accuracy: of 600 random limbs with a factor from 2 to 10, median 0.1 %, nine of ten within 0.9 %, 96 of 100 within
- *         2 %, the worst 25 %. Beyond 2 % are limbs whose links bend by large angles within themselves: where no link
- *         turns by more than 0.05 rad, 99 of 100 are within 2 %. A beam that buckles between its ends, as a short, soft
- *         coxa link can, is overlooked: then the true factor is lower. tests/engine/test_core_in_space_under_load.py
- *         judges.
- * Cost on a Cortex-M4F: at most 7,300 instructions; stack at most 700 bytes. */
+ * Accuracy: of 600 random limbs with a factor from 2 to 10, median 0.05 %, nine of ten within 0.4 %, 99 of 100 within
+ *         1.7 %, 0.7 % of them beyond 2 %, the worst 8.4 %. Those are limbs whose short coxa link bends by large angles
+ *         within itself.
+ *         tests/engine/test_core_in_space_under_load.py judges.
+ * Cost on a Cortex-M4F: at most 13,000 instructions; stack at most 1,700 bytes. */
 float brace_loaded_space_buckling_factor(const brace_loaded_space_t *loaded, const brace_space_rest_t *rest);
 
-/* The same in four steps, for a controller that cannot spend so much at once. Begin, then step with the same loaded and
- * rest until a step returns true; factor is written then. No pointer may be null.
- * Cost on a Cortex-M4F: a step at most 1,900 instructions. */
-void brace_loaded_space_buckling_begin(brace_buckling_search_t *search);
-bool brace_loaded_space_buckling_step(const brace_loaded_space_t *loaded, const brace_space_rest_t *rest,
+/* The same in steps, for a controller that cannot spend so much at once. Begin, which writes the shape; then step with
+ * the same loaded and shape until a step, the fifth, returns true; factor is written then. No pointer may be null.
+ * Cost on a Cortex-M4F: to begin 1,100 instructions, a step 2,400. */
+void brace_loaded_space_buckling_begin(const brace_loaded_space_t *loaded, const brace_space_rest_t *rest,
+                                       brace_space_shape_t *shape, brace_buckling_search_t *search);
+bool brace_loaded_space_buckling_step(const brace_loaded_space_t *loaded, const brace_space_shape_t *shape,
                                       brace_buckling_search_t *search, float *factor);
 
 #endif

@@ -71,9 +71,34 @@ typedef struct {
     brace_space_pose_t pose;
     brace_space_turns_t turns;
     brace_space_bent_t coxa, femur, tibia;
-    brace_vec3_t whole_n; /* force on the base, in the limb's plane's frame */
-    float base_rad_per_n_mm, yaw_rad_per_n_mm, hip_rad_per_n_mm, knee_rad_per_n_mm;
+    brace_vec3_t tip_n, down, whole_n; /* the load, and the force on the base, in the limb's plane's frame */
+    brace_loaded_joint_t yaw, hip, knee;  /* as in the load */
 } brace_space_rest_t;
+
+#define BRACE_SPACE_COXA_PARTS 2 /* of which the coxa link is made where its parts matter (loaded/space_parts.h), */
+#define BRACE_SPACE_PARTS 4      /* and the limb */
+
+/* A part of a link in its frame. Other code must not read its members. */
+typedef struct {
+    brace_vec_t about_x, about_y, about_z; /* turns from its root: about y, x, y, then z to what is beyond */
+    brace_vec3_t chord_mm, beyond_n, own_n;
+    float across_curl, sideways_curl;      /* as in brace_space_bent_t, these three too */
+    float by_sideways_mm;
+    brace_vec_t by_bend_mm;
+    brace_vec_t bend_twice_mm;             /* how the chord changes with the square of the turn about z */
+    float third_y_rad, third_z_rad;        /* a third of its turns */
+} brace_space_part_t;
+
+/* The shape that a limb has at an equilibrium, and the forces there; links: coxa, femur, tibia. Other code must not
+ * read its members. */
+typedef struct {
+    brace_space_part_t part[BRACE_SPACE_PARTS];
+    brace_vec3_t end_n[BRACE_LINK_COUNT], end_mm[BRACE_LINK_COUNT]; /* on the springs at a link's end; their move */
+    brace_vec_t about_joint[BRACE_LINK_COUNT];                      /* with the first part's turn before its chord */
+    brace_vec_t base, yaw;
+    brace_vec3_t whole_n;
+    float joint_rad_per_n_mm[BRACE_LINK_COUNT];
+} brace_space_shape_t;
 
 /* K at the equilibrium and how the limb stands there, in the limb's plane's frame. */
 typedef struct {

@@ -8,6 +8,7 @@
 #define LINKS_Q26 96636764u  /* 1.44 rad2 */
 #define SMALL_TURN_Q26 24159191u /* 0.36 rad2 */
 #define JOINT_TURN_Q29 805306368 /* 1.5 rad */
+#define SQUARE_MOST_Q25 (16u << 25) /* rad2 */
 #define FORCE_MOST_Q17 (10000u << 17)
 #define REACH_HIGH_Q24 (31 << 24) /* BRACE_REACH_RAD2 */
 #define DOWN_MOST_Q30 ((1 << 30) + (1 << 20))
@@ -182,10 +183,11 @@ INLINE void add_to_pose(brace_space_fixed_pose_t *pose, const brace_space_fixed_
 }
 
 /* The whole of a series of steps, each the same multiple of the one before, without its first step, over its second;
- * q29. As in loaded_space.c that multiple is at most a half and at least -0.9. */
+ * q29. As in loaded_space.c that multiple is at most a half and at least -0.9. Thirteen turns of at most 1 rad have a
+ * square below 16 rad^2; a limb that turns further is refused, and only has to leave the words below within theirs. */
 INLINE int32_t over_second_step(int32_t second_by_first, uint32_t first2)
 {
-    const uint32_t size = first2 | 1u;
+    const uint32_t size = (first2 < SQUARE_MOST_Q25 ? first2 : SQUARE_MOST_Q25) | 1u;
     const int32_t apart = less((int32_t)size, second_by_first), least = (int32_t)(size - (size >> 1));
     const int32_t most = (int32_t)(size + size - size / 10u);
     const uint32_t limited = (uint32_t)(apart < least ? least : apart > most ? most : apart);

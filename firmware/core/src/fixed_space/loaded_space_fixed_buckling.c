@@ -31,6 +31,11 @@ static found_t soften(const brace_loaded_space_fixed_t *fixed, const brace_space
     return overload.has_buckled || determinant < CLOSE ? BUCKLED : UNKNOWN;
 }
 
+void brace_loaded_space_fixed_buckling_begin(brace_buckling_search_t *search)
+{
+    search->step = 0;
+}
+
 bool brace_loaded_space_fixed_buckling_step(const brace_loaded_space_fixed_t *fixed,
                                             const brace_space_fixed_rest_t *rest, brace_buckling_search_t *search,
                                             float *factor)
@@ -45,11 +50,13 @@ bool brace_loaded_space_fixed_buckling_step(const brace_loaded_space_fixed_t *fi
     } else if (found != UNKNOWN) {
         space_search_narrow(search, at, at_load);
     }
-    const bool goes_on = found != UNKNOWN && !(is_first && found == BUCKLED) && step <= SEARCH_STEPS;
+    const bool is_last = step > SPACE_SEARCH_STEPS; /* it only narrows what is known */
+    const bool is_lost = found == UNKNOWN && !is_last;
+    const bool goes_on = !is_last && !is_lost && !(is_first && found == BUCKLED);
     search->step = goes_on ? step : 0;
     if (goes_on) {
         return false;
     }
-    *factor = found == UNKNOWN ? NAN : is_first && found == BUCKLED ? 1.0f : space_search_end(search);
+    *factor = is_lost ? NAN : is_first && found == BUCKLED ? 1.0f : space_search_end(search);
     return true;
 }

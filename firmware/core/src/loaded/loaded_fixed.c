@@ -95,8 +95,7 @@ INLINE brace_status_t inputs_of(const brace_loaded_fixed_t *limb, float theta1_r
     const uint32_t force_q8 = (force_q17 >> 9) + limb->weight_q8 + 2u;
     const int32_t above_force = 24 - (int32_t)leading_zeros(force_q8);
     const int32_t force = above_force > -most ? above_force : -most;
-    if (((hip_yields | hip | knee_yields | knee) >> 31) != 0u || force + most > 1 || force > 60 ||
-        force + limb->spring_exponent > -2) {
+    if (((hip_yields | hip | knee_yields | knee) >> 31) != 0u || force + most > 1 || force > 60) {
         return BRACE_E_SINGULAR;
     }
     const int32_t roots = force + limb->spring_exponent;

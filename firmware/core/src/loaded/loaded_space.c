@@ -7,7 +7,7 @@
 #include "base/eigen.h"
 #include "chain/tensor.h"
 #include "loaded/space_buckling.h"
-#include "loaded/space_sum.h"
+#include "loaded/space_parts.h"
 
 #define SINGULAR 1e-3f
 #define LEFT_MOST_RAD2 6.25e-4f /* square of 0.025 rad: levers that turn by so much change K by up to twice that, 5 % */
@@ -55,23 +55,24 @@ INLINE float over_second_step(float second_by_first, float first2)
     return 1.0f / (1.0f - (ratio > 0.5f ? 0.5f : ratio < -0.9f ? -0.9f : ratio));
 }
 
-static void see_straight(const brace_loaded_space_t *loaded, vec3_t tip_n, vec3_t down, vec3_t whole_n,
+static void see_straight(const brace_loaded_space_t *loaded, const brace_space_rest_t *rest,
                          const commanded_t *commanded, forces_t at[3])
 {
+    const vec3_t tip_n = rest->tip_n, down = rest->down;
     const vec3_t femur_n = about_z(tip_n, back(commanded->hip)), femur_down = about_z(down, back(commanded->hip));
     const vec3_t tibia_n = about_z(femur_n, back(commanded->knee));
     const vec3_t tibia_down = about_z(femur_down, back(commanded->knee));
-    at[0] = (forces_t){whole_n, {0.0f, 0.0f, 0.0f}};
+    at[0] = (forces_t){rest->whole_n, {0.0f, 0.0f, 0.0f}};
     at[1] = (forces_t){vec3_plus_scaled(femur_n, femur_down, loaded->beyond_femur_n),
                        vec3_scaled(femur_down, loaded->femur.weight_n)};
     at[2] = (forces_t){tibia_n, vec3_scaled(tibia_down, loaded->tibia.weight_n)};
 }
 
-INLINE void bend_to(const brace_loaded_space_t *loaded, const commanded_t *commanded, vec3_t tip_n, vec3_t down,
-                    brace_space_rest_t *rest, curls_t *curls, bool is_driven, brace_space_pose_t *drives)
+INLINE void bend_to(const brace_loaded_space_t *loaded, const commanded_t *commanded, brace_space_rest_t *rest,
+                    curls_t *curls, bool is_driven, brace_space_pose_t *drives)
 {
     turns_of(&rest->pose, *curls, commanded, &rest->turns);
-    see_forces(loaded, tip_n, down, rest);
+    see_forces(loaded, rest->tip_n, rest->down, rest);
     bend_limb(loaded, rest, curls, is_driven, drives);
 }
 
@@ -84,22 +85,21 @@ INLINE bool is_settled(float first2, float second2)
 
 /* Two steps with the matrix of the straight limb, the second of them prolonged. Then the bent limb.
  * returns whether they have settled */
-INLINE bool find_rest(const brace_loaded_space_t *loaded, const commanded_t *commanded, const brace_space_load_t *load,
-                      vec3_t tip_n, vec3_t down, brace_space_rest_t *rest)
+INLINE bool find_rest(const brace_loaded_space_t *loaded, const commanded_t *commanded, brace_space_rest_t *rest)
 {
     static const brace_space_pose_t straight;
     forces_t at[3];
     factors_t factors;
     brace_space_pose_t drives, step;
     curls_t curls = {0.0f, 0.0f};
-    see_straight(loaded, tip_n, down, rest->whole_n, commanded, at);
-    straight_limb(loaded, at, commanded, load, rest->whole_n, &factors, &drives);
+    see_straight(loaded, rest, commanded, at);
+    straight_limb(loaded, at, commanded, rest, &factors, &drives);
     solve_straight(&factors, &drives, &straight, commanded, &rest->pose);
-    bend_to(loaded, commanded, tip_n, down, rest, &curls, true, &drives);
+    bend_to(loaded, commanded, rest, &curls, true, &drives);
     solve_straight(&factors, &drives, &rest->pose, commanded, &step);
     const float first2 = dot_of_poses(&rest->pose, &rest->pose), second2 = dot_of_poses(&step, &step);
     add_to_pose(&rest->pose, &step, over_second_step(dot_of_poses(&step, &rest->pose), first2));
-    bend_to(loaded, commanded, tip_n, down, rest, &curls, false, &drives);
+    bend_to(loaded, commanded, rest, &curls, false, &drives);
     return is_settled(first2, second2);
 }
 
@@ -139,13 +139,13 @@ brace_status_t brace_loaded_space_settle(const brace_loaded_space_t *loaded, flo
     const vec3_t tip_n = seen_from_coxa(load->tip_n), down = seen_from_coxa(load->down);
     rest->hip_commanded = commanded.hip;
     rest->knee_commanded = commanded.knee;
+    rest->tip_n = tip_n;
+    rest->down = down;
     rest->whole_n = vec3_plus_scaled(tip_n, down, loaded->beyond_coxa_n);
-    rest->base_rad_per_n_mm = loaded->base_rotation_rad_per_n_mm;
-    rest->yaw_rad_per_n_mm = load->yaw.slope_rad_per_n_mm;
-    rest->hip_rad_per_n_mm = load->hip.slope_rad_per_n_mm;
-    rest->knee_rad_per_n_mm = load->knee.slope_rad_per_n_mm;
-    return find_rest(loaded, &commanded, load, tip_n, down, rest) && is_within(&rest->pose) ? BRACE_OK
-                                                                                            : BRACE_E_SINGULAR;
+    rest->yaw = load->yaw;
+    rest->hip = load->hip;
+    rest->knee = load->knee;
+    return find_rest(loaded, &commanded, rest) && is_within(&rest->pose) ? BRACE_OK : BRACE_E_SINGULAR;
 }
 
 /* How far the tip has moved from where the commanded limb has it. */
@@ -164,7 +164,7 @@ brace_status_t brace_loaded_space_stiffness(const brace_loaded_space_t *loaded, 
                                             brace_space_result_t *result)
 {
     freedoms_t free;
-    const pivots_t pivots = eliminate_limb(loaded, rest, false, &free);
+    const pivots_t pivots = eliminate_limb(loaded, rest, &free);
     if (!(is_stable(&pivots) && pivots.product > SINGULAR)) {
         return BRACE_E_SINGULAR;
     }
@@ -244,33 +244,19 @@ brace_status_t brace_loaded_space_turn(float theta0_rad, const brace_k3_t *k, br
 
 /* --- buckling ------------------------------------------------------------------------------------------------- */
 
-/* With the load taken so many times, once or more, the shape held. */
-static pivots_t pivots_at(const brace_loaded_space_t *loaded, const brace_space_rest_t *rest, float times)
+void brace_loaded_space_buckling_begin(const brace_loaded_space_t *loaded, const brace_space_rest_t *rest,
+                                       brace_space_shape_t *shape, brace_buckling_search_t *search)
 {
-    brace_space_rest_t more = *rest;
-    brace_space_bent_t *const bent[] = {&more.coxa, &more.femur, &more.tibia};
-    if (times > 1.0f) {
-        for (int i = 0; i < 3; i++) {
-            bent[i]->beyond_n = vec3_scaled(bent[i]->beyond_n, times);
-            bent[i]->own_n = vec3_scaled(bent[i]->own_n, times);
-        }
-        more.whole_n = vec3_scaled(rest->whole_n, times);
-    }
-    freedoms_t free;
-    return eliminate_limb(loaded, &more, true, &free);
-}
-
-void brace_loaded_space_buckling_begin(brace_buckling_search_t *search)
-{
+    shape_limb(loaded, rest, shape);
     search->step = 0;
 }
 
-bool brace_loaded_space_buckling_step(const brace_loaded_space_t *loaded, const brace_space_rest_t *rest,
+bool brace_loaded_space_buckling_step(const brace_loaded_space_t *loaded, const brace_space_shape_t *shape,
                                       brace_buckling_search_t *search, float *factor)
 {
     const bool is_first = search->step == 0;
     const float at = is_first ? 1.0f : space_search_at(search, search->step - 1);
-    const pivots_t p = pivots_at(loaded, rest, at);
+    const pivots_t p = pivots_at(loaded, shape, at);
     if (is_first) {
         *search = buckling_search_from(p.product);
     } else {
@@ -278,7 +264,7 @@ bool brace_loaded_space_buckling_step(const brace_loaded_space_t *loaded, const 
     }
     const int step = is_first ? 1 : search->step + 1;
     search->step = step;
-    if (step <= SEARCH_STEPS) {
+    if (step <= SPACE_SEARCH_STEPS) {
         return false;
     }
     search->step = 0;
@@ -288,11 +274,12 @@ bool brace_loaded_space_buckling_step(const brace_loaded_space_t *loaded, const 
 
 float brace_loaded_space_buckling_factor(const brace_loaded_space_t *loaded, const brace_space_rest_t *rest)
 {
+    brace_space_shape_t shape;
     brace_buckling_search_t search;
     float factor = INFINITY;
-    brace_loaded_space_buckling_begin(&search);
-    for (int step = 0; step <= SEARCH_STEPS; step++) {
-        (void)brace_loaded_space_buckling_step(loaded, rest, &search, &factor);
+    brace_loaded_space_buckling_begin(loaded, rest, &shape, &search);
+    for (int step = 0; step <= SPACE_SEARCH_STEPS; step++) {
+        (void)brace_loaded_space_buckling_step(loaded, &shape, &search, &factor);
     }
     return factor;
 }

@@ -2,7 +2,8 @@
  *
  * The search is that of loaded/buckling.h in its first two steps. Where a limb softens in the plane and across it
  * alike, two roots of the determinant lie close together: it falls to zero and rises again, and a search by its sign
- * overlooks both. So the last step looks near the first root of a parabola, and the end is such a root: the parabola
+ * overlooks both. So the last two steps look near the first root of a parabola, the first of them a little before it,
+ * the other a little behind it, and the end is such a root: the parabola
  * through two loads around the root and the nearest third. Where it has no root, its lowest point counts. Where no load
  * is known that the limb does not bear, the third is no load at all.
  */
@@ -12,7 +13,9 @@
 #include "loaded/buckling.h"
 
 #define ROOT_OF_2 1.41421356f
+#define SPACE_SEARCH_STEPS 4
 #define SHORT_OF_ROOT 0.97f /* at a root itself, numbers of fixed point leave their words */
+#define BEHIND_ROOT 1.01f
 
 /* Not above low, or no number, where the parabola does not fall beyond low. */
 INLINE float first_root(const brace_buckling_search_t *search)
@@ -26,7 +29,7 @@ INLINE float first_root(const brace_buckling_search_t *search)
     return low + 2.0f * at_low / (sqrtf(squared > 0.0f ? squared : 0.0f) - slope);
 }
 
-/* The multiple of the load that step 0, 1 or 2 looks at. */
+/* The multiple of the load that step 0, 1, 2 or 3 looks at. */
 INLINE float space_search_at(const brace_buckling_search_t *search, int step)
 {
     const float low = search->low;
@@ -34,7 +37,7 @@ INLINE float space_search_at(const brace_buckling_search_t *search, int step)
         return step == 0 ? 4.0f : low + low;
     }
     const float middle = ROOT_OF_2 * low, most = search->high < HIGHEST_FACTOR ? search->high : middle;
-    const float near_root = SHORT_OF_ROOT * first_root(search);
+    const float near_root = (step == 2 ? SHORT_OF_ROOT : BEHIND_ROOT) * first_root(search);
     return near_root > low && near_root < most ? near_root : middle;
 }
 

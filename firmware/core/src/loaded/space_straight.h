@@ -85,27 +85,26 @@ INLINE void held_about_z(held_t *held, brace_vec_t turn)
     held->moment_n_mm = about_z(held->moment_n_mm, turn);
 }
 
-/* yields: of base and joints. at: coxa, femur, tibia. */
+/* at: coxa, femur, tibia. rest: its joints, and the force on the base. */
 INLINE void straight_limb(const brace_loaded_space_t *loaded, const forces_t at[3], const commanded_t *commanded,
-                          const brace_space_load_t *load, vec3_t whole_n, factors_t *factors,
-                          brace_space_pose_t *drives)
+                          const brace_space_rest_t *rest, factors_t *factors, brace_space_pose_t *drives)
 {
     held_t held = {{0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}};
     straight_link(&loaded->tibia, at[2], &held, &factors->tibia, &drives->tibia);
     drives->knee = held.moment_n_mm.z;
-    factors->knee = straight_joint(&held, load->knee.yields_by_rad_per_n_mm);
+    factors->knee = straight_joint(&held, rest->knee.yields_by_rad_per_n_mm);
     held_about_z(&held, commanded->knee);
     straight_link(&loaded->femur, at[1], &held, &factors->femur, &drives->femur);
     drives->hip = held.moment_n_mm.z;
-    factors->hip = straight_joint(&held, load->hip.yields_by_rad_per_n_mm);
+    factors->hip = straight_joint(&held, rest->hip.yields_by_rad_per_n_mm);
     held_about_z(&held, commanded->hip);
     straight_link(&loaded->coxa, at[0], &held, &factors->coxa, &drives->coxa);
     drives->yaw = held.moment_n_mm.y;
     const sym3_t r = held.resists;
-    factors->yaw = eliminated(&held.resists, vec3(r.xy, r.yy, r.yz), r.yy, load->yaw.yields_by_rad_per_n_mm);
+    factors->yaw = eliminated(&held.resists, vec3(r.xy, r.yy, r.yz), r.yy, rest->yaw.yields_by_rad_per_n_mm);
     const float coxa_mm = loaded->coxa.length_mm, base = loaded->base_rotation_rad_per_n_mm;
-    drives->base = brace_fma(-coxa_mm, whole_n.y, held.moment_n_mm.z);
-    factors->base_per_pivot = 1.0f / brace_fma(base, brace_fma(-coxa_mm, whole_n.x, held.resists.zz), 1.0f);
+    drives->base = brace_fma(-coxa_mm, rest->whole_n.y, held.moment_n_mm.z);
+    factors->base_per_pivot = 1.0f / brace_fma(base, brace_fma(-coxa_mm, rest->whole_n.x, held.resists.zz), 1.0f);
     factors->base_yields = base * factors->base_per_pivot;
 }
 

@@ -1,7 +1,7 @@
 /* At the equilibrium in space: the limb's matrix, eliminated from the tip to the base, and C.
  *
  * C is a sum of one vector for each eliminated coordinate and each spring. What the load softens at a link's end
- * springs grows with its square: K does without it, the buckling factor does not.
+ * springs grows with its square: K does without it. The buckling factor counts it (space_parts.h).
  */
 #ifndef BRACE_CORE_SPACE_SUM_H
 #define BRACE_CORE_SPACE_SUM_H
@@ -76,9 +76,9 @@ INLINE freedom_t eliminate_joint(held_t *held, float rad_per_n_mm, pivots_t *piv
     return eliminate(held, row, r.zz, rad_per_n_mm, pivots);
 }
 
-/* is_last: nothing lies beyond the link. springs_soften: what the load softens at its end's springs counts. */
+/* is_last: nothing lies beyond the link. */
 INLINE void eliminate_link(const brace_space_link_t *link, vec3_t turn, const brace_space_bent_t *bent, bool is_last,
-                           bool springs_soften, held_t *held, link_freedoms_t *free, pivots_t *pivots)
+                           held_t *held, link_freedoms_t *free, pivots_t *pivots)
 {
     const vec3_t f = bent->beyond_n, chord_f = vec3_plus_scaled(f, bent->own_n, 0.5f);
     const vec3_t m = held->moment_n_mm, chord_n_mm = vec3_cross(bent->chord_mm, chord_f);
@@ -122,25 +122,6 @@ INLINE void eliminate_link(const brace_space_link_t *link, vec3_t turn, const br
     free->by_across.y = brace_fma(-link->across_mm_per_n, curled_n, free->by_across.y);
     free->by_sideways = vec3_scaled(free->sideways.follows, share);
     free->by_sideways.z = brace_fma(-link->sideways_mm_per_n, curled_n, free->by_sideways.z);
-    if (springs_soften) {
-        const float sixth_y = turn.y * (1.0f / 3.0f), sixth_z = turn.z * (1.0f / 3.0f); /* of half the moment */
-        own.yy = brace_fma(-sixth_z, half_m.z, own.yy);
-        own.yz = brace_fma(0.5f, brace_fma(sixth_y, half_m.z, sixth_z * half_m.y), own.yz);
-        own.zz = brace_fma(-sixth_y, half_m.y, own.zz);
-        const vec3_t own_across = vec3(share * across.x, brace_fma(share, across.y, curled_n), share * across.z);
-        const vec3_t own_sideways = vec3(share * sideways.x, share * sideways.y,
-                                         brace_fma(share, sideways.z, curled_n));
-        own.yy = brace_fma(-link->across_spread_per_n_mm * m.x, m.x, own.yy);
-        own.zz = brace_fma(-link->sideways_spread_per_n_mm * m.x, m.x, own.zz);
-        sym3_add(&own, own_across, free->by_across);
-        sym3_add(&own, own_sideways, free->by_sideways);
-        sym3_add(&held->resists, across, free->across.follows);
-        sym3_add(&held->resists, sideways, free->sideways.follows);
-        x = vec3_plus_scaled(vec3_plus_scaled(x, across, free->by_across.x), sideways, free->by_sideways.x);
-        y = vec3_plus_scaled(vec3_plus_scaled(y, across, free->by_across.y), sideways, free->by_sideways.y);
-        z = vec3_plus_scaled(vec3_plus_scaled(z, across, free->by_across.z), sideways, free->by_sideways.z);
-    }
-
     if (!is_last) {
         float twist = brace_fma(link->sideways_spread_per_n_mm * turn.z, turn.z, link->twist_rad_per_n_mm);
         twist = brace_fma(link->across_spread_per_n_mm * turn.y, turn.y, twist);
@@ -171,35 +152,34 @@ INLINE void held_about_y(held_t *held, brace_vec_t turn)
     held->moment_n_mm = about_y(held->moment_n_mm, turn);
 }
 
-INLINE pivots_t eliminate_limb(const brace_loaded_space_t *loaded, const brace_space_rest_t *rest, bool springs_soften,
-                               freedoms_t *free)
+INLINE pivots_t eliminate_limb(const brace_loaded_space_t *loaded, const brace_space_rest_t *rest, freedoms_t *free)
 {
     const brace_space_turns_t *turns = &rest->turns;
     const brace_space_pose_t *pose = &rest->pose;
     held_t held = {{0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}};
     pivots_t pivots = {0u, 1.0f};
-    eliminate_link(&loaded->tibia, pose->tibia, &rest->tibia, true, springs_soften, &held, &free->tibia, &pivots);
+    eliminate_link(&loaded->tibia, pose->tibia, &rest->tibia, true, &held, &free->tibia, &pivots);
     held_about_y(&held, turns->tibia_y);
-    free->knee = eliminate_joint(&held, rest->knee_rad_per_n_mm, &pivots);
+    free->knee = eliminate_joint(&held, rest->knee.slope_rad_per_n_mm, &pivots);
     held_about_z(&held, turns->knee);
     held_about_y(&held, turns->femur_y);
     held_about_x(&held, turns->femur_x);
-    eliminate_link(&loaded->femur, pose->femur, &rest->femur, false, springs_soften, &held, &free->femur, &pivots);
+    eliminate_link(&loaded->femur, pose->femur, &rest->femur, false, &held, &free->femur, &pivots);
     held_about_y(&held, turns->femur_y);
-    free->hip = eliminate_joint(&held, rest->hip_rad_per_n_mm, &pivots);
+    free->hip = eliminate_joint(&held, rest->hip.slope_rad_per_n_mm, &pivots);
     held_about_z(&held, turns->hip);
     held_about_y(&held, turns->coxa_y);
     held_about_x(&held, turns->coxa_x);
-    eliminate_link(&loaded->coxa, pose->coxa, &rest->coxa, false, springs_soften, &held, &free->coxa, &pivots);
+    eliminate_link(&loaded->coxa, pose->coxa, &rest->coxa, false, &held, &free->coxa, &pivots);
     held_about_y(&held, turns->coxa_y);
     held_about_z(&held, turns->coxa_z);
     const sym3_t r = held.resists;
     const vec3_t m = held.moment_n_mm, row = vec3(brace_fma(-0.5f, m.z, r.xy), r.yy, brace_fma(0.5f, m.x, r.yz));
-    free->yaw = eliminate(&held, row, r.yy, rest->yaw_rad_per_n_mm, &pivots);
+    free->yaw = eliminate(&held, row, r.yy, rest->yaw.slope_rad_per_n_mm, &pivots);
     held_about_y(&held, turns->yaw);
     const float base_x_n = about_z(rest->whole_n, back(turns->base)).x;
     const float entry = brace_fma(-loaded->coxa.length_mm, base_x_n, held.resists.zz);
-    free->base_yields = eliminate(&held, held.moment_n_mm, entry, rest->base_rad_per_n_mm, &pivots).yields;
+    free->base_yields = eliminate(&held, held.moment_n_mm, entry, loaded->base_rotation_rad_per_n_mm, &pivots).yields;
     return pivots;
 }
 
