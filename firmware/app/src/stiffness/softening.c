@@ -13,7 +13,8 @@ static void forget_unloaded(softening_t *softening)
 
 void softening_start(softening_t *softening)
 {
-    *softening = (softening_t){.is_searchs_turn = true, .ticks_since_step = EVERY_TICKS - 1u, .factor = __builtin_nanf("")};
+    *softening = (softening_t){
+        .is_searchs_turn = true, .ticks_since_step = EVERY_TICKS - 1u, .factor = __builtin_nanf("")};
     forget_unloaded(softening);
 }
 
@@ -69,7 +70,8 @@ void softening_step(softening_t *softening, model_t *model, const brace_limb_t *
 
 bool softening_may_search(const softening_t *softening)
 {
-    return softening->is_needed && !softening->is_searchs_turn && (softening->ticks_since_step + 1u) % EVERY_TICKS == 0u;
+    const bool is_due = (softening->ticks_since_step + 1u) % EVERY_TICKS == 0u;
+    return softening->is_needed && !softening->is_searchs_turn && is_due;
 }
 
 bool softening_is_overdue(const softening_t *softening)
