@@ -1,4 +1,4 @@
-"""docs/backlash.svg: wrong flanks, angle errors and one history, the machine beside compensation by direction of motion.
+"""docs/backlash.svg: wrong sides, angle errors and one history, the machine beside compensation by direction of motion.
 
 The same figures give the same bytes.
 """
@@ -25,7 +25,8 @@ def _wrong(axes: Any, n: Any) -> None:
     bars = axes.barh(range(len(rows)), shares, color=[colour for _, _, colour in rows])
     axes.bar_label(bars, [f"{share:.2g} %" for share in shares], padding=3)
     axes.axvline(0.2, color="black", linewidth=0.8, linestyle=":")
-    axes.set(xscale="log", xlim=(0.01, 300.0), xlabel="wrong flank, % of the ticks outside the crossing\n(dotted: allowed)")
+    axes.set(xscale="log", xlim=(0.01, 300.0),
+             xlabel="wrong side, % of the ticks outside the crossing\n(dotted: allowed)")
     axes.set_yticks(range(len(rows)), [name for name, _, _ in rows])
     axes.invert_yaxis()
 

@@ -24,23 +24,23 @@ EXAMPLE_SEED = histories.REPORTED_SEED + 12
 SHARES = (0.5, 0.9, 0.95, 0.99)
 
 NOTE = """\
-# Backlash: which flank carries
+# Backlash: which side is loaded
 
 A simulated joint with a gap of 0.1-1.5 degrees, friction, gravity, 5 % noise on the current, 1,000 random histories
 of rest, moves, swings, pressing, drifting loads and impacts; the machine believes a gap up to 20 % wrong. Beside it what
 machine tools do: half the gap against the last direction of motion, commanded or read from the encoder. The crossing:
-the ticks with the gap open, and 52 ms after each. With the gap believed 20 % wrong, the right flank alone leaves up to
+the ticks with the gap open, and 52 ms after each. With the gap believed 20 % wrong, the right side alone leaves up to
 0.1 gaps.
 
-At every tick at which the machine tells a flank, 95 % of the errors are within a tenth of the gap. The same holds at
-every tick at which a flank touches, told or not. Where the machine tells none, its guess is applied all the same: over
+At every tick at which the machine tells a side, 95 % of the errors are within a tenth of the gap. The same holds at
+every tick at which a side touches, told or not. Where the machine tells none, its guess is applied all the same: over
 all ticks the errors are larger, and there is no limit on them, because nobody who only looks on can keep one. The oracle
 shows it: a particle filter that knows every parameter of joint and link exactly, the gap too, and the motor's motion
 without quantisation, but not what the world does. While the gap is open and the motor rests within its friction, nothing
-of the link reaches the motor's side. What a motor could tell that leaves its setpoint to feel for the flank:
+of the link reaches the motor's side. What a motor could tell that leaves its setpoint to feel for the side:
 [backlash.md](backlash.md).
 
-![wrong flanks, angle errors, one history](backlash.svg)"""
+![wrong sides, angle errors, one history](backlash.svg)"""
 
 
 @dataclass(frozen=True)
@@ -89,15 +89,16 @@ def _checks(c: Comparison) -> list[Check]:
     done, count = c.held.really_done, float(HISTORIES)
     over = sum(getattr(t, name) for t in (c.held, c.free) for name in ("torque_over", "travel_over", "time_over", "not_idle"))
     return [
-        Check("backlash: flank wrong, of the ticks outside the crossing", f"{wrong:.3f} %", "at most 0.2 %", wrong <= 0.2),
+        Check("backlash: side wrong, of the ticks outside the crossing", f"{wrong:.3f} %", "at most 0.2 %",
+              wrong <= 0.2),
         Check("backlash: times fewer wrong ticks than by direction of motion", f"{cnc / wrong:,.0f}", "at least 10",
               cnc >= 10.0 * wrong),
         Check(f"backlash: ticks valid with the gap open beyond {n.detection_us_max / 1000.0:.0f} ms", f"{late:.0f}", "none",
               late == 0.0),
         Check("backlash: angle error told valid, 95th percentile", f"{valid:.3f} gaps", "at most 0.1 gaps", valid <= 0.1),
-        Check("backlash: angle error at every tick with a flank told, 95th percentile", f"{told:.3f} gaps", "at most 0.1 gaps",
-              told <= 0.1),
-        Check("backlash: angle error at every tick with a flank touching, 95th percentile", f"{touching:.3f} gaps",
+        Check("backlash: angle error at every tick with a side told, 95th percentile", f"{told:.3f} gaps",
+              "at most 0.1 gaps", told <= 0.1),
+        Check("backlash: angle error at every tick with a side touching, 95th percentile", f"{touching:.3f} gaps",
               "at most 0.1 gaps", touching <= 0.1),
         Check("backlash: angle error outside the crossing, 95th percentile", f"{outside:.3f} gaps", "at most 0.1 gaps",
               outside <= 0.1),
@@ -116,7 +117,7 @@ def extra(folder: Path) -> Extra:
               ("by direction, commanded", n.cnc_command_wrong), ("by direction, encoder", n.cnc_encoder_wrong)]
     errors = _errors(c)
     tables = [
-        ("Which flank carries: wrong, of the ticks outside the crossing", ["who says it", "wrong"],
+        ("Which side is loaded: wrong, of the ticks outside the crossing", ["who says it", "wrong"],
          [[name, f"{100.0 * value / n.judged:.3f} %"] for name, value in flanks] +
          [["oracle, at every tick", f"{100.0 * c.oracle.flank_wrong / c.oracle.judged:.3f} %"],
           ["machine, not told", f"{100.0 * n.withheld / n.judged:.1f} %"]]),

@@ -12,9 +12,11 @@ from conftest import Sim
 from relay import relayed
 from test_commanding import KEY, RUNNING, acts, guarded, keys, wait_for_the_end_of_the_session, with_play  # noqa: F401
 
+from brace.bus.modbus_controller import ModbusController
 from brace.bus.ownership import entry_of
 from brace.bus.session import Session
 from brace.bus.url import parse
+from brace.errors import DeviceFaultError
 from brace.wire.codes import SETTING
 from brace.wire.frames import ANSWERS, REQUESTS
 
@@ -79,6 +81,97 @@ def test_python_moves_on_with_the_session_it_has(limb: str) -> None:
                 session.ask("let_go")
         finally:
             bus.close()
+
+
+OF_MODBUS = {
+    "clear": lambda device: device.clear(0),
+    "gravity": lambda device: device.set_gravity(-1.5, 0.0),
+}
+
+
+class Silent:
+    """A Modbus line that loses the nth request of one kind: its answer comes, and the controller has not seen it."""
+
+    def __init__(self, device: ModbusController, command: str, nth: int) -> None:
+        self._show, self._command, self._left = device._show, command, nth
+        self.lost = 0
+
+    def __call__(self, first: str, counter: int, check: int) -> None:
+        self._left -= first == self._command
+        if first == self._command and self._left == 0:
+            self.lost += 1
+        else:
+            self._show(first, counter, check)
+
+
+@pytest.mark.parametrize("act", ["clear", "gravity"])
+@pytest.mark.parametrize(("lost", "nth"), [("seal_counter", 1), ("seal_counter", 2), ("life_counter", 1)])
+def test_python_goes_on_over_modbus(
+    guarded: Sim, limb: str, monkeypatch: pytest.MonkeyPatch, act: str, lost: str, nth: int  # noqa: F811
+) -> None:
+    """The session is opened anew, once for each command."""
+    device = ModbusController(parse(guarded.modbus), KEY)
+    line = Silent(device, lost, nth)
+    monkeypatch.setattr(device, "_show", line)
+    try:
+        for _ in range(3):
+            OF_MODBUS[act](device)
+        assert line.lost == 1
+    finally:
+        device.close()
+
+
+def test_python_moves_on_over_modbus_with_the_session_it_has(
+    guarded: Sim, limb: str, monkeypatch: pytest.MonkeyPatch  # noqa: F811
+) -> None:
+    device = ModbusController(parse(guarded.modbus), KEY)
+    line = Silent(device, "seal_counter", 2)
+    monkeypatch.setattr(device, "_show", line)
+    try:
+        with device.living():
+            device.take_up("tibia", -1)
+            device.stay(0.1)
+            device.let_go()
+        assert line.lost == 1
+    finally:
+        device.close()
+
+
+def test_a_program_that_follows_another_waits_until_its_session_has_ended(limb: str) -> None:
+    """The first one has left its session open, and the second one has the same key. The first connection stays, as
+    an interface of SocketCAN does: a closed one ends the session at once."""
+    from brace.bus.open import open_bus
+
+    first, second = open_bus(parse(limb)), open_bus(parse(limb))
+    try:
+        for bus, commands in ((first, 3), (second, 1)):
+            session = Session(bus, 1, KEY)
+            for _ in range(commands):
+                session.ask("clear", {"faults": 0})
+    finally:
+        first.close()
+        second.close()
+
+
+def test_the_session_is_opened_anew_only_once(
+    guarded: Sim, limb: str, monkeypatch: pytest.MonkeyPatch  # noqa: F811
+) -> None:
+    """Where every seal is lost, a command ends with what the controller says."""
+    device = ModbusController(parse(guarded.modbus), KEY)
+    show, openings = device._show, list[int]()
+
+    def loses_seals(first: str, counter: int, check: int) -> None:
+        if first == "life_counter":
+            openings.append(counter)
+            show(first, counter, check)
+
+    monkeypatch.setattr(device, "_show", loses_seals)
+    try:
+        with pytest.raises(DeviceFaultError, match="refuses"):
+            device.clear(0)
+        assert len(openings) <= 2
+    finally:
+        device.close()
 
 
 class Scripted:

@@ -30,8 +30,10 @@ def generators() -> None:
 def test_the_site_has_all_pages_and_no_warning(tmp_path: Path) -> None:
     done = built(ROOT, tmp_path)
     assert done.returncode == 0, done.stdout + done.stderr
+    listed = (ROOT / "tools/site/mkdocs.yml").read_text()
     for page in (ROOT / "docs").glob("*.md"):
         assert (tmp_path / f"{page.stem}.html").exists(), page.name
+        assert f"- {page.name}\n" in listed, f"{page.name} stands in no list of tools/site/mkdocs.yml"
     assert "Brace" in (tmp_path / "index.html").read_text()
     assert (tmp_path / "c" / "index.html").exists()
     assert any("brace_loaded_stiffness" in file.read_text() for file in (tmp_path / "c").glob("*loaded_8h.html"))

@@ -6,8 +6,8 @@ or told (save the torques' size). The machine, which knows the gap to 20 % and n
 What comes out of it: with the gap open and the motor at rest within its friction nothing reaches the motor's side.
 
 With --feel the motor may leave its setpoint, to touch what it cannot tell from where it stands: by half a gap, which is
-what a flank shifts the link by, by one gap, by more. Once with an oracle that knows the joint exactly, once with one that
-knows no more than a controller may: gap, friction and inertia as the machine, the link's to 20 %, encoder and current
+what a side shifts the link by, by one gap, by more. Once with an oracle that knows the joint exactly, once with one
+that knows no more than a controller may: gap, friction and inertia as the machine, the link's to 20 %, encoder and current
 as read.
 """
 from __future__ import annotations
@@ -35,7 +35,8 @@ def oracle(lib: ctypes.CDLL, first: int, count: int, particles: int, exact: bool
     exact: the current has no noise. told: it knows what the world does, save the torques' size. joint_exact: the joint's
     parameters and the motor's motion are known exactly; else what a controller may know: gap, friction and inertia as the
     machine believes them, the link's to 20 %, and of the motor what encoder and current read. reach_gaps: how far the
-    motor may leave its setpoint to feel for a flank. shares (out): of each history's ticks those beyond a tenth of the gap.
+    motor may leave its setpoint to feel for a side. shares (out): of each history's ticks those beyond a
+    tenth of the gap.
     """
     counts = OracleCounts()
     for seed in range(first, first + count):
@@ -51,7 +52,7 @@ def oracle(lib: ctypes.CDLL, first: int, count: int, particles: int, exact: bool
 def report_machine(c: bench.HistoryCounts) -> None:
     print(f"machine: 95 % within {bench.percentile(c.all, 0.95):.3f} gaps, beyond a tenth "
           f"{100.0 * bench.beyond_a_tenth(c.all):.1f} % of {c.ticks:.0f} ticks; gap open "
-          f"{100.0 * c.open / c.ticks:.1f} %; outside the crossing flank wrong at every tick, guesses too, "
+          f"{100.0 * c.open / c.ticks:.1f} %; outside the crossing side wrong at every tick, guesses too, "
           f"{100.0 * c.best_wrong / c.judged:.2f} %")
 
 
@@ -59,7 +60,7 @@ def report_oracle(name: str, c: OracleCounts, shares: list[float]) -> None:
     error = np.std(shares, ddof=1) / len(shares) ** 0.5 if len(shares) > 1 else float("nan")
     print(f"oracle, {name}: 95 % within {bench.percentile(c.error, 0.95):.3f} gaps, beyond a tenth "
           f"{100.0 * c.beyond_a_tenth / c.ticks:.1f} % +- {100.0 * error:.1f} % (with the gap open "
-          f"{100.0 * c.open_beyond_a_tenth / c.ticks:.1f} %), outside the crossing flank wrong "
+          f"{100.0 * c.open_beyond_a_tenth / c.ticks:.1f} %), outside the crossing side wrong "
           f"{100.0 * c.flank_wrong / c.judged:.2f} %", flush=True)
 
 
@@ -89,7 +90,7 @@ def main() -> int:
     parser.add_argument("--count", type=int, default=40)
     parser.add_argument("--seed", type=int, default=bench.REPORTED_SEED)
     parser.add_argument("--particles", type=int, default=2000)
-    parser.add_argument("--feel", action="store_true", help="the motor may leave its setpoint to feel for a flank")
+    parser.add_argument("--feel", action="store_true", help="the motor may leave its setpoint to feel for a side")
     options = parser.parse_args()
     (feeling if options.feel else seeing)(bench.library(), options.seed, options.count, options.particles)
     return 0

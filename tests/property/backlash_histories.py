@@ -10,8 +10,8 @@ best guess (the sign of the offset), which is always there.
 The motor's friction is the same at rest as in motion there. Gears stick (backlash_measured.py): two more runs take up to twice as
 much to break away, once with a machine that knows nothing of it, once with one that is told as docs/backlash.md says.
 
-The angle error is told five ways: of all ticks, with a flank touching, outside the crossing, and where the machine tells a
-flank, and says valid. With the gap believed 20 % wrong the right flank alone leaves up to a tenth
+The angle error is told five ways: of all ticks, with a side touching, outside the crossing, and where the machine tells
+a side, and says valid. With the gap believed 20 % wrong the right side alone leaves up to a tenth
 of the gap. Of all ticks, the gap's being open included, there is no bound: a tenth is not in reach of who only looks on
 (backlash_floor.py).
 
@@ -38,8 +38,8 @@ BINS = 12_000
 HISTORY_FIELDS = ["ticks", "open", "excluded", "judged", "wrong", "withheld", "best_wrong", "valid", "valid_wrong",
                   "late_valid", "longest_valid_open_us", "cnc_command_wrong", "cnc_encoder_wrong", "detection_us_max",
                   "open_longest_us"]
-ERROR_FIELDS = {"all": "all ticks", "touching": "a flank touching", "outside_crossing": "outside the crossing",
-                "told": "a flank told", "valid_only": "told valid", "cnc_command": "by commanded direction, all ticks",
+ERROR_FIELDS = {"all": "all ticks", "touching": "a side touching", "outside_crossing": "outside the crossing",
+                "told": "a side told", "valid_only": "told valid", "cnc_command": "by commanded direction, all ticks",
                 "cnc_encoder": "by the encoder's direction, all ticks"}
 TRACE_FIELDS = ["t_s", "offset_rad", "corrected_rad", "cnc_command_rad", "cnc_encoder_rad", "load_n_mm", "truth", "flank",
                 "valid", "kind"]
@@ -116,8 +116,9 @@ def history_bounds(c: HistoryCounts) -> dict[str, bool]:
         "flank wrong <= 0.2 % of judged ticks": c.wrong <= 0.002 * c.judged,
         "never valid with the gap open past detection": c.late_valid == 0,
         "angle error <= a tenth of the gap at the 95th percentile, told valid": percentile(c.valid_only, 0.95) <= 0.1,
-        "angle error <= a tenth of the gap at the 95th percentile, a flank told": percentile(c.told, 0.95) <= 0.1,
-        "angle error <= a tenth of the gap at the 95th percentile, a flank touching": percentile(c.touching, 0.95) <= 0.1,
+        "angle error <= a tenth of the gap at the 95th percentile, a side told": percentile(c.told, 0.95) <= 0.1,
+        "angle error <= a tenth of the gap at the 95th percentile, a side touching":
+            percentile(c.touching, 0.95) <= 0.1,
         "angle error <= a tenth of the gap at the 95th percentile, outside the crossing":
             percentile(c.outside_crossing, 0.95) <= 0.1,
         "ten times fewer wrong ticks than by direction": 10.0 * c.wrong <= cnc,

@@ -15,7 +15,7 @@ from conftest import LIMB, PROJECT, Outcome
 from test_sim_command import running
 
 from brace.bus.can_controller import CanController
-from brace.bus.load import factor_words
+from brace.bus.load import LOAD_ENTRIES, factor_words, load_of
 from brace.bus.open import open_bus
 from brace.bus.session import Session
 from brace.bus.url import parse
@@ -76,6 +76,13 @@ def test_query_tells_the_load_and_what_it_does(brace: Callable[..., Outcome], ur
     assert "load counted: force of the ground on the tip" in told and "they move the tip by" in told
     assert f"buckling factor {load['buckling_factor']:.1f}" in told  # with its words behind it
     assert "K without load = [" in told and f"the load changes K by {changed:.1%}" in told
+
+
+def test_an_open_gap_is_not_the_loads_doing() -> None:
+    load = load_of(dict.fromkeys(LOAD_ENTRIES, 2.0))
+    closed, opened = (load.lines((0.0, 0.0, 0.0), is_open)[-1] for is_open in (False, True))
+    assert "the load changes K by 100.0%" in closed
+    assert "K without load = [" in opened and "with every gap closed" in opened and "changes" not in opened
 
 
 def test_query_at_a_place_under_a_force(brace: Callable[..., Outcome], url: str, model: Path) -> None:

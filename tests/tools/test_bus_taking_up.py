@@ -37,6 +37,8 @@ def test_a_flank_is_held_and_let_go(brace: Callable[..., Outcome], with_play: Pa
         assert live["mode"] == "taking_up"
         assert brace("let-go", "--bus", url).code == 0
         assert json.loads(brace("query", "--bus", url, "--json").out)["mode"] == "monitor"
+        nothing = brace("let-go", "--bus", url)
+        assert nothing.code == 5 and (wire != "can" or "nothing to let go" in nothing.err), nothing.err
         refused = brace("take-up", "femur+", "--bus", url)  # it has no play
         assert refused.code == 5 and "refuses" in refused.err and "try:" in refused.err
 

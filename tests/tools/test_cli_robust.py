@@ -104,7 +104,6 @@ def test_bad_models_name_their_line(brace: Brace, tmp_path: Path, text: str, lin
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (("--theta1", "57deg", "--theta2", 1), "try: --theta1 0.994838"),
         (("--theta1", "1,0", "--theta2", 1), "try: --theta1 1.0"),
         (("--theta1", "\u22121.5", "--theta2", 1), "try: --theta1 -1.5"),
         (("--theta1", "\u20131,5", "--theta2", 1), "typographic one (U+2013)"),
@@ -137,7 +136,7 @@ def test_options_say_why_and_what_to_try(
     [
         (("--theta1",), "--theta1: a value is missing"),
         (("--arith", "fixd"), "--arith: 'fixd' is no choice"),
-        (("--theta1", "57deg"), "--theta1: '57deg' is not a number"),
+        (("--theta1", "57degs"), "--theta1: '57degs' is not a number"),
         (("--theta1", 1, "--modell", "x"), "unknown option --modell"),
     ],
 )
@@ -148,6 +147,14 @@ def test_messages_do_not_depend_on_how_argparse_words_its_own(
     monkeypatch.setattr(argparse, "_", lambda text: f"reworded {text}")
     outcome = brace("k", *arguments)
     assert outcome.code == 2 and words in outcome.err, outcome.err
+
+
+@pytest.mark.parametrize(
+    ("text", "angle_rad"), [("57deg", 0.994838), ("-20 deg", -0.349066), ("0.5rad", 0.5), ("0.5", 0.5)]
+)
+def test_an_angle_may_say_its_unit(brace: Brace, paper_limb: Path, text: str, angle_rad: float) -> None:
+    outcome = brace("k", "--model", paper_limb, "--theta1", text, "--theta2", "63\u00b0")
+    assert outcome.code == 0 and f"theta1 = {angle_rad} rad, theta2 = 1.09956 rad;" in outcome.out, outcome.err
 
 
 def test_misspelt_words_elsewhere(brace: Brace, paper_limb: Path, paper_table: Path, tmp_path: Path) -> None:

@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from brace.cli.demo_command import next_steps
 from brace.demo import wire_loop
 from brace.demo.convexity import bent_rows, quasi_convex_breaks
 from brace.model import load_limb
@@ -66,6 +67,18 @@ def test_pictures_table_and_next_steps(demo: tuple[Path, str]) -> None:
     assert text.rstrip().splitlines()[-4] == "Next, three commands to try:"
     firm, loose = json.loads((out / "facts.json").read_text())["footings"]
     assert firm["margin_n"] > 0 > loose["margin_n"]
+
+
+def test_the_next_steps_can_be_called(demo: tuple[Path, str], monkeypatch: pytest.MonkeyPatch) -> None:
+    """From anywhere, however brace was called: of a release nobody has tools/brace/data beside it."""
+    out, _ = demo
+    monkeypatch.chdir(out.parent)
+    for called, wanted in (("/usr/lib/brace/__main__.py", "brace"), (".venv/bin/brace", ".venv/bin/brace")):
+        monkeypatch.setattr(sys, "argv", [called])
+        for words in next_steps(Path(out.name)):
+            assert words[0] == wanted
+            files = [words[words.index(option) + 1] for option in ("--model", "--rig") if option in words]
+            assert files and all(Path(file).is_file() for file in files), words
 
 
 def test_the_fitted_limb_is_a_model(demo: tuple[Path, str]) -> None:

@@ -75,7 +75,7 @@ def test_values_that_smell_of_another_unit(brace: Brace, tmp_path: Path, right: 
     ("arguments", "words"),
     [
         (("--theta1", "57", "--theta2", "80"), "not in degrees"),
-        (("--theta1", "57deg", "--theta2", "1"), "--theta1 0.994838"),
+        (("--theta1", "570deg", "--theta2", "1"), "more than a full turn"),
         (("--theta1", "1,0", "--theta2", "1"), "the decimal sign is a point"),
         (("--theta1", "1"), "alone is half a posture"),
         (("--theta1", "1", "--theta3", "1"), "did you mean --theta"),

@@ -56,8 +56,10 @@ class Load:
         xx, xz, zz = (self.values[name] for name in LOAD_ENTRIES[:3])
         return None if xx is None or xz is None or zz is None else (float(xx), float(xz), float(zz))
 
-    def lines(self, k: tuple[Value, Value, Value] = (None, None, None)) -> list[str]:
-        """For people. k: K under this load, in the order xx, xz, zz."""
+    def lines(self, k: tuple[Value, Value, Value] = (None, None, None), is_open: bool = False) -> list[str]:
+        """For people.
+        k: K under this load, in the order xx, xz, zz
+        is_open: a gap takes stiffness away from this K, so the load is not what changes it"""
         v, unloaded = self.values, self._unloaded
         if not self.is_counted:
             return ["no load is counted: this K is the one without load"]
@@ -68,7 +70,8 @@ class Load:
             f"buckling factor {factor_words(v['buckling_factor'])}",
         ]
         if unloaded is not None:
-            changes = "" if None in k else f"; the load changes K by {_change(k, unloaded):.1%}"
+            changes = f"; the load changes K by {_change(k, unloaded):.1%}"
+            changes = "; with every gap closed" if is_open else "" if None in k else changes
             lines.append("K without load = [{0:.4f} {1:.4f}; {1:.4f} {2:.4f}] N/mm".format(*unloaded) + changes)
         return lines + self._lines_across()
 

@@ -13,26 +13,13 @@ from brace.bus.ownership import entry_of
 from brace.bus.session import Session
 from brace.dataset.columns import LOADING
 from brace.errors import DeviceFaultError, NoDeviceError
-from brace.wire.codes import MODE
+from brace.wire.codes import LOADING_OUTCOME, MODE
 
 POLL_S = 0.2
 BACK_POLL_S = 0.05
 BACK_S = 20.0  # far more than any way back
 SERVO_S = 3.0  # what the controller grants its servos at each step
 COLUMNS = tuple(column.name for column in LOADING)[:15]
-_OUTCOMES = {
-    0: "none was run",
-    1: "running",
-    2: "done",
-    3: "stopped on request",
-    -1: "the force passed its bound",
-    -2: "a motor's torque passed its bound",
-    -3: "a motor went too far, or out of its travel",
-    -4: "it took too long",
-    -5: "neither sensor nor joints tell the force",
-    -6: "a fault came, or a flank that was taken up let go",
-    -7: "too few steps moved the tip: the motors do not follow",
-}
 RUNNING, DONE = 1, 2
 
 
@@ -51,10 +38,11 @@ def run(session: Session, plan: Plan, advance: Callable[[int], None]) -> None:
     with session.living():
         outcome = _run(session, plan, advance)
     if outcome != DONE:
+        said = LOADING_OUTCOME.find(outcome)
         raise DeviceFaultError(
-            f"the loading test along {plan.axis} failed: {_OUTCOMES.get(outcome, outcome)}",
+            f"the loading test along {plan.axis} failed, and nothing was written",
             where=session.where,
-            why=f"outcome {outcome}; nothing was written",
+            why=f"outcome {outcome}" if said is None else said.text.rstrip("."),
             next_step="a smaller --step-mm or fewer --steps; the tip must stand on something that does not yield",
         )
 

@@ -8,9 +8,10 @@ import os
 import random
 import struct
 import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from functools import partial
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from brace.bus.controller import (
     NO_FORCE,
@@ -24,7 +25,7 @@ from brace.bus.controller import (
 )
 from brace.bus.drift import TAKE_UPS, Drift, drift_of, take_up_of
 from brace.bus.load import Load, load_of
-from brace.bus.ownership import LIFE_S, NOT_OPEN, Owner, register_of
+from brace.bus.ownership import LIFE_S, NOT_OPEN, Owner, Reopening, register_of
 from brace.bus.refusal import STORE, error_of, no_coxa_joint, no_equilibrium
 from brace.bus.snapshot import Snapshot
 from brace.bus.space import SpaceAnswer, SpaceSnapshot, space_answer, space_snapshot
@@ -40,6 +41,8 @@ from brace.wire.registers import REGISTERS
 if TYPE_CHECKING:
     from brace.params import Block
 
+_Answer = TypeVar("_Answer")
+
 ANSWER_S = 0.6
 RETRIES = 2
 COMMIT_S = 2.5
@@ -48,7 +51,7 @@ APART_S = 0.03  # between two questions that another client's came between
 _BLOCK = 120  # registers in a request; 125 may be read, 123 written
 _ONE_READ = 125  # registers that one request reads: values of one snapshot
 _KEY = 0xC0DE0000
-_POSITIVE, _NEGATIVE = 256, 512  # flanks, in take_up's register
+_POSITIVE, _NEGATIVE = 256, 512  # sides of the play, in take_up's register
 _INPUT = [r for r in REGISTERS if r.table == "input" and r.address + 2 <= _ONE_READ]
 _ASKED = [r for r in REGISTERS if r.table == "input" and r.address >= 4096]
 _INDEX = {parameter.key: parameter.index for parameter in PARAMETERS}
@@ -92,9 +95,13 @@ class _BusyError(DeviceFaultError):
 class _NotTakenError(DeviceFaultError):
     """Exception 7 for want of a session or of a seal: the session may have ended."""
 
+    status = 0
+
     @classmethod
-    def of(cls, told: BraceError) -> _NotTakenError:
-        return cls(told.what, where=told.where, why=told.why, next_step=told.next_step)
+    def of(cls, told: BraceError, status: int) -> _NotTakenError:
+        error = cls(told.what, where=told.where, why=told.why, next_step=told.next_step)
+        error.status = status
+        return error
 
 
 class ModbusController:
@@ -214,8 +221,7 @@ class ModbusController:
 
     def set_gravity(self, direction_rad: float, lean_rad: float) -> tuple[Value, Value]:
         """Volatile."""
-        self._become_owner()
-        v = self._ask("asked_gravity_direction", ">ff", direction_rad, lean_rad)
+        v = self._owning(lambda: self._ask("asked_gravity_direction", ">ff", direction_rad, lean_rad))
         return v["taken_gravity_direction"], v["taken_gravity_lean"]
 
     def sag_for_load(self, fx_n: float, fz_n: float) -> dict[str, Value]:
@@ -309,7 +315,7 @@ class ModbusController:
         opening = self._owner.begin(setting, low, high, self.url)
         self._is_bench = not self._owner.is_open
         if opening is not None:
-            self._show("life_counter", *opening)
+            self._show_life(*opening)
 
     def _tend(self) -> None:
         if self._lives and time.monotonic() >= self._next_life_s:
@@ -317,10 +323,15 @@ class ModbusController:
 
     def _give_sign_of_life(self) -> None:
         self._next_life_s = time.monotonic() + LIFE_S
-        self._show("life_counter", *self._owner.life())
+        self._show_life(*self._owner.life())
+
+    def _show_life(self, counter: int, check: int) -> None:
+        """One that is refused is no failure: the session goes on, or the next command finds that it does not."""
+        with contextlib.suppress(_NotTakenError):
+            self._show("life_counter", counter, check)
 
     def _show(self, first: str, counter: int, check: int) -> None:
-        """A life sign or a seal: number and check in one request."""
+        """A sign of life or a seal: number and check in one request."""
         words = struct.unpack(">4H", struct.pack(">II", counter, check))
         address = register_of(first)
         self._done(
@@ -341,7 +352,7 @@ class ModbusController:
         """Into the holding registers, where it is staged."""
         words = struct.unpack(f">{2 * len(_PLACES)}H", block.words[_PLACES].astype(">u4").tobytes())
         for start in range(0, len(words), _BLOCK):
-            self._write(start, words[start : start + _BLOCK])
+            self._owning(partial(self._write, start, words[start : start + _BLOCK]))
             advance(min(start + _BLOCK, len(words)) // 2)
 
     def commit(self, block: Block) -> Stored:
@@ -430,24 +441,33 @@ class ModbusController:
 
     def _command(self, name: str, value: int) -> None:
         """A controller that is still storing says busy, which is to be asked again (Modbus exception 6)."""
-        self._become_owner()
         until = time.monotonic() + (EARLY_S if name in _COMMITS else BUSY_S)
         address, words = _BY_NAME[name].address, (value >> 16, value & 0xFFFF)
-        may_open = self._owner.is_open
         while True:
             try:
-                self._write(address, words)
-                return self._owner.accepted()
+                return self._owning(partial(self._write, address, words))
             except _BusyError:
                 if time.monotonic() > until:
                     raise
                 self.stay(0.02)
-            except _NotTakenError:
-                if not may_open:
+
+    def _owning(self, command: Callable[[], _Answer]) -> _Answer:
+        """A command of an owner. Where it is not taken, its session may have to be opened anew."""
+        self._become_owner()
+        reopening = Reopening()
+        while True:
+            try:
+                answer = command()
+            except _NotTakenError as error:
+                wait_s = reopening.wait_s(error.status) if self._owner.is_open else None
+                if wait_s is None:
                     raise
-                may_open = False
+                self.stay(wait_s)
                 self._owner.forget()
                 self._become_owner()
+                continue
+            self._owner.accepted()
+            return answer
 
     def _done(self, request: Any, what: str) -> Any:
         try:
@@ -470,7 +490,7 @@ class ModbusController:
         if code == _NOT_OURS:
             status = self.read_entry("last_refusal") - _STORE_REFUSED
             told = error_of(what, status, 0, self.url)
-            return _NotTakenError.of(told) if status in NOT_OPEN else told
+            return _NotTakenError.of(told, status) if status in NOT_OPEN else told
         kind = _BusyError if code == _BUSY else DeviceFaultError
         return kind(
             f"the controller refuses {what}: {_EXCEPTIONS.get(code, 'no reason given')}",

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import struct
+import time
 from pathlib import Path
 
 from brace.bus.siphash import KEY_BYTES, siphash
@@ -16,6 +17,9 @@ EARLY = -75  # a commit came too soon after the one before
 # There is no session any more, or another one, or a command came without its seal: the session can be opened anew, or
 # goes on. Where a session is open, a command without a seal is refused as somebody else's (-72).
 NOT_OPEN = (-70, -71, -72)
+REPLAY = -71  # so is refused what comes while a session is open that another program with the key has left
+LEFT_S = 1.5  # a session that a program has left ends within 1 s
+LEFT_POLL_S = 0.05
 UNKNOWN = 0xFFFFFFFF  # of a half of the challenge: the next one is being made
 COMMANDS = frozenset((
     "take_up", "let_go", "loading_test_start", "set_mode", "write_entry", "upload_begin", "upload_word", "commit",
@@ -101,6 +105,26 @@ class Owner:
     def _check(self, kind: int, content: bytes, counter: int) -> int:
         assert self._key is not None
         return siphash(self._key, struct.pack("<QII", self._challenge, counter, kind) + content) & 0xFFFFFFFF
+
+
+class Reopening:
+    """Of one command that is not taken: whether its session is to be opened anew. Once, because a seal may have been
+    lost; and until the session has ended that another program with the key has left: its counter is beyond ours."""
+
+    def __init__(self) -> None:
+        self._tries = 0
+        self._was_replay = False
+        self._until_s = time.monotonic() + LEFT_S
+
+    def wait_s(self, status: int) -> float | None:
+        """How long to wait before it is opened; None: the command has failed."""
+        if status not in NOT_OPEN:
+            return None
+        self._tries += 1
+        self._was_replay |= status == REPLAY
+        if self._tries == 1:
+            return 0.0
+        return LEFT_POLL_S if self._was_replay and time.monotonic() < self._until_s else None
 
 
 def load_key(path: Path) -> bytes:

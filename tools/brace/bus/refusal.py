@@ -39,7 +39,7 @@ _STATUS = {  # brace_status_t: what, and whether the question was at fault
     -87: ("a value is out of range, or values contradict each other", True),
 }
 _IN_SPACE = "k_in_space_at_posture"
-_UNSUPPORTED = -8
+_UNSUPPORTED, _MODE = -8, -15
 _OF_NOW = ("contact_force", "sag_for_load")  # asked of the K of now; the detail is its flags
 _GAP_OPEN = 8
 BUSY = -66
@@ -88,6 +88,13 @@ def error_of(what: str, status: int, detail: int, where: str) -> BraceError:
             why=f"status {status}, detail {detail}: K of now is flagged GAP_OPEN",
             next_step="take up the backlash first (brace take-up), or ask for K with the play "
             "closed: --theta1 --theta2",
+        )
+    if what == "let_go" and status == _MODE:
+        return DeviceFaultError(
+            "nothing is taken up, and no loading test runs: there is nothing to let go",
+            where=where,
+            why=f"status {status}",
+            next_step="brace query shows how the last take-up of each joint went",
         )
     if what == _IN_SPACE and status == _UNSUPPORTED:
         return no_coxa_joint(where, f"status {status}")

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping
 
 from brace.bus.entries import index_of
 from brace.bus.frame import NODE_MASK, Bus, EndOfLog, Frame
-from brace.bus.ownership import COMMANDS, EARLY, LIFE_S, MOVING, NOT_OPEN, UNKNOWN, Owner, entry_of
+from brace.bus.ownership import COMMANDS, EARLY, LIFE_S, MOVING, UNKNOWN, Owner, Reopening, entry_of
 from brace.bus.refusal import BUSY, ORDER, error_of
 from brace.bus.snapshot import Heartbeat, Joiner, Snapshot, heartbeat_of
 from brace.errors import DeviceFaultError, NoDeviceError, UsageError
@@ -233,15 +233,16 @@ class Session:
     def _ask(self, name: str, values: Mapping[str, Value] | None, timeout_s: float) -> dict[str, Value]:
         busy_until = time.monotonic() + BUSY_S
         tries = 1 if name in _NOT_REPEATED else TRIES
-        may_open = name in COMMANDS
-        if may_open:
+        reopening = Reopening()
+        if name in COMMANDS:
             self._become_owner()
         while tries > 0:
             try:
                 answer = self._ask_once(name, values or {}, timeout_s)
             except _Refused as refused:
-                if may_open and self.owner.is_open and refused.status in NOT_OPEN:
-                    may_open = False
+                wait_s = reopening.wait_s(refused.status) if name in COMMANDS and self.owner.is_open else None
+                if wait_s is not None:
+                    self.listen(wait_s)
                     self.owner.forget()
                     self._become_owner()
                     continue

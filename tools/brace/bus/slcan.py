@@ -9,7 +9,10 @@ from __future__ import annotations
 import contextlib
 import re
 import time
+from binascii import Error as NotHex
+from binascii import unhexlify
 from collections import deque
+from functools import lru_cache
 from typing import Protocol
 
 from brace.bus.frame import Frame
@@ -24,6 +27,7 @@ SEND_S = 1.0
 _LONGEST_LINE = 160
 _BYTES = (*range(9), 12, 16, 20, 24, 32, 48, 64)  # by a line's length code
 _HEX = frozenset(b"0123456789abcdefABCDEF")
+_NO_FRAME = (0, -1000)
 _END = re.compile(rb"([\r\a])")
 _ERROR_BITS = (
     "receive queue full",
@@ -163,16 +167,17 @@ class SlcanBus:
         now = time.time()
         *texts, rest = _END.split(self._rest + part)  # each text, then what ended it
         for text, end in zip(texts[::2], texts[1::2]):
-            self._sort(text + end, now)
+            frame = frame_of(text, now) if end == b"\r" else None
+            if frame is not None:
+                self._frames.append(frame)
+            else:
+                self._take_answer(text + end)
         self._rest = rest[-_LONGEST_LINE:]
 
-    def _sort(self, text: bytes, now: float) -> None:
-        frame = frame_of(text[:-1], now) if text.endswith(b"\r") else None
-        if frame is not None:
-            self._frames.append(frame)
-        elif text[:1] not in b"tTrRdDbB" or len(text) == 1:
-            if len(self._answers) < 1000:
-                self._answers.append(text)
+    def _take_answer(self, text: bytes) -> None:
+        """Unless it is a frame that is none of ours, or broken."""
+        if (text[:1] not in b"tTrRdDbB" or len(text) == 1) and len(self._answers) < 1000:
+            self._answers.append(text)
 
     def _write(self, data: bytes) -> None:
         try:
@@ -193,13 +198,22 @@ class SlcanBus:
 
 def frame_of(text: bytes, time_s: float) -> Frame | None:
     """tIIILDD...[TTTT] as a frame, dIII... and bIII... of CAN FD too; None for everything else."""
+    identifier, length = _header(text[:5])
+    if len(text) - 2 * length not in (5, 9):
+        return None
+    try:
+        return Frame(time_s, identifier, unhexlify(text[5:])[:length])
+    except NotHex:
+        return None
+
+
+@lru_cache(maxsize=512)  # a bus has a few dozen
+def _header(text: bytes) -> tuple[int, int]:
+    """Identifier, and how many bytes follow; a length that no text has where it is no frame's beginning."""
     if len(text) < 5 or text[:1] not in b"tdb" or not _HEX.issuperset(text[1:]):
-        return None
-    identifier, code = int(text[1:4], 16), int(text[4:5], 16)
-    length = _BYTES[code]
-    if identifier > 0x7FF or (text[:1] == b"t" and code > 8) or len(text) not in (5 + 2 * length, 9 + 2 * length):
-        return None
-    return Frame(time_s, identifier, bytes.fromhex(text[5 : 5 + 2 * length].decode()))
+        return _NO_FRAME
+    identifier, code = int(text[1:4], 16), int(text[4:], 16)
+    return _NO_FRAME if identifier > 0x7FF or (text[:1] == b"t" and code > 8) else (identifier, _BYTES[code])
 
 
 def check_bit_rate(bit_rate: int) -> None:

@@ -17,7 +17,7 @@ _NOT_ENDED = ("none", "running")
 
 @dataclass(frozen=True)
 class Flank:
-    """A joint and the flank of its backlash that shall carry, +1 or -1."""
+    """A joint, and the side of its backlash that shall be loaded, +1 or -1."""
 
     joint: str
     side: int
@@ -29,7 +29,7 @@ class Flank:
 
 
 def take_up(device: Controller, flanks: Sequence[Flank], wait_s: float) -> None:
-    """One joint after the other, each until its flank is verified. If one fails, the controller lets all of them go.
+    """One joint after the other, each until its side is verified. If one fails, the controller lets all of them go.
     Raises DeviceFaultError with the reason, NoDeviceError after `wait_s` for one joint."""
     with device.living():
         _take_up(device, flanks, wait_s)

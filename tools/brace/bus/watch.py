@@ -11,6 +11,7 @@ from brace.bus.snapshot import Emergency, Heartbeat, Joiner, Snapshot, emergency
 from brace.wire.frames import FD_MESSAGES, MESSAGES
 
 RATE_S = 2.0
+_HEARTBEAT, _EMERGENCY = MESSAGES["heartbeat"].identifier, MESSAGES["emergency"].identifier
 _ENDS_K = (MESSAGES["stiffness_b"].identifier, FD_MESSAGES["snapshot_fd"].identifier)
 
 Event = Snapshot | Heartbeat | Emergency
@@ -54,18 +55,28 @@ class Watch:
 
     def add(self, frame: Frame) -> Event | None:
         """What the frame tells or completes. VersionMismatchError when a node speaks another dictionary."""
-        if frame.node == 0 or (self._only is not None and frame.node != self._only):
+        node = frame.node
+        if node == 0 or (self._only is not None and node != self._only):
             return None
-        event = self.joiner.add(frame) or heartbeat_of(frame) or emergency_of(frame)
-        if event is None and frame.node not in self.nodes:
-            return None
-        state = self.nodes.setdefault(frame.node, NodeState())
+        message = frame.identifier & ~NODE_MASK
+        event: Event | None
+        if message == _HEARTBEAT:
+            event = heartbeat_of(frame)
+        elif message == _EMERGENCY:
+            event = emergency_of(frame)
+        else:
+            event = self.joiner.add(frame)
+        state = self.nodes.get(node)
+        if state is None:
+            if event is None:
+                return None
+            state = self.nodes[node] = NodeState()
         self.first_s = self.first_s or frame.time_s
         state.last_s = self.last_s = frame.time_s
         state.frames += 1
         if isinstance(event, Heartbeat):
             if not self._any_dictionary:
-                check_dictionary(event.dictionary_hash, f"{self._where}, node {frame.node}")
+                check_dictionary(event.dictionary_hash, f"{self._where}, node {node}")
             state.heartbeat = event
         elif isinstance(event, Snapshot):
             self.take(state, event)
@@ -75,8 +86,8 @@ class Watch:
 
     def count(self, frame: Frame) -> None:
         """A frame whose content nobody needs: it counts for how often K comes."""
-        state = self.nodes.get(frame.node)
-        if state is None or (self._only is not None and frame.node != self._only):
+        state = self.nodes.get(frame.node)  # `add` has let it in
+        if state is None:
             return
         state.last_s = self.last_s = frame.time_s
         state.frames += 1

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import argparse
 import json
+import shlex
+import shutil
+import sys
 from pathlib import Path
 
 from brace.cli import common
@@ -46,12 +49,29 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.json:
         common.print_json({**story.facts, "out": arguments.out})
         return 0
-    model = arguments.out / "limb.toml"
     names = [name for name in story.files if "/" not in name]
     common.emit(f"-> {arguments.out}/: {', '.join([*names, 'facts.json'])}, wire/wire-diagnosis/report.html")
     common.emit("Next, three commands to try:")
-    common.emit(f"   .venv/bin/brace k --model {model} --r 300 --phi -0.4")
-    common.emit(f"   .venv/bin/brace map --model {model} --out {arguments.out}/map")
-    common.emit("   .venv/bin/brace simulate --model tools/brace/data/paper-limb.toml "
-                f"--rig tools/brace/data/paper-rig.toml --out {arguments.out}/loading-test")
+    for words in next_steps(arguments.out):
+        common.emit(f"   {shlex.join(words)}")
     return 0
+
+
+def next_steps(out: Path) -> list[list[str]]:
+    """Commands that work where the demo was called, from the sources and from a release."""
+    from brace.demo.paper_table import DATA
+
+    called = sys.argv[0]
+    brace = called if Path(called).name == "brace" and shutil.which("brace") != called else "brace"
+    files = (out / "limb.toml", DATA / "paper-limb.toml", DATA / "paper-rig.toml")
+    model, limb, rig = (_from_here(path) for path in files)
+    return [
+        [brace, "k", "--model", model, "--r", "300", "--phi", "-0.4"],
+        [brace, "map", "--model", model, "--out", str(out / "map")],
+        [brace, "simulate", "--model", limb, "--rig", rig, "--out", str(out / "loading-test")],
+    ]
+
+
+def _from_here(path: Path) -> str:
+    here = Path.cwd()
+    return str(path.relative_to(here) if path.is_relative_to(here) else path)

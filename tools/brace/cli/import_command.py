@@ -180,8 +180,8 @@ def _open(table: MappingTable, arguments: argparse.Namespace) -> UsageError:
         why=questions[0],
         next_step=f"answer each ? in {name}"
         if arguments.mapping
-        else f"brace import {files} --draft {name}; answer each ? in it (or --set NAME=VALUE); then --mapping {name} "
-        "--out DIR",
+        else f"brace import {files} --draft {name}; answer each ? in it (what stands in no column: --set NAME=VALUE, "
+        f"too); then --mapping {name} --out DIR",
     )
 
 

@@ -17,7 +17,7 @@ from brace.errors import UsageError, did_you_mean
 from brace.slips import slip
 
 _FULL_TURN_RAD = 2 * math.pi
-_DEGREES = re.compile(r"\s*([-+]?[\d.]+(?:e[-+]?\d+)?)\s*(?:deg|degrees?|\u00b0)\s*", re.IGNORECASE)
+_WITH_UNIT = re.compile(r"\s*([-+]?[\d.]+(?:e[-+]?\d+)?)\s*(?:(deg|degrees?|\u00b0)|rad)\s*", re.IGNORECASE)
 
 
 if TYPE_CHECKING:
@@ -164,11 +164,6 @@ def number(text: str) -> float:
     try:
         value = float(text) if "_" not in text else math.nan
     except ValueError:
-        if degrees := _DEGREES.fullmatch(text):
-            radians = math.radians(float(degrees.group(1)))
-            raise refused(
-                f"{text!r} is not a number", "angles are plain numbers in rad", f"OPTION {radians:.6g}"
-            ) from None
         why, meant = slip(text)
         if meant:
             raise refused(f"{text!r} is not a number", why, f"OPTION {meant}") from None
@@ -179,13 +174,16 @@ def number(text: str) -> float:
 
 
 def angle(text: str) -> float:
-    """An angle [rad] of at most a full turn either way."""
-    value = number(text)
+    """An angle of at most a full turn either way [rad]; rad where no unit is said."""
+    said = _WITH_UNIT.fullmatch(text)
+    value = number(said[1] if said else text)
+    if said and said[2]:
+        value = math.radians(value)
     if abs(value) > _FULL_TURN_RAD + 1e-5:
         raise refused(
-            f"{text} rad is more than a full turn",
-            "angles are in rad, not in degrees",
-            f"OPTION {math.radians(value):.6g} if {text} are degrees",
+            f"{value:.6g} rad is more than a full turn",
+            "it may turn once" if said else "an angle is in rad, not in degrees, where its unit is not said",
+            "e.g. OPTION 57deg" if said else f"OPTION {math.radians(value):.6g} if {text} are degrees",
         )
     return value
 
@@ -195,7 +193,7 @@ def flexion(text: str) -> float:
     value = angle(text)
     if abs(value) > math.pi + 1e-5:
         raise refused(
-            f"{text} rad is beyond the folded knee",
+            f"{value:.6g} rad is beyond the folded knee",
             "the knee's angle lies in [-pi, pi] rad, 0 is straight",
             "OPTION 3.14159 for the folded knee",
         )

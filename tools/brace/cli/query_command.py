@@ -287,7 +287,7 @@ def _live(arguments: argparse.Namespace, device: Controller) -> int:
         _emit_k(entry, snapshot.is_valid)
         if snapshot.has_posture and None not in (snapshot.theta1, snapshot.theta2):
             common.emit(f"theta1 {snapshot.theta1:.5f} rad, theta2 {snapshot.theta2:.5f} rad")
-        for line in load.lines((snapshot.k_xx, snapshot.k_xz, snapshot.k_zz)):
+        for line in load.lines((snapshot.k_xx, snapshot.k_xz, snapshot.k_zz), "GAP_OPEN" in snapshot.flags):
             common.emit(line)
         age = "over 127 ms" if snapshot.age_ms is None else f"{snapshot.age_ms:g} ms"
         common.emit(f"age {age}; play femur {snapshot.play[0]}, tibia " f"{snapshot.play[1]}")

@@ -1,4 +1,4 @@
-"""`brace take-up`: takes up the backlash of joints, so that K is that of a chosen flank."""
+"""`brace take-up`: takes up the backlash of joints, so that a chosen side of it is loaded."""
 
 from __future__ import annotations
 
@@ -21,9 +21,9 @@ def add(commands: Subcommands) -> None:
     parser = commands.add_parser(
         "take-up",
         help=SUBCOMMANDS["take-up"],
-        description="The motors move through the backlash until the chosen flank of each joint carries, one joint "
-        "after the other, and hold it there. The limb moves by its backlash. brace let-go takes it back.",
-        epilog="Exit codes: 0 every flank is held, 2 no such joint, 4 no answer or not in time, 5 the device refuses "
+        description="The motors move through the backlash until the chosen side of each joint's backlash is loaded, "
+        "one joint after the other, and hold it there. The limb moves by its backlash. brace let-go takes it back.",
+        epilog="Exit codes: 0 every joint is held, 2 no such joint, 4 no answer or not in time, 5 the device refuses "
         "or a take-up failed, 6 another dictionary.",
     )
     parser.add_argument(
@@ -44,8 +44,8 @@ def _flank(text: str) -> Flank:
     joint, sign = text[:-1].lower(), text[-1:]
     if joint not in TAKE_UPS or sign not in "+-":
         raise refused(
-            f"{text!r} is no flank of a joint",
-            f"the joints are {', '.join(TAKE_UPS)}, and each has a flank + and a flank -",
+            f"{text!r} does not name a side of a joint's backlash",
+            f"the joints are {', '.join(TAKE_UPS)}, and each has a side + and a side -",
             "brace take-up femur+ tibia-",
         )
     return Flank(joint, 1 if sign == "+" else -1)

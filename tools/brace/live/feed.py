@@ -7,6 +7,7 @@ import math
 import threading
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import partial
 
@@ -25,8 +26,9 @@ from brace.live.limb_view import limb_view
 from brace.live.thinning import thinned
 from brace.model import LimbModel
 
+_AS_TEXT = json.JSONEncoder(allow_nan=False, separators=(",", ":")).encode
 _POLL_S = 0.1
-_PERIOD_S = 0.025  # shorter than a page's own, and than the time within which a snapshot's frames are put together
+_PERIOD_S = 1.0 / 30.0  # a page's own, and shorter than the time within which a snapshot's frames are put together
 _AT_ONCE_MOST = 500
 _MODBUS_S = 0.033
 _AGAIN_S = 2.0  # after a bus that went away, or a controller that did not answer
@@ -48,6 +50,7 @@ class Feed:
         self.cards: dict[int, Card] = {}
         self._ask_at_s: dict[int, float] = {}  # who was asked for a card and did not answer is asked again then
         self._lock = threading.Lock()
+        self._held: list[Frame] = []  # of snapshots that have begun and may go on
         self._stopped = threading.Event()
         self._thread = threading.Thread(target=self._run, name="brace bus", daemon=True)
 
@@ -69,7 +72,7 @@ class Feed:
                 for node, state in sorted(self.watch.nodes.items())
             ]
         message = {"bus": self.url.text, "trouble": self.trouble, "ended": self.ended, "limbs": limbs}
-        return json.dumps(message, allow_nan=False, separators=(",", ":"))
+        return _AS_TEXT(message)
 
     # ---------------------------------------------------------------------------------------- in the thread
 
@@ -97,16 +100,18 @@ class Feed:
 
     def _take_frames(self, bus: Bus) -> None:
         """Those of one period together: the fewer wakeups, the less a page costs."""
-        frames = _waiting(bus)
+        new, is_log = _waiting(bus), isinstance(bus, LogBus)
+        thin = thinned([*self._held, *new], may_hold=bool(new) and not is_log)
+        self._held = thin.held
         with self._lock:
-            for frame, is_needed in thinned(frames):
+            for frame, is_needed in thin.frames:
                 if is_needed:
                     self.watch.add(frame)
                 else:
                     self.watch.count(frame)
         for node in list(self.watch.nodes):
             if time.monotonic() >= self._ask_at_s.get(node, 0.0):
-                self._learn(node, partial(_controller_on, bus, node), isinstance(bus, LogBus))
+                self._learn(node, partial(_controller_on, bus, node), is_log)
 
     def _follow_modbus(self) -> None:
         device = ModbusController(self.url)
@@ -136,13 +141,17 @@ class Feed:
 
 
 def _waiting(bus: Bus) -> list[Frame]:
-    """All frames that are there; where none is, the next one within a while."""
+    """All frames that are there; where none is, the next one within a while. EndOfLog once there is none before it."""
     frames: list[Frame] = []
-    frame = bus.receive(_POLL_S)
-    while frame is not None and len(frames) < _AT_ONCE_MOST:
-        frames.append(frame)
-        frame = bus.receive(0.0)
-    return frames if frame is None else [*frames, frame]
+    wait_s = _POLL_S
+    with suppress(EndOfLog):
+        while len(frames) < _AT_ONCE_MOST and (frame := bus.receive(wait_s)) is not None:
+            frames.append(frame)
+            wait_s = 0.0
+        return frames
+    if not frames:
+        raise EndOfLog
+    return frames
 
 
 def _controller_on(bus: Bus, node: int) -> Controller:

@@ -16,7 +16,7 @@ from brace.wire.layout import Value
 
 SILENT_S = 2.0  # a heartbeat comes each second
 LOAD_LATE_S = 2.0  # it may come more seldom than K
-_DIGITS = 6
+_SHORT = "%.6g"  # as many digits as a frame carries: a page is sent thirty times a second
 
 _NO_LOAD_SENT = "not sent: controller.load_hz is 0"
 _NO_LOAD_COUNTED = "no load is counted: K is the one without load"
@@ -159,9 +159,8 @@ def _said(table: CodeTable, names: Iterable[str]) -> list[Said]:
 
 
 def _text(table: CodeTable, name: str) -> str:
-    return next((code.text for code in table.codes if code.name == name), "")
+    return table.texts.get(name, "")
 
 
 def _short(values: Iterable[Value]) -> list[Value]:
-    """As many digits as a frame carries: a page is sent thirty times a second."""
-    return [value if value is None or not math.isfinite(value) else float(f"{value:.{_DIGITS}g}") for value in values]
+    return [value if value is None or not math.isfinite(value) else float(_SHORT % value) for value in values]

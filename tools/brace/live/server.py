@@ -52,8 +52,11 @@ class Server:
             await site.start()
             self._port = runner.addresses[0][1]
             tell(f"http://{HOST}:{self._port}/")
+            due_s = asyncio.get_running_loop().time()
             while not is_over():
-                await asyncio.sleep(1.0 / UPDATES_PER_S)
+                now_s = asyncio.get_running_loop().time()
+                due_s = max(due_s + 1.0 / UPDATES_PER_S, now_s)  # after a pause nothing is caught up with
+                await asyncio.sleep(due_s - now_s)
                 await self._update()
         finally:
             for reader in list(self._readers):

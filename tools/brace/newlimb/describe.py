@@ -81,6 +81,7 @@ def text(known: Known) -> str:
         lines += ["", f"[link.{name}]  # {link.words}"]
         lines += [f"axial_mm_per_n = {c.axial_mm_per_n:.6g}", f"bending_mm_per_n = {c.bending_mm_per_n:.6g}"]
         lines += [
+            "# across the limb's plane; brace sim gives a coxa joint to a limb that yields there",
             f"lateral_mm_per_n = {c.lateral_mm_per_n:.6g}",
             f"torsion_rad_per_n_mm = {c.torsion_rad_per_n_mm:.6g}",
         ]

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 
 @dataclass(frozen=True)
@@ -25,7 +26,7 @@ class CodeTable:
 
     def find(self, number: int) -> Code | None:
         """The meaning of a number; a negative one may be given as 256 plus it, as an unsigned value carries it."""
-        return next((code for code in self.codes if number in (code.number, code.number % 256)), None)
+        return self._by_number.get(number)
 
     def name_of(self, number: int) -> str:
         """The number's name, or its digits where it has none."""
@@ -34,13 +35,21 @@ class CodeTable:
 
     def names_of_bits(self, bits: int) -> tuple[str, ...]:
         """The names of the bits that are set; a bit without a name is told by its place."""
-        named = {code.number: code.name for code in self.codes}
-        return tuple(named.get(place, f"BIT_{place}") for place in range(bits.bit_length()) if bits >> place & 1)
+        found = ((place, self._by_number.get(place)) for place in range(bits.bit_length()) if bits >> place & 1)
+        return tuple(f"BIT_{place}" if code is None else code.name for place, code in found)
 
     def texts_of(self, names: Iterable[str]) -> list[str]:
         """What each name means: "NAME: a sentence"."""
-        said = {code.name: code.text for code in self.codes}
-        return [f"{name}: {said.get(name, 'not in this version of brace')}" for name in names]
+        return [f"{name}: {self.texts.get(name, 'not in this version of brace')}" for name in names]
+
+    @cached_property
+    def texts(self) -> Mapping[str, str]:
+        """Name -> sentence."""
+        return {code.name: code.text for code in self.codes}
+
+    @cached_property
+    def _by_number(self) -> Mapping[int, Code]:
+        return {code.number % 256: code for code in self.codes} | {code.number: code for code in self.codes}
 
     @property
     def names(self) -> tuple[str, ...]:

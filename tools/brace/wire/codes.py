@@ -31,22 +31,22 @@ OWNER = CodeTable("owner", False, (
     Code(5, "MODBUS_TCP", "A master over Modbus TCP."),
 ))
 
-# Which flank of a joint's play carries.
+# Which side of a joint's backlash is loaded.
 PLAY = CodeTable("play", False, (
-    Code(0, "UNKNOWN", "No flank can be told: no load has shown one, or not for 250 ms."),
+    Code(0, "UNKNOWN", "It is not known which side of the backlash is loaded: no load has shown it, or none for 250 ms."),
     Code(1, "TAKING_UP", "A take-up moves the motor through the gap."),
-    Code(2, "ENGAGED_POSITIVE", "The positive flank carries."),
-    Code(3, "ENGAGED_NEGATIVE", "The negative flank carries."),
-    Code(4, "CROSSING", "One flank was left without a load, and the next is not told yet."),
+    Code(2, "ENGAGED_POSITIVE", "The positive side of the backlash is loaded."),
+    Code(3, "ENGAGED_NEGATIVE", "The negative side of the backlash is loaded."),
+    Code(4, "CROSSING", "The load has left one side of the backlash, and it is not known yet which side comes next."),
     Code(5, "FAULT", "The joint's samples were bad or late."),
 ))
 
 # Where a joint's take-up stands.
 TAKE_UP_PHASE = CodeTable("take_up_phase", False, (
     Code(0, "IDLE", "No take-up is under way."),
-    Code(1, "APPROACH", "The command moves to the flank."),
+    Code(1, "APPROACH", "The command moves the motor to the chosen side of the backlash."),
     Code(2, "VERIFY", "The command stands, and the load has to stay."),
-    Code(3, "HOLD", "The flank is verified and held: measure now."),
+    Code(3, "HOLD", "The chosen side is verified and held loaded: measure now."),
     Code(4, "LET_GO", "The command goes back the way it came."),
 ))
 
@@ -54,13 +54,13 @@ TAKE_UP_PHASE = CodeTable("take_up_phase", False, (
 TAKE_UP_OUTCOME = CodeTable("take_up_outcome", False, (
     Code(0, "NONE", "Nobody has asked for a take-up since start."),
     Code(1, "RUNNING", "The take-up is under way."),
-    Code(2, "HELD", "The chosen flank was verified."),
+    Code(2, "HELD", "The chosen side of the backlash is loaded: this was verified."),
     Code(-1, "TORQUE", "The motor's torque passed its bound: the joint is blocked, or its take-up torque is set too low."),
     Code(-2, "TRAVEL", "The motor went further than the gap allows: nothing holds the link, or the gap is larger than believed."),
     Code(-3, "REACH", "The command went to its end and no load came: the motor does not follow its command."),
-    Code(-4, "TIME", "The flank was not verified in time: ask again while the limb stands still."),
-    Code(-5, "VERIFY", "The load or the motor did not stay while the flank was verified: ask again while the limb stands still."),
-    Code(-6, "LOST", "The flank was verified, and later its load went away."),
+    Code(-4, "TIME", "The chosen side was not verified as loaded in time: ask again while the limb stands still."),
+    Code(-5, "VERIFY", "The load or the motor did not stay while the chosen side was verified: ask again while the limb stands still."),
+    Code(-6, "LOST", "The chosen side was verified as loaded, and later its load went away."),
     Code(-7, "FAULT", "The joint's samples were bad or late during the take-up."),
 ))
 
@@ -75,7 +75,7 @@ LOADING_OUTCOME = CodeTable("loading_outcome", False, (
     Code(-3, "TRAVEL", "A joint came to the end of its travel."),
     Code(-4, "TIME", "The test was not done in time."),
     Code(-5, "NO_FORCE", "No force at the tip is known."),
-    Code(-6, "FAULT", "A fault came, or a flank that was taken up let go."),
+    Code(-6, "FAULT", "A fault came, or backlash that was taken up has opened again."),
     Code(-7, "NOT_FOLLOWING", "The motors do not follow their commands."),
 ))
 

@@ -263,7 +263,8 @@ brace_client_status_t brace_client_begin_take_up(brace_client_t *client, uint32_
                                .count = 1u};
     if (joint >= (uint32_t)JOINTS || (flank != 1 && flank != -1)) {
         return brace_client_fail(client, BRACE_CLIENT_E_USAGE,
-                                 "joint %u, flank %d: 0 coxa, 1 femur, 2 tibia; flank 1 or -1", (unsigned)joint, flank);
+                                 "joint %u, flank %d: 0 coxa, 1 femur, 2 tibia; the side to load is 1 or -1",
+                                 (unsigned)joint, flank);
     }
     (void)brace_can_pack_take_up_request(&request, command.question.data);
     return begin(client, &command, BRACE_TAKES_UP, joint, timeout_ms, limit_ms);

@@ -1,8 +1,8 @@
 /* The limb controller: samples in, K out, once a tick. This header is its manual.
  *
- * src/app.c holds the tick as one straight list of calls: sense the joints and the force; which flank of the backlash
- * carries; posture; K; one step of each job that runs; faults and mode; command the drives; publish the snapshot;
- * answer the wires; feed the watchdog.
+ * src/app.c holds the tick as one straight list of calls: sense the joints and the force; which side of each
+ * backlash is loaded; posture; K; one step of each job that runs; faults and mode; command the drives; publish the
+ * snapshot; answer the wires; feed the watchdog.
  *
  * One brace_app_t per limb and no global state: many limbs run in one process. The controller knows the world through
  * brace_hal_t only. No heap, no recursion, no stdio, no clock of its own. One caller, never from an interrupt.
@@ -13,10 +13,10 @@
  * are no older than controller.age_limit_us, the posture is inside both drives' travel, and parameters are in force
  * (safe defaults count, flagged UNCALIBRATED). A limb whose coxa joint is fitted has its K in space too.
  *
- * A joint with play (gap_rad >= 1e-5) carries nothing while its load does not prove a flank: K is valid then, flagged
+ * A joint with play (gap_rad >= 1e-5) carries nothing while its load does not prove a side: K is valid then, flagged
  * GAP_OPEN, with both bounds. The same holds while the joint's newest sample is more than four ticks old (its drive
  * answers AGAIN), and for 20 ms afterwards: choose a tick no shorter than a quarter of the drives' own period. A
- * flank is proven for at most brace_backlash_detection_us and four ticks after its gap has opened.
+ * side is proven for at most brace_backlash_detection_us and four ticks after its gap has opened.
  */
 #ifndef BRACE_APP_H
 #define BRACE_APP_H

@@ -1,4 +1,4 @@
-/* Which flank of a joint's backlash carries: a preload state machine per joint, and the take-up of the backlash on
+/* Which side (flank) of a joint's backlash is loaded: a preload state machine per joint, and the take-up of backlash on
  * request.
  *
  * Between motor and link lies a gap of full width g. The link stands at

@@ -8,7 +8,7 @@
 typedef enum {
     BRACE_BACKLASH_UNKNOWN = 0,          /* no flank is known: no load has shown one yet, or none for 250 ms */
     BRACE_BACKLASH_TAKING_UP = 1,        /* a take-up moves the motor through the gap */
-    BRACE_BACKLASH_ENGAGED_POSITIVE = 2, /* the positive flank carries */
+    BRACE_BACKLASH_ENGAGED_POSITIVE = 2, /* the positive side is loaded */
     BRACE_BACKLASH_ENGAGED_NEGATIVE = 3,
     BRACE_BACKLASH_CROSSING = 4, /* the link left its flank unloaded, the next is not known; UNKNOWN after 2 s */
     BRACE_BACKLASH_FAULT = 5,    /* samples were bad or late; left after 20 ms of good ones */
@@ -76,7 +76,7 @@ typedef struct {
 
 typedef struct {
     brace_backlash_state_t state;
-    int flank;                   /* flank that carries: +1 or -1; 0: not known (UNKNOWN, CROSSING, TAKING_UP, FAULT) */
+    int flank;                   /* side that is loaded: +1 or -1; 0: not known (UNKNOWN, CROSSING, TAKING_UP, FAULT) */
     bool valid;                  /* the load itself proves the flank, now. Never longer than
                                     brace_backlash_detection_us after the gap opened */
     float offset_rad;            /* joint angle = motor angle + offset; the best estimate in every state */

@@ -31,7 +31,7 @@ enum {
     BRACE_FLAG_UNCALIBRATED = 1u << 0,  /* parameters are defaults, not this limb's */
     BRACE_FLAG_NEAR_SINGULAR = 1u << 1, /* the stated accuracy is not promised for this limb or posture */
     BRACE_FLAG_SATURATED = 1u << 2,     /* a value was limited to its representable range */
-    BRACE_FLAG_GAP_OPEN = 1u << 3,      /* a joint carries nothing: its link is between the flanks */
+    BRACE_FLAG_GAP_OPEN = 1u << 3,      /* a joint carries nothing: its backlash is open */
     BRACE_FLAG_STALE = 1u << 4,         /* older than its stated age limit, or from a mode in which K is not computed */
     BRACE_FLAG_OUT_OF_RANGE = 1u << 5,  /* outside the range in which the model was identified */
     BRACE_FLAG_LOAD_UNKNOWN = 1u << 6,  /* the load is not counted: it is not known */

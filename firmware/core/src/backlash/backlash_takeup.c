@@ -5,8 +5,10 @@
 
 #include "backlash/backlash_table.h"
 
-/* Share of the gap that a motor may move while its take-up is verified. */
+/* Share of the gap that a motor may move while its take-up is verified, once it has had half of that time to come to
+ * rest: a servo lags behind its command, and by more than a small gap. */
 #define MOVED_SHARE 0.25f
+#define SETTLES_PART 2u
 
 static bool running(const brace_backlash_t *joint)
 {
@@ -73,6 +75,9 @@ static void move_command(brace_backlash_t *joint)
 uint32_t backlash_takeup_advance(brace_backlash_t *joint, uint32_t facts, int proven)
 {
     const transition_t *row = NULL;
+    if (joint->phase == BRACE_TAKEUP_VERIFY && joint->phase_us < joint->params.takeup.verify_us / SETTLES_PART) {
+        joint->verify_rad = joint->motor_rad;
+    }
     if (joint->phase != BRACE_TAKEUP_IDLE || joint->requested) {
         row = transition_find(&takeup_phases[joint->phase], facts | gathered(joint, proven), joint->phase_us);
         joint->phase_us += joint->phase_us < 0x40000000u ? joint->params.tick_us : 0u;

@@ -927,7 +927,7 @@ typedef struct {
     uint32_t token;
     /* the joint: 0 coxa, 1 femur, 2 tibia */
     uint32_t joint;
-    /* the flank: +1 or -1 */
+    /* the side of the play that shall be loaded: +1 or -1 */
     int32_t flank;
 } brace_can_take_up_request_t;
 uint32_t brace_can_pack_take_up_request(const brace_can_take_up_request_t *message, uint8_t data[8]);

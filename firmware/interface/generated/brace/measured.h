@@ -391,8 +391,8 @@ typedef struct {
     uint32_t rollback;
     /* the bits of the faults to clear */
     uint32_t clear_faults;
-    /* the joint whose play is to be taken up (0 coxa, 1 femur, 2 tibia), plus 256 for the positive flank or 512
-     * for the negative one */
+    /* the joint whose play is to be taken up (0 coxa, 1 femur, 2 tibia), plus 256 for the positive side of the
+     * play or 512 for the negative one */
     uint32_t take_up;
     /* the order to let every joint go and to end a loading test: write any value */
     uint32_t let_go;

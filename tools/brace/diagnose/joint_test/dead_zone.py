@@ -1,4 +1,5 @@
-"""Is a fitted gap a gap? It is one only where the record shows both flanks and hardly any rise of torque between them.
+"""Is a fitted gap a gap? It is one only where the record reaches both of its sides, with hardly any rise of torque
+between them.
 
 A soft spring with a large gap and hardening fits many loops well. Such a gap is a shape, not a play."""
 
@@ -23,13 +24,13 @@ def refusal(record: JointRecord, fitted: Fitted) -> str:
     deflection = record.deflection_rad(columns_of(fitted.nuisances), 1)[0]
     used = record.fitted
     if gap_rad > (1.0 - 1e-3) * record.size.swing_rad:
-        return f"the joint reached both of its flanks in a swing of {record.size.swing_rad:.3g} rad"
+        return f"the joint reached both sides of its play within {record.size.swing_rad:.3g} rad"
     inside = used & (np.abs(deflection) < 0.5 * gap_rad)
     above, below = deflection[used].max() - 0.5 * gap_rad, -deflection[used].min() - 0.5 * gap_rad
     left_n_mm = float(np.sqrt(np.mean(fitted.off_n_mm[used] ** 2)))
     rises_n_mm = min(above, below) / max(fitted.model.number(at + "compliance_rad_per_n_mm"), 1e-30)
     if min(above, below) < FLANK * gap_rad or rises_n_mm < RISE * left_n_mm:
-        return "the record does not reach both of its flanks"
+        return "the record does not reach both of its sides"
     if np.count_nonzero(inside) < MIN_INSIDE:
         return "hardly any reading lies inside it"
     without = fitted.model.with_values({at + "coulomb_n_mm": 0.0, at + "coulomb_per_load_ratio": 0.0})

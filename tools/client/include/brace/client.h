@@ -94,7 +94,7 @@ typedef struct {
     bool k_is_valid;      /* K may be used, with its flags */
     uint32_t flags;       /* BRACE_CLIENT_FLAG_... */
     float k_xx_n_per_mm, k_xz_n_per_mm, k_zz_n_per_mm;
-    uint32_t play_femur, play_tibia; /* 0 unknown, 1 taking up, 2 + flank, 3 - flank, 4 crossing, 5 fault */
+    uint32_t play_femur, play_tibia; /* 0 unknown, 1 taking up, 2 + side loaded, 3 - side loaded, 4 crossing, 5 fault */
     uint32_t parameter_tag;          /* low half of the CRC of the parameters in force */
     float lambda_min_n_per_mm, lambda_max_n_per_mm, stiff_axis_rad;
     float theta1_rad, theta2_rad;

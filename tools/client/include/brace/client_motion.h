@@ -61,8 +61,8 @@ void brace_client_set_key(brace_client_t *client, const uint8_t key[BRACE_CLIENT
  * returns OK: it runs; call brace_client_step. E_REFUSED: the controller does not begin it; a motion that runs already
  *   goes on. E_TIMEOUT and other failures to answer: it may have begun; brace_client_step finds out. */
 
-/* The motor of a joint (0 coxa, 1 femur, 2 tibia) moves through its backlash until a flank [+1, -1] carries, and holds
- * that. DONE: it holds, and needs no further signs of life. */
+/* The motor of a joint (0 coxa, 1 femur, 2 tibia) moves through its backlash until one side of it, `flank` [+1, -1],
+ * is loaded, and holds that. DONE: it holds, and needs no further signs of life. */
 brace_client_status_t brace_client_begin_take_up(brace_client_t *client, uint32_t joint, int flank, int timeout_ms,
                                                  int limit_ms);
 
