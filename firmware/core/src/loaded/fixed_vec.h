@@ -23,7 +23,7 @@
 typedef brace_fixed_vec_t fixed_vec_t;
 
 /* A constant below 1, rounded: above zero, truncation rounds down. */
-#define Q31(number) ((int32_t)((int64_t)((number) * 0x1p31 + 0x1p31 + 0.5) - 0x80000000))
+#define Q31(number) ((int32_t)((int64_t)((number) * 0x1p31 + 0x1p31 + 0.5) - 2147483648))
 #define ONE_Q27 (1 << 27)
 
 /* Sums of products, whole. Sums that leave 64 bits wrap. */
