@@ -335,12 +335,19 @@ static void any_press(float theta1_rad, float theta2_rad)
         .femur_n = any(0.0f, most_n), .knee_n = any(0.0f, most_n), .tibia_n = any(0.0f, most_n)};
 }
 
+/* An emulated board has to show that its arithmetic agrees; a host plays twenty times as many. */
+#ifdef __arm__
+enum { SOFT_LIMBS = 3000 };
+#else
+enum { SOFT_LIMBS = 60000 };
+#endif
+
 /* Loads near and beyond what bends the limb out of its range, or buckles it: it is refused, or K is that of a limb that
  * stands; and where the float path is sure of it, the same. */
 static void test_soft_limbs_near_their_buckling(void)
 {
     int told = 0, refused = 0, compared = 0;
-    for (int i = 0; i < 60000; i++) {
+    for (int i = 0; i < SOFT_LIMBS; i++) {
         any_soft_limb();
         take_springs();
         const float theta1 = any(-3.0f, 3.0f), theta2 = i % 3 == 0 ? any(-3.0f, 3.0f) : any(-0.5f, 0.5f);
@@ -368,7 +375,7 @@ static void test_soft_limbs_near_their_buckling(void)
             TEST_ASSERT_FLOAT_WITHIN(off, want.stiffness.k_zz_n_per_mm, is.stiffness.k_zz_n_per_mm);
         }
     }
-    TEST_ASSERT_TRUE(told > 10000 && refused > 10000 && compared > 5000);
+    TEST_ASSERT_TRUE(told > SOFT_LIMBS / 6 && refused > SOFT_LIMBS / 6 && compared > SOFT_LIMBS / 12);
 }
 
 /* Within a part in 8 million, one over every pivot that the solver lets through: powers of two, their neighbours, and what

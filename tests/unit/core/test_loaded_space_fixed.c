@@ -579,13 +579,20 @@ static void any_press(float theta1_rad, float theta2_rad)
     load.down = any_direction();
 }
 
+/* An emulated board has to show that its arithmetic agrees; a host plays twenty times as many. */
+#ifdef __arm__
+enum { SOFT_LIMBS = 500 };
+#else
+enum { SOFT_LIMBS = 10000 };
+#endif
+
 /* Loads near and beyond what bends the limb out of its range, or buckles it: it is refused, or K is that of a limb that
  * stands; and where the float path is sure of it, the same. tests/engine measures how exact K is of limbs that robots
  * have. These limbs' compliances differ by a million, and of the small ones a word keeps few bits. */
 static void test_soft_limbs_near_their_buckling(void)
 {
     int told = 0, refused = 0, compared = 0, off = 0;
-    for (int i = 0; i < 10000; i++) {
+    for (int i = 0; i < SOFT_LIMBS; i++) {
         any_soft_limb();
         const float theta1 = any(-3.0f, 3.0f), theta2 = i % 3 == 0 ? any(-3.0f, 3.0f) : any(-0.5f, 0.5f);
         any_press(theta1, theta2);
@@ -614,7 +621,7 @@ static void test_soft_limbs_near_their_buckling(void)
             off += apart(&is.k, &want.k) > 2e-3 ? 1 : 0;
         }
     }
-    TEST_ASSERT_TRUE(told > 3000 && refused > 2000 && compared > 3000);
+    TEST_ASSERT_TRUE(told > SOFT_LIMBS * 3 / 10 && refused > SOFT_LIMBS / 5 && compared > SOFT_LIMBS * 3 / 10);
     TEST_ASSERT_TRUE(500 * off <= compared);
 }
 
