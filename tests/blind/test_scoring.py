@@ -112,5 +112,5 @@ def test_promises_beside_what_they_brought() -> None:
         )
     ]
     low, high = promises(rows)
-    assert low == (pytest.approx(0.6), 0.5, 2)
-    assert high == (pytest.approx(2.96 / 3), pytest.approx(2 / 3), 3)
+    assert low == pytest.approx((0.6, 0.5, 2))
+    assert high == pytest.approx((2.96 / 3, 2 / 3, 3))
