@@ -7,10 +7,16 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from by_torque import found_in, triangle
-
 from brace.dataset.check_joint_test import faults
-from brace.diagnose.diagnosis import Diagnosis
+from brace.diagnose.diagnosis import Diagnosis, Interval, NamedEffect
+from brace.diagnose.joint_test.choose import at_an_end
+from brace.diagnose.joint_test.terms import effects_of
+from brace.diagnose.joint_test.workflow import _may_be_nothing
+from brace.effects import JointTestBench
+from brace.effects.record import JointTestSize
+from brace.model import load_limb
+from by_torque import found_in, triangle
+from conftest import DATA
 
 STEP_S = 0.02  # from reading to reading, as by_torque.found_in writes them
 STIFFNESS = 4e5  # N mm/rad
@@ -95,3 +101,26 @@ def test_a_torque_in_newton_metres_is_told() -> None:
     assert not any(fault.field == "torque_n_mm" for fault in faults(sound))
     told = [fault for fault in faults(columns) if fault.field == "torque_n_mm"]
     assert told and told[0].blocking and "N m" in told[0].why
+
+
+def _creep(ratio: Interval, time_constant_s: Interval) -> NamedEffect:
+    return NamedEffect("creep", "creep", 0.99, {"creep.ratio": ratio, "creep.time_constant_s": time_constant_s}, 1.0)
+
+
+def test_an_effect_whose_size_may_be_zero_is_nothing() -> None:
+    """A time constant is never zero, whatever the record says: it says how creep goes, not whether there is any."""
+    constant = Interval(21.6, 0.4, 21.6)
+    assert _may_be_nothing(_creep(Interval(0.77, 0.0, 1.0), constant))
+    assert not _may_be_nothing(_creep(Interval(0.77, 0.6, 1.0), constant))
+    friction = {"joint.femur.coulomb_n_mm": Interval(700.0, 600.0, 800.0)}
+    ratio = {"joint.femur.coulomb_per_load_ratio": Interval(0.0, 0.0, 0.1)}
+    assert not _may_be_nothing(NamedEffect("coulomb_friction", "joint.femur", 0.99, friction | ratio, 1.0))
+
+
+def test_a_time_constant_at_an_end_of_its_range_is_no_creep() -> None:
+    a_minute = JointTestSize(0.04, 8000.0, 60.0, 0.0, 0.01, float("inf"))
+    terms = effects_of(load_limb(DATA / "paper-limb.toml"), "femur", JointTestBench(a_minute, given=False, rests=True))
+    (creep,) = [term for term in terms if term.name == "creep"]
+    low, high = next((one.low, one.high) for one in creep.parameters if one.key == "creep.time_constant_s")
+    for constant_s, at_end in ((low, True), (1.05 * low, True), (2.0 * low, False), (0.9 * high, False), (high, True)):
+        assert at_an_end(creep, {"creep.ratio": 0.1, "creep.time_constant_s": constant_s}) == at_end

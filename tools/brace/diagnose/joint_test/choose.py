@@ -6,7 +6,7 @@ readings, stretches drawn anew, and the readings that were held out."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -155,15 +155,20 @@ def strained(fitter: Fitter, fitted: Fitted) -> bool:
     """Whether an effect helps only with a value that no joint has, and so stands for something else: creep as slow as
     the whole record, friction that grows as fast as the load, a spring so soft in the middle that it is a dead zone in
     disguise."""
-    values = fitted.values
-    for term in fitted.terms:
-        for parameter in term.parameters:
-            value, inside = values[parameter.key], parameter.low + 0.98 * (parameter.high - parameter.low)
-            # a time constant as short as the readings' own spacing is no creep
-            too_small = parameter.low > 0.0 and value <= 1.1 * parameter.low
-            if term.ends_strained(parameter) and (value >= inside or too_small):
-                return True
+    if any(at_an_end(term, fitted.values) for term in fitted.terms):
+        return True
     return _stiffening(fitter, fitted) > MOST_STIFFENING
+
+
+def at_an_end(term: Term, values: Mapping[str, float]) -> bool:
+    """Whether a value of the effect stands at an end of its range where it is no joint's any more."""
+    for parameter in term.parameters:
+        value, inside = values[parameter.key], parameter.low + 0.98 * (parameter.high - parameter.low)
+        # a time constant as short as the readings' own spacing is no creep
+        too_small = parameter.low > 0.0 and value <= 1.1 * parameter.low
+        if term.ends_strained(parameter) and (value >= inside or too_small):
+            return True
+    return False
 
 
 def _stiffening(fitter: Fitter, fitted: Fitted) -> float:

@@ -23,7 +23,7 @@ from brace.diagnose.diagnosis import (
     Verdict,
 )
 from brace.diagnose.joint_test import positions, words
-from brace.diagnose.joint_test.choose import SHAPES_SHRINK, Choice, choose, strained, without
+from brace.diagnose.joint_test.choose import SHAPES_SHRINK, Choice, at_an_end, choose, strained, without
 from brace.diagnose.joint_test.dead_zone import refusal
 from brace.diagnose.joint_test.evidence import feigned, gain, intervals
 from brace.diagnose.joint_test.fit import Fitted, Fitter
@@ -46,6 +46,7 @@ LIKELIER_THAN_NOT = 0.5  # an effect that is less likely there than not gets no 
 MOST_UNEXPLAINED = 0.2  # of the torque's standard deviation: a model that leaves more has no name for what it leaves
 ROUNDS_A_GAP = ("soft_middle", "end_stop")
 STOPS = ("backlash", "coulomb_friction")  # what holds the joint somewhere inside a range of angles
+GONE = 1e-3  # of a first step: less than that is nothing
 LEAST = 1e-3  # of the swing: a smaller range is below the linearity of encoders and torque cells
 SUREST = 0.99  # one joint's test never makes a name surer than this
 
@@ -155,7 +156,9 @@ def _told(
     ]
 
     def is_weak(one: NamedEffect) -> bool:
-        return one.confidence <= LIKELIER_THAN_NOT or one.name in small or _may_be_nothing(one)
+        told = {**exported.values, **{key: size.value for key, size in one.parameters.items()}}
+        is_strained = any(term.name == one.name and at_an_end(term, told) for term in found)
+        return one.confidence <= LIKELIER_THAN_NOT or one.name in small or _may_be_nothing(one) or is_strained
 
     first = others  # what explained the record without an effect goes on doing so when another is no longer named
     while weak := [one for one in effects if is_weak(one)][-1:]:
@@ -165,6 +168,7 @@ def _told(
         exported = by_rows.fit((*found, *own), best)
         others = [*first, *rivals(fitter, by_rows, best, frozenset(term.name for term in found), tried)]
         effects = _named(fitter, by_rows, best, exported, found, others, choice.count, random)
+    own = [term for term in own if not _is_gone(term, best)]  # it only helped an effect that is no longer named
     others = list({one.label: one for one in reversed(others)}.values())[::-1]
     advance(0.93, "where they disagreed")
     spots = localise(record, base.off_n_mm, random)
@@ -296,9 +300,16 @@ def _sizes(
     return JointSizes(told, reach_n_mm, record.position_count)
 
 
+def _is_gone(term: Term, fitted: Fitted) -> bool:
+    """Whether the fit has set each of a term's numbers to nothing."""
+    return all(abs(fitted.values[one.key]) < GONE * one.scale for one in term.parameters)
+
+
 def _may_be_nothing(effect: NamedEffect) -> bool:
-    """Whether every interval of the effect holds zero."""
-    return bool(effect.parameters) and all(one.low <= 0.0 <= one.high for one in effect.parameters.values())
+    """Whether every interval of the effect's sizes holds zero. A number that is never zero, as a time constant is, says
+    how the effect goes, not how large it is."""
+    sizes = [one for key, one in effect.parameters.items() if not KEY_BY_NAME[key].open_low]
+    return bool(sizes) and all(one.low <= 0.0 <= one.high for one in sizes)
 
 
 def _named(
