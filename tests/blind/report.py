@@ -216,9 +216,9 @@ def by_effect(judged: Sequence[Judged]) -> str:
 
 
 def promises(rows: Sequence[dict[str, Any]]) -> list[tuple[float, float, int]]:
-    """What the next experiments promised and what came of them, once played: (mean probability that the hidden effect
-    is told from its rivals, share in which it was named alone and right, cases), for promises below 0.8, below 0.95
-    and above."""
+    """Compares what next experiments promised with what they brought when they were played. Each entry: (mean promised
+    probability that the hidden effect is told from its rivals, share of cases in which it was named alone and right,
+    number of cases). The entries are of promises below 0.8, from 0.8 to 0.95, and above."""
     kept = [(r["promised"], r["right_after"]) for r in rows if r["played"] and r["promised"] is not None]
     bins = [[pair for pair in kept if low <= pair[0] < high] for low, high in ((0.0, 0.8), (0.8, 0.95), (0.95, 1.1))]
     return [(*(sum(column) / len(pairs) for column in zip(*pairs)), len(pairs)) for pairs in bins if pairs]

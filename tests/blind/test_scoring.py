@@ -103,7 +103,7 @@ def test_disguised() -> None:
 
 
 def test_promises_beside_what_they_brought() -> None:
-    """In bins of the promise. Experiments that nobody played, or without a promise for what is hidden, are left out."""
+    """Cases are counted in bins of the promise. A case without a played experiment or a promise does not count."""
     rows = [
         {"played": played, "promised": promised, "right_after": right}
         for played, promised, right in (

@@ -10,10 +10,10 @@ best guess (the sign of the offset), which is always there.
 The motor's friction is the same at rest as in motion there. Gears stick (backlash_measured.py): two more runs take up to twice as
 much to break away, once with a machine that knows nothing of it, once with one that is told as docs/backlash.md says.
 
-The angle error is told five ways: of all ticks, with a side touching, outside the crossing, and where the machine tells
-a side, and says valid. With the gap believed 20 % wrong the right side alone leaves up to a tenth
-of the gap. Of all ticks, the gap's being open included, there is no bound: a tenth is not in reach of who only looks on
-(backlash_floor.py).
+The report has the angle error of five sets of ticks: all of them, those in which a side touches, those outside the
+crossing, those in which the machine tells a side, and those that it calls valid. With the gap believed 20 % wrong the
+right side alone leaves up to a tenth of the gap. Over all ticks, those with an open gap among them, there is no
+bound: a machine that only watches the joint cannot reach a tenth (backlash_floor.py).
 
 Seeds 1-1000 were used while the machine was made; the figures reported come from seeds 1,000,001 on. Exit code 1 when
 a bound is not met.

@@ -79,8 +79,8 @@ def test_four_limbs_cost_less_than_a_twentieth_of_a_core(paper_limb: Path) -> No
 
 
 def played(taken: Sequence[Frame], split: int) -> tuple[Watch, Watch, int]:
-    """Taken in two periods, split behind so many frames: a watch of what is thinned, one of all frames, and how many
-    are decoded."""
+    """Gives the frames to the page's server in two periods; the first has `split` of them. Returns a watch that got the
+    thinned frames, a watch that got all frames, and how many frames were decoded."""
     watch, every = Watch("here"), Watch("here")
     decoded, held = 0, list[Frame]()
     for part in (taken[:split], taken[split:], []):

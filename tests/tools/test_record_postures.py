@@ -127,7 +127,7 @@ def test_one_clock_and_counted_on() -> None:
 
 
 def test_a_pressed_run_behind_runs_that_began_at_rest() -> None:
-    """A record from before preloads were told keeps the preload of what is added."""
+    """An older record has no preload columns. A run added to it keeps its preload; the older runs get 0."""
     rested, pressed = (_columns(1, (0.7, 1.3), np.zeros((2, 3))) for _ in range(2))
     both = added(rested, counted_from_first(pressed | {"fz_n": np.array([7.0, 8.0, 9.0])}), 1.0)
     assert both["preload_z_n"].tolist() == [0.0] * 3 + [7.0] * 3

@@ -16,7 +16,7 @@ from brace.cli.subcommands import SUBCOMMANDS
 from brace.cli.streams import OutputLost, finish, hush, prepare, say
 from brace.errors import EXIT_CHECK_FAILED, EXIT_OK, EXIT_USAGE, BraceError
 
-ABOUT_ALL = {"-h", "--help", "--version"}  # asks nothing of a subcommand
+ABOUT_ALL = {"-h", "--help", "--version"}  # options that brace answers without loading a subcommand
 _NEGATIVE_NUMBER = re.compile(r"^-(\d|\.\d|inf|nan)", re.IGNORECASE)
 
 

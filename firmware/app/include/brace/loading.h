@@ -99,7 +99,7 @@ typedef struct {
     brace_point_t lever_femur, lever_knee; /* shift of the tip's free shape for a unit of theta1, and of theta2 */
     brace_vec3_t lever_force_n;    /* that the tip bears before they are worked out, the mean */
     float lever_rad[BRACE_LINK_COUNT];      /* the posture then, by the motors */
-    float behind_rad[BRACE_LINK_COUNT];     /* by which the load turns a joint whose measured angle is the link's */
+    float behind_rad[BRACE_LINK_COUNT];     /* how far the load turns a joint whose link's angle is measured */
     brace_displacement_t lever_moved_mm[4]; /* what the load moves the tip by, to both sides of it */
     uint8_t lever_step;
     float start_motor_rad[2], start_link_rad[2];

@@ -64,7 +64,7 @@ typedef struct {
  * a tick is spared two of three joints. At most 300 instructions. */
 void frozen_watch(frozen_t *frozen, const frozen_inputs_t *inputs);
 
-/* No evidence yet; what there was is forgotten. Only what the joints do from now on counts. */
+/* Forgets all evidence against every joint. Only what a joint does after this call counts. */
 void frozen_start(frozen_t *frozen);
 
 /* Is any joint's sensor frozen? */

@@ -46,7 +46,7 @@ LIKELIER_THAN_NOT = 0.5  # an effect that is less likely there than not gets no 
 MOST_UNEXPLAINED = 0.2  # of the torque's standard deviation: a model that leaves more has no name for what it leaves
 ROUNDS_A_GAP = ("soft_middle", "end_stop")
 STOPS = ("backlash", "coulomb_friction")  # what holds the joint somewhere inside a range of angles
-GONE = 1e-3  # of a first step: less than that is nothing
+GONE = 1e-3  # of the first step of a fit: a number smaller than this share counts as zero
 LEAST = 1e-3  # of the swing: a smaller range is below the linearity of encoders and torque cells
 SUREST = 0.99  # one joint's test never makes a name surer than this
 
@@ -168,7 +168,7 @@ def _told(
         exported = by_rows.fit((*found, *own), best)
         others = [*first, *rivals(fitter, by_rows, best, frozenset(term.name for term in found), tried)]
         effects = _named(fitter, by_rows, best, exported, found, others, choice.count, random)
-    own = [term for term in own if not _is_gone(term, best)]  # it only helped an effect that is no longer named
+    own = [term for term in own if not _is_gone(term, best)]  # a lag may have served an effect now unnamed
     others = list({one.label: one for one in reversed(others)}.values())[::-1]
     advance(0.93, "where they disagreed")
     spots = localise(record, base.off_n_mm, random)

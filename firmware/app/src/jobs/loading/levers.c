@@ -6,10 +6,10 @@
 #define ASIDE_RAD 0.01f /* the error of a central difference, a sixth of the square, is below 2e-5 of it */
 
 enum { LISTENED = 50 }; /* ticks whose mean is the load */
-/* First at the posture: twice where a link's angle is measured, because the turn that is found first is that of a motor
- * at the link's angle. Then to both sides of it. */
+/* The rest is worked out at the posture first, then to both sides of it. Where a link's angle is measured, it is worked
+ * out at the posture twice: first with the motor at the link's angle, then with the motor where that rest puts it. */
 enum { AT_POSTURE = 2, PLACES = 6, EVERY = 10 }; /* the test begins 100 or 110 ticks later, and leaves others theirs */
-enum { STRAIGHT = AT_POSTURE * EVERY - 1 };      /* the motors' angles are there, and nothing dear is done */
+enum { STRAIGHT = AT_POSTURE * EVERY - 1 }; /* the motors' angles are known then, and no rest is worked out */
 
 static void take_straight_levers(brace_loading_t *test, const brace_pose_t *pose)
 {
