@@ -195,12 +195,7 @@ INLINE void hold_part(const brace_space_link_t *link, const brace_space_part_t *
     const sym3_t r = held->resists, chord = chord_resists(part->chord_mm, chord_f);
 
     /* Among the part's own turns, and between them and all before. */
-    sym3_t own = r;
-    own.xy = brace_fma(-curl_y, r.xx, r.xy);
-    own.xz = brace_fma(-curl_z, r.xx, r.xz);
-    own.yy = brace_fma(-curl_y, r.xy + own.xy, r.yy);
-    own.yz = brace_fma(-curl_z, own.xy, brace_fma(-curl_y, r.xz, r.yz));
-    own.zz = brace_fma(-curl_z, r.xz + own.xz, r.zz);
+    sym3_t own = own_turns_resist(r, curl_y, curl_z);
     own = sym3_plus_scaled(own, chord, 0.25f);
     own.yy = brace_fma(-part->third_z_rad, half_m.z, brace_fma(link->twelfth_mm * share, f.x, own.yy));
     own.yz = brace_fma(0.5f, brace_fma(part->third_y_rad, half_m.z, part->third_z_rad * half_m.y), own.yz);

@@ -69,6 +69,19 @@ INLINE freedom_t eliminate(held_t *held, vec3_t row, float entry, float rad_per_
     return (freedom_t){follows, yields};
 }
 
+/* How stiffly everything before a link resists the link's own turns. A unit turn about y, or z, also turns the link by
+ * -curl_y, or -curl_z, about x. */
+INLINE sym3_t own_turns_resist(sym3_t r, float curl_y, float curl_z)
+{
+    sym3_t own = r;
+    own.xy = brace_fma(-curl_y, r.xx, r.xy);
+    own.xz = brace_fma(-curl_z, r.xx, r.xz);
+    own.yy = brace_fma(-curl_y, r.xy + own.xy, r.yy);
+    own.yz = brace_fma(-curl_z, own.xy, brace_fma(-curl_y, r.xz, r.yz));
+    own.zz = brace_fma(-curl_z, r.xz + own.xz, r.zz);
+    return own;
+}
+
 INLINE freedom_t eliminate_joint(held_t *held, float rad_per_n_mm, pivots_t *pivots)
 {
     const sym3_t r = held->resists;
@@ -88,14 +101,7 @@ INLINE void eliminate_link(const brace_space_link_t *link, vec3_t turn, const br
     const float by_sideways = bent->by_sideways_mm;
 
     /* Among the link's own turns, and between them and all before. */
-    sym3_t own = r;
-    if (!is_last) {
-        own.xy = brace_fma(-curl_y, r.xx, r.xy);
-        own.xz = brace_fma(-curl_z, r.xx, r.xz);
-        own.yy = brace_fma(-curl_y, r.xy + own.xy, r.yy);
-        own.yz = brace_fma(-curl_z, own.xy, brace_fma(-curl_y, r.xz, r.yz));
-        own.zz = brace_fma(-curl_z, r.xz + own.xz, r.zz);
-    }
+    sym3_t own = is_last ? r : own_turns_resist(r, curl_y, curl_z);
     own = sym3_plus_scaled(own, chord, 0.25f);
     own.yy = brace_fma(link->twelfth_mm, f.x, own.yy);
     own.zz = brace_fma(brace_fma(-2.0f, link->bow_mm.x, by_bend.z), f.x, own.zz);
