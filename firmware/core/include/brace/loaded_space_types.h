@@ -75,8 +75,8 @@ typedef struct {
     brace_loaded_joint_t yaw, hip, knee;  /* as in the load */
 } brace_space_rest_t;
 
-#define BRACE_SPACE_COXA_PARTS 2 /* of which the coxa link is made where its parts matter (loaded/space_parts.h), */
-#define BRACE_SPACE_PARTS 4      /* and the limb */
+#define BRACE_SPACE_COXA_PARTS 2 /* parts of the coxa link, for the buckling factor (loaded/space_parts.h) */
+#define BRACE_SPACE_PARTS 4      /* parts of the whole limb */
 
 /* A part of a link in its frame. Other code must not read its members. */
 typedef struct {
@@ -86,7 +86,7 @@ typedef struct {
     float by_sideways_mm;
     brace_vec_t by_bend_mm;
     brace_vec_t bend_twice_mm;             /* how the chord changes with the square of the turn about z */
-    float third_y_rad, third_z_rad;        /* a third of its turns */
+    float third_y_rad, third_z_rad;        /* a third of the part's turns about y and z */
 } brace_space_part_t;
 
 /* The shape that a limb has at an equilibrium, and the forces there; links: coxa, femur, tibia. Other code must not

@@ -11,13 +11,13 @@
 
 #include "loaded/space_sum.h"
 
-/* Where a link's parts begin in brace_space_shape_t. */
+/* The index of each link's first part in brace_space_shape_t. */
 static const int first_part[BRACE_LINK_COUNT + 1] = {0, BRACE_SPACE_COXA_PARTS, BRACE_SPACE_COXA_PARTS + 1,
                                                      BRACE_SPACE_PARTS};
 
 /* --- the shape ------------------------------------------------------------------------------------------------ */
 
-/* What a frame sees of the loads. */
+/* The loads, in the axes of one frame. */
 typedef struct {
     vec3_t tip_n, down;
 } loads_t;
@@ -159,13 +159,14 @@ INLINE vec3_t in_plane(brace_vec_t v)
     return vec3(v.x, v.z, 0.0f);
 }
 
-/* A spring by which all before it resists less. row: how that is driven by a unit of the spring. */
+/* Adds a spring. Everything before it resists less then. row: the moments on what lies before, for a unit of the
+ * spring's move. */
 INLINE void soften(held_t *held, vec3_t row, float yields)
 {
     sym3_add(&held->resists, row, vec3_scaled(row, -yields));
 }
 
-/* The springs at a link's end: what moves it, the link's axial spring with it, and a twist behind them. */
+/* Adds the springs at a link's end: those that move the end, the link's axial spring among them, and then a twist. */
 INLINE void hold_end(const brace_space_link_t *link, vec3_t end_n, vec3_t end_mm, held_t *held, pivots_t *pivots)
 {
     const float beam = link->curl_per_mm * link->length_mm, twists = 0.5f + link->stretch_end_share;
@@ -179,7 +180,7 @@ INLINE void hold_end(const brace_space_link_t *link, vec3_t end_n, vec3_t end_mm
     held->moment_n_mm = vec3_plus(held->moment_n_mm, vec3_cross(end_mm, end_n));
 }
 
-/* A part and its turns. */
+/* Adds a part and its own turns. */
 INLINE void hold_part(const brace_space_link_t *link, const brace_space_part_t *part, float share, float times,
                       held_t *held, pivots_t *pivots)
 {
@@ -243,7 +244,7 @@ INLINE void hold_part(const brace_space_link_t *link, const brace_space_part_t *
     held_about_y(held, part->about_y);
 }
 
-/* With the load taken so many times. */
+/* The pivots with each force taken `times` times, at the shape that the limb has under its load. */
 static pivots_t pivots_at(const brace_loaded_space_t *loaded, const brace_space_shape_t *shape, float times)
 {
     const brace_space_link_t *const links[BRACE_LINK_COUNT] = {&loaded->coxa, &loaded->femur, &loaded->tibia};
