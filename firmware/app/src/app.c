@@ -8,8 +8,7 @@
 /* Of what must not change, so many words are looked over: all of them in less than 100 ms. */
 #define GUARDED_WORDS_PER_MS 8u
 #define GUARDED_WORDS_MOST 24u /* of the 364 */
-/* In a dear tick a job works out a K, or may do so. At most two of three ticks are dear. */
-#define GUARDED_WORDS_IN_A_DEAR_TICK 2u
+#define GUARDED_WORDS_IN_A_DEAR_TICK 2u /* a job works out a K in it, or may; at most two of three ticks are dear */
 #define LISTENED_US 20000u /* a tick that comes later has not listened meanwhile, and has not moved the limb either */
 #define LATE_PERIODS 3u /* a tick that comes more than three periods after the one before is more than two late */
 
