@@ -40,7 +40,8 @@ class Record:
 
     def __reduce__(self) -> tuple[object, ...]:
         """To another process everything but the player goes, whose memory is the library's: it is made anew."""
-        return _record, (self.dataset, self.channels, self.noise, self.measured, self.sigma, self.zeroed, self.beside_model)
+        readings = (self.measured, self.sigma, self.zeroed, self.beside_model)
+        return _record, (self.dataset, self.channels, self.noise, *readings)
 
     @property
     def rows(self) -> int:

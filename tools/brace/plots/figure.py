@@ -33,7 +33,7 @@ _STYLE: dict[str, object] = {
 }
 
 
-def new_figure(width_in: float, height_in: float, layout: Literal["constrained", "none"] = "constrained") -> Figure:
+def new_figure(width_in: float, height_in: float, layout: Literal["constrained"] | None = "constrained") -> Figure:
     """An empty figure in the house style. Without a layout of its own it needs `place_panels`."""
     from matplotlib.figure import Figure
 

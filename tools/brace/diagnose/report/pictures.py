@@ -32,7 +32,7 @@ def disagreement(view: View, gap: Gap) -> str:
     """The gap by load and branch, by configuration, by time; of the model refitted within its trust, where
     told."""
     with_time = bool(np.isfinite(view.time_s).all()) and np.ptp(view.time_s) > 0
-    figure = new_figure(WIDTH_IN, 3.0, "none")
+    figure = new_figure(WIDTH_IN, 3.0, None)
     columns = 3 if with_time else 2
     place_panels(figure, 1, columns, left_in=Y_LABEL_IN, top_in=TITLE_IN, bottom_in=X_LABEL_IN, beside_in=Y_LABEL_IN)
     panels = figure.subplots(1, columns, sharey=False)
@@ -47,7 +47,7 @@ def loops(view: View) -> str:
     """One run that was fitted and one that was held out, where the believed model did worst: measured,
     believed, corrected."""
     chosen = [(words, _worst_run(view, rows)) for words, rows in _sides(view)]
-    figure = new_figure(WIDTH_IN, 3.6, "none")
+    figure = new_figure(WIDTH_IN, 3.6, None)
     columns = len(chosen)
     place_panels(figure, 1, columns, left_in=Y_LABEL_IN, top_in=TITLE_IN, bottom_in=X_LABEL_IN, beside_in=Y_LABEL_IN)
     panels = figure.subplots(1, columns, squeeze=False)[0]
@@ -76,7 +76,7 @@ def gap(view: View, found: Gap) -> str:
     """Measured less model in the record's order, before above after, fitted beside held out, on the same
     axes."""
     sides = _sides(view)
-    figure = new_figure(WIDTH_IN, 4.4, "none")
+    figure = new_figure(WIDTH_IN, 4.4, None)
     room = {"left_in": Y_LABEL_IN, "top_in": TITLE_IN, "bottom_in": X_LABEL_IN, "beside_in": 0.2, "above_in": TITLE_IN}
     place_panels(figure, 2, len(sides), **room)
     panels: Any = figure.subplots(2, len(sides), sharey=True, squeeze=False, sharex="col")
@@ -107,7 +107,7 @@ def steps(found: Gap) -> str:
     if stages[-1][1] != found.after:
         stages.append(("the model as written", found.after))
     names = [words if len(words) < 60 else words[:57] + "…" for words, _ in stages]
-    figure = new_figure(WIDTH_IN, 0.85 + 0.46 * len(stages), "none")
+    figure = new_figure(WIDTH_IN, 0.85 + 0.46 * len(stages), None)
     left_in = 0.2 + LETTER_IN * max(map(len, names))
     place_panels(figure, 1, 1, left_in=left_in, top_in=TITLE_IN, bottom_in=X_LABEL_IN)
     axes = figure.subplots()
