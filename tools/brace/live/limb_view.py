@@ -8,7 +8,6 @@ from functools import lru_cache
 from typing import TypedDict
 
 from brace.bus.load import Load
-from brace.bus.snapshot import Snapshot
 from brace.bus.watch import NodeState
 from brace.live.card import Card
 from brace.wire.code import CodeTable
