@@ -1,7 +1,7 @@
 /* The clock goes round every 71.6 minutes, at any moment of whatever the controller is at. One scene with all of that
  * in it is played far from that moment, and then across it at many places: whatever the controller tells, orders or
- * answers has to be the same, tick by tick, but for the clock itself. A board shows that at few places, and the sanitized
- * build, whose faults of memory lie in the same code at each place, at every tenth of the host's. */
+ * answers has to be the same, tick by tick, but for the clock itself. A board shows that at few places. The sanitized
+ * build looks for faults of memory, which lie in the same code at each place: it plays every tenth of the host's. */
 #include "can_bench.h"
 #include "loading_bench.h"
 

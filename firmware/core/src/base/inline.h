@@ -1,5 +1,5 @@
-/* For a function that runs a few times a tick, each time with other constants: a controller's compiler fits each call in.
- * A host has time for the calls, and its compiler would take five times as long. */
+/* For a function that runs a few times a tick, each time with other constants: a controller's compiler fits each call
+ * in. A host has time for the calls, and its compiler would take five times as long. */
 #ifndef BRACE_CORE_INLINE_H
 #define BRACE_CORE_INLINE_H
 
