@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import contextlib
 import hashlib
+import importlib
 import importlib.util
 import marshal
 import os
@@ -22,15 +23,14 @@ _DIGEST_BYTES = hashlib.sha256().digest_size
 
 def c_types(roots: Sequence[Path], folders: Sequence[Path]) -> CData:
     """An FFI of the headers `roots` and of all that they include from `folders`."""
-    import _cffi_backend  # here and below, so that a command that computes nothing starts at once
-
+    backend = importlib.import_module("_cffi_backend")  # here, so that a command that computes nothing starts at once
     kept = Path(importlib.util.cache_from_source(__file__)).with_name(f"{roots[0].stem}.{sys.implementation.cache_tag}")
-    digest = _digest(roots, folders, _cffi_backend.__version__)
+    digest = _digest(roots, folders, backend.__version__)
     if code := _read(kept, digest):
         names: dict[str, CData] = {}
         exec(code, names)
         return names["ffi"]
-    from cffi import FFI
+    from cffi import FFI  # which reads C in Python: that is what takes long
 
     ffi = FFI()
     ffi.cdef(cdef.declarations(roots, folders))
