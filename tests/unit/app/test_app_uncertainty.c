@@ -14,7 +14,8 @@ void setUp(void)
 {
     parameters = bench_parameters();
     parameters.gravity = (brace_gravity_t){.direction_rad = -1.57079633f};
-    parameters.limb.uncertainty = (brace_uncertainty_t){.length_mm = 0.3f, .angle_rad = 0.002f, .compliance_rel = 0.03f};
+    parameters.limb.uncertainty =
+        (brace_uncertainty_t){.length_mm = 0.3f, .angle_rad = 0.002f, .compliance_rel = 0.03f};
 }
 
 void tearDown(void) {}
@@ -74,7 +75,8 @@ static float with_spans(float sigma, float from, float to, float or_to)
 static void expect_spans_to(float femur_n_mm, float tibia_n_mm)
 {
     const brace_stiffness_t k = now()->stiffness.engaged;
-    const float femur_told_n_mm = now()->play[BRACE_FEMUR].load_n_mm, tibia_told_n_mm = now()->play[BRACE_TIBIA].load_n_mm;
+    const float femur_told_n_mm = now()->play[BRACE_FEMUR].load_n_mm;
+    const float tibia_told_n_mm = now()->play[BRACE_TIBIA].load_n_mm;
     const brace_stiffness_sigma_t sigma = told(), least = by_parameters();
     const brace_stiffness_t a = k_carrying(femur_n_mm, tibia_told_n_mm), b = k_carrying(femur_told_n_mm, tibia_n_mm);
     const double span = fmax(fabs((double)(a.k_xz_n_per_mm - k.k_xz_n_per_mm)),
@@ -168,7 +170,8 @@ static void test_a_joint_with_play_has_a_mean_of_its_own(void)
 
 static void test_a_spring_that_hardens_does_so_by_the_newest_load(void)
 {
-    parameters.drive[BRACE_FEMUR].hardening_n_mm_per_rad3 = parameters.drive[BRACE_TIBIA].hardening_n_mm_per_rad3 = 2e7f;
+    parameters.drive[BRACE_FEMUR].hardening_n_mm_per_rad3 = 2e7f;
+    parameters.drive[BRACE_TIBIA].hardening_n_mm_per_rad3 = 2e7f;
     start_carrying(-2000.0f, 1500.0f);
     fake.joint[BRACE_FEMUR].sample.torque_n_mm = -5000.0f;
     fake.joint[BRACE_TIBIA].sample.torque_n_mm = 3500.0f;
@@ -177,7 +180,7 @@ static void test_a_spring_that_hardens_does_so_by_the_newest_load(void)
 }
 
 /* A load that has come moves the motor before its torque grows: what it carries is the torque less what its own inertia
- * takes. A tick that is longer by 8e-5 rad than the one before is one of 80 rad/s2, and 4,000 N mm of 50 N mm s2/rad. */
+ * takes. A tick's way that is longer by 8e-5 rad than the one before tells 80 rad/s2: 4,000 N mm of 50 N mm s2/rad. */
 static void test_what_accelerates_a_motor_is_load_too(void)
 {
     parameters.drive[BRACE_FEMUR].motor_inertia_n_mm_s2_per_rad = 50.0f;
@@ -228,7 +231,8 @@ static void test_a_load_by_fewer_than_five_samples_leaves_all_open(void)
         fake.joint[BRACE_TIBIA].not_newer = is_out;
         ticks(1);
         in_a_row = is_out && !app.controller.joints.joint[BRACE_TIBIA].sound ? 0 : in_a_row + (is_out ? 0 : 1);
-        TEST_ASSERT_EQUAL(in_a_row < 3, isnan(app.controller.joints.joint[BRACE_TIBIA].carries_n_mm[0]) || in_a_row == 0);
+        const float carries_n_mm = app.controller.joints.joint[BRACE_TIBIA].carries_n_mm[0];
+        TEST_ASSERT_EQUAL(in_a_row < 3, isnan(carries_n_mm) || in_a_row == 0);
         if (now()->k_is_valid) {
             TEST_ASSERT_EQUAL(in_a_row < 5, isinf(told().k_xx_n_per_mm) != 0);
             endless += in_a_row < 5 ? 1 : 0;

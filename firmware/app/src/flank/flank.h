@@ -42,9 +42,9 @@ void flank_expect_load(brace_backlash_sample_t *sample, int index, const tip_for
 
 /* How far the load that is told of a joint, which is a mean, may be from what the joint carries now [N mm]: the root
  * mean square of how far the newest three samples are from that mean, with the newest one's sign. NaN: not known.
- * One sample alone would be near the mean too often while the load is elsewhere, because of its noise. Three are as many
- * as may be: a load that changes by D in the newest sample alone makes D / sqrt(3). Taken as the bound of a span, that
- * has a sigma of D / 3, and three sigmas hold all of D. */
+ * One sample alone would be near the mean too often while the load is elsewhere, because of its noise. Three are as
+ * many as may be: a load that changes by D in the newest sample alone makes D / sqrt(3). Taken as the bound of a span,
+ * that has a sigma of D / 3, and three sigmas hold all of D. */
 float flank_lag_n_mm(const flank_t *flank, const joints_t *joints, int index);
 
 /* Joints whose gap is open or may be, as bits 1 << joint. */
