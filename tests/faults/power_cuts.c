@@ -3,7 +3,6 @@
  * set or the new one, whole, say which, and go on as if nothing had been.
  *
  *   power_cuts              single failures with units of 1, 2, 4, 8 bytes; pairs of failures with units of 8
- *   power_cuts --single     the single ones only
  *   power_cuts --in-turn    the single ones only; each step fails in one manner, the next step in the next manner
  *   power_cuts --broken     for a store broken on purpose; exit code 0 when the enumeration finds the mistake. It tries
  *                           each step in one manner first, because most mistakes show there, and then in every manner.
@@ -407,11 +406,10 @@ static void enumerate_pairs(void)
 
 int main(int argc, char **argv)
 {
-    const bool single = argc == 2 && strcmp(argv[1], "--single") == 0;
     const bool single_in_turn = argc == 2 && strcmp(argv[1], "--in-turn") == 0;
     expect_broken = argc == 2 && strcmp(argv[1], "--broken") == 0;
-    if (argc > 2 || (argc == 2 && !single && !single_in_turn && !expect_broken)) {
-        fprintf(stderr, "usage: power_cuts [--single | --in-turn | --broken]\n");
+    if (argc > 2 || (argc == 2 && !single_in_turn && !expect_broken)) {
+        fprintf(stderr, "usage: power_cuts [--in-turn | --broken]\n");
         return 2;
     }
     make_sets();
@@ -427,9 +425,7 @@ int main(int argc, char **argv)
         in_turn = false;
     }
     enumerate_single();
-    if (!single) {
-        enumerate_pairs();
-    }
+    enumerate_pairs();
     if (expect_broken) {
         printf("power_cuts: a store broken on purpose was not found out\n");
         return 1;

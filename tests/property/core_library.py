@@ -17,7 +17,7 @@ FLAGS = ["-std=c11", "-O2", "-ffp-contract=off", "-fno-math-errno", "-fPIC", "-s
 
 def core_library() -> ctypes.CDLL:
     """The library, from $BRACE_CORE_LIBRARY. Without it the drivers are compiled into a temporary folder and joined to
-    the core of the host build; $CC, or no such build, has the core compiled too, which takes 20 s."""
+    the core of the host build; $CC, or no such build, has the core compiled too."""
     given = os.environ.get("BRACE_CORE_LIBRARY")
     if given:
         return ctypes.CDLL(given)

@@ -61,7 +61,7 @@ def add(commands: Subcommands) -> None:
         "--jobs",
         type=common.count(1, 256),
         metavar="N",
-        help="several datasets: processes; default one a core",
+        help="processes at once; default one a core; a single dataset uses two at most",
     )
     parser.add_argument(
         "--scheduler", metavar="ADDRESS", help="several datasets: a Dask cluster's, tcp://HOST:8786, instead"
@@ -80,6 +80,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _run_one(arguments: argparse.Namespace) -> int:
+    from brace.diagnose.beside import cores
     from brace.diagnose.one import diagnosed, load, model_of
     from brace.diagnose.options import Options
     from brace.diagnose.write import REPORT, check_folder, write
@@ -89,7 +90,8 @@ def _run_one(arguments: argparse.Namespace) -> int:
     inputs = (folder / "meta.toml", folder / "data.csv", *([model] if model else []))
     check_folder(arguments.out, inputs)  # before the work, not after
     given = load(folder, model)
-    options = Options(seed=arguments.seed, faults=arguments.faults, take=arguments.take)
+    processes = arguments.jobs or cores()
+    options = Options(seed=arguments.seed, faults=arguments.faults, take=arguments.take, processes=processes)
     with common.progress("diagnosing", _PERCENT) as advance:
         found, written = diagnosed(
             given, options, lambda share, doing: advance(round(_PERCENT * share), doing)

@@ -65,6 +65,7 @@ def _outcomes(arguments: argparse.Namespace, jobs: list[Job]) -> Iterator[Outcom
         from brace.diagnose.fleet.cluster import run_on_cluster
 
         return run_on_cluster(jobs, arguments.scheduler)
-    from brace.diagnose.fleet.local import cores, run_local
+    from brace.diagnose.beside import cores
+    from brace.diagnose.fleet.local import run_local
 
     return run_local(jobs, arguments.jobs or cores())

@@ -17,8 +17,9 @@ def silent(_share: float, _doing: str) -> None:
 class Options:
     """`seed` fixes every random draw; `faults` is what to do about faulty entries that have one repair: "repair" says
     so and goes on to physics where the fault is one that the record itself corrects, "stop" ends at the fault. `take`
-    is the member of an ambiguous verdict whose limb is exported."""
+    is the member of an ambiguous verdict whose limb is exported; `processes` may work at once."""
 
     seed: int = 0
     faults: str = "repair"
     take: str | None = None
+    processes: int = 1

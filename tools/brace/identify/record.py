@@ -38,6 +38,11 @@ class Record:
     zeroed: tuple[int, ...] = ()
     beside_model: np.ndarray | None = None
 
+    def __reduce__(self) -> tuple[object, ...]:
+        """To another process everything but the player goes, whose memory is the library's: it is made anew."""
+        readings = (self.measured, self.sigma, self.zeroed, self.beside_model)
+        return _record, (self.dataset, self.channels, self.noise, *readings)
+
     @property
     def rows(self) -> int:
         return self.dataset.rows
@@ -121,28 +126,25 @@ class Record:
         """The same readings, played on a limb that does not turn: ten times as fast."""
         if self.dataset.small_displacements:
             return self
-        dataset = replace(self.dataset, small_displacements=True)
-        player = player_of(dataset, self.channels, zeroed=dataset.meta.zeroed_per_run)
-        return replace(self, dataset=dataset, player=player)
+        return self._played_from(replace(self.dataset, small_displacements=True))
 
     def moved_by(self, x_mm: float, z_mm: float) -> Record:
         """The same readings at displacements that are all larger by so much."""
         columns = dict(self.dataset.columns)
         columns |= {"dx_mm": columns["dx_mm"] + x_mm, "dz_mm": columns["dz_mm"] + z_mm}
-        dataset = replace(self.dataset, columns=columns)
-        player = player_of(dataset, self.channels, zeroed=dataset.meta.zeroed_per_run)
-        return replace(self, dataset=dataset, player=player)
+        return self._played_from(replace(self.dataset, columns=columns))
+
+    def _played_from(self, dataset: Dataset) -> Record:
+        return replace(self, dataset=dataset, player=_player(dataset, self.channels))
 
     def select(self, keep: np.ndarray) -> Record:
         """The rows where `keep` is true, with the same noise."""
-        part = self.dataset.select(keep)
-        return Record(
-            part,
+        return _record(
+            self.dataset.select(keep),
             self.channels,
             self.noise,
             self.measured[:, keep],
             self.sigma[:, keep],
-            player_of(part, self.channels, zeroed=part.meta.zeroed_per_run),
             self.zeroed,
             None if self.beside_model is None else self.beside_model[:, keep],
         )
@@ -189,8 +191,24 @@ def load_record(dataset: Dataset) -> Record:
     measured = np.stack([np.asarray(dataset[name], float) for name in channels])
     sigma = np.stack([sigma_of(noise[name], values) for name, values in zip(channels, measured)])
     measured = np.nan_to_num(measured, nan=0.0)
-    player = player_of(dataset, channels, zeroed=dataset.meta.zeroed_per_run)
-    return Record(dataset, channels, noise, measured, sigma, player, _zeroed(dataset, channels))
+    return _record(dataset, channels, noise, measured, sigma, _zeroed(dataset, channels))
+
+
+def _record(
+    dataset: Dataset,
+    channels: tuple[str, ...],
+    noise: dict[str, ChannelNoise],
+    measured: np.ndarray,
+    sigma: np.ndarray,
+    zeroed: tuple[int, ...] = (),
+    beside_model: np.ndarray | None = None,
+) -> Record:
+    """With a player of its own."""
+    return Record(dataset, channels, noise, measured, sigma, _player(dataset, channels), zeroed, beside_model)
+
+
+def _player(dataset: Dataset, channels: Sequence[str]) -> LoadingBatchPlayer:
+    return player_of(dataset, channels, zeroed=dataset.meta.zeroed_per_run)
 
 
 def _zeroed(dataset: Dataset, channels: Sequence[str]) -> tuple[int, ...]:

@@ -6,8 +6,6 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
-import numpy as np
-
 from brace.errors import BraceError
 from brace.model import LimbModel
 from brace.stiffness import PlanarLimb, PostureError, planar_limb
@@ -46,7 +44,7 @@ class Card:
             return None
         if math.dist(self._at_rad, (theta1_rad, theta2_rad)) > MOVED_RAD:
             self._at_rad = (theta1_rad, theta2_rad)
-            self._relative = _relative_sigmas(self._limb, theta1_rad, theta2_rad)
+            self._relative = self._limb.relative_sigmas(theta1_rad, theta2_rad)
         return self._relative
 
 
@@ -64,12 +62,3 @@ def card_from(ask: Callable[[], LimbModel]) -> Card:
         return card_of(ask())
     except BraceError as error:
         return Card(why_not=str(error))
-
-
-def _relative_sigmas(limb: PlanarLimb, theta1_rad: float, theta2_rad: float) -> Sigmas | None:
-    sigma = limb.sigma(theta1_rad, theta2_rad)
-    if not sigma:
-        return None
-    k = limb.stiffness(np.array([theta1_rad]), np.array([theta2_rad]))[0]
-    least, most = (sigma[f"sigma_{name}"] / float(k[name]) for name in ("lambda_min_n_per_mm", "lambda_max_n_per_mm"))
-    return least, most

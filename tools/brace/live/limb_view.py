@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
+from functools import lru_cache
 from typing import TypedDict
 
 from brace.bus.load import Load
-from brace.bus.snapshot import Snapshot
 from brace.bus.watch import NodeState
 from brace.live.card import Card
 from brace.wire.code import CodeTable
@@ -16,6 +16,7 @@ from brace.wire.layout import Value
 
 SILENT_S = 2.0  # a heartbeat comes each second
 LOAD_LATE_S = 2.0  # it may come more seldom than K
+_KNOWN_MOST = 64  # sets of states whose words are kept: they hardly change, and are sent thirty times a second
 _SHORT = "%.6g"  # as many digits as a frame carries: a page is sent thirty times a second
 
 _NO_LOAD_SENT = "not sent: controller.load_hz is 0"
@@ -117,11 +118,11 @@ def limb_view(node: int, state: NodeState, card: Card, now_s: float) -> LimbView
         "lambda_space_n_per_mm": None if space is None else _short(space.eigenvalues),
         "load": _load_view(load),
         "load_why": _NO_LOAD_SENT if load is None else "" if load.is_counted else _NO_LOAD_COUNTED,
-        "play": _play(k, None if space is None else space.play_coxa, card),
+        "play": _play("" if space is None else space.play_coxa, () if k is None else k.play, card.tight_joints),
         "mode": mode,
         "mode_text": _text(MODE, mode.upper()),
-        "faults": _said(FAULT, told.faults if told is not None else ()),
-        "flags": _said(FLAG, k.flags if k is not None else ()),
+        "faults": _faults(told.faults if told is not None else ()),
+        "flags": _flags(k.flags if k is not None else ()),
     }
 
 
@@ -144,18 +145,25 @@ def _load_view(load: Load | None) -> LoadView | None:
     }
 
 
-def _play(k: Snapshot | None, coxa: str | None, card: Card) -> list[Play]:
-    states = [] if coxa is None else [("coxa", coxa)]
-    states += zip(("femur", "tibia"), k.play if k is not None else (), strict=False)
+@lru_cache(maxsize=_KNOWN_MOST)
+def _play(coxa: str, femur_and_tibia: tuple[str, ...], tight_joints: frozenset[str]) -> list[Play]:
+    states = [] if not coxa else [("coxa", coxa)]
+    states += zip(("femur", "tibia"), femur_and_tibia, strict=False)
     return [
         {"joint": joint, "state": state, "text": _PLAY_WORDS.get(state, state)}
         for joint, state in states
-        if joint not in card.tight_joints
+        if joint not in tight_joints
     ]
 
 
-def _said(table: CodeTable, names: Iterable[str]) -> list[Said]:
-    return [{"name": name.upper(), "text": _text(table, name.upper())} for name in names]
+@lru_cache(maxsize=_KNOWN_MOST)
+def _faults(names: tuple[str, ...]) -> list[Said]:
+    return [{"name": name.upper(), "text": _text(FAULT, name.upper())} for name in names]
+
+
+@lru_cache(maxsize=_KNOWN_MOST)
+def _flags(names: tuple[str, ...]) -> list[Said]:
+    return [{"name": name.upper(), "text": _text(FLAG, name.upper())} for name in names]
 
 
 def _text(table: CodeTable, name: str) -> str:

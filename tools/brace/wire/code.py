@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 
 @dataclass(frozen=True)
@@ -35,6 +35,14 @@ class CodeTable:
 
     def names_of_bits(self, bits: int) -> tuple[str, ...]:
         """The names of the bits that are set; a bit without a name is told by its place."""
+        return self._names_of_bits(bits)
+
+    @cached_property
+    def _names_of_bits(self) -> Callable[[int], tuple[str, ...]]:
+        """Keeps the last answers: a controller says the same bits a hundred times a second."""
+        return lru_cache(maxsize=64)(self._look_up_bits)
+
+    def _look_up_bits(self, bits: int) -> tuple[str, ...]:
         found = ((place, self._by_number.get(place)) for place in range(bits.bit_length()) if bits >> place & 1)
         return tuple(f"BIT_{place}" if code is None else code.name for place, code in found)
 

@@ -14,11 +14,6 @@ from brace import one_thread
 from brace.diagnose.fleet.job import Job, Outcome, lost, run_job
 
 
-def cores() -> int:
-    """Processors that this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-
-
 def run_local(jobs: Sequence[Job], processes: int) -> Iterator[Outcome]:
     """Outcomes as they come. When a process dies (out of memory, say) all that were under way are tried
     again, one at a time, so that only the one that kills its process is lost."""

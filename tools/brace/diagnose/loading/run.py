@@ -9,6 +9,7 @@ import numpy as np
 
 from brace.dataset import Dataset
 from brace.dataset.enough import enough_rows
+from brace.diagnose.beside import beside
 from brace.diagnose.diagnosis import Diagnosis
 from brace.diagnose.loading import outcome
 from brace.diagnose.loading.choose import LabelSet, posterior_of
@@ -26,7 +27,7 @@ from brace.diagnose.loading.search import Hypothesis, Search
 from brace.diagnose.loading.space import Trust, trust_of
 from brace.diagnose.loading.structure import structure_of
 from brace.diagnose.loading.verdict import decide
-from brace.diagnose.options import Advance, Options
+from brace.diagnose.options import Advance, Options, silent
 from brace.effects import Variant, all_variants
 from brace.errors import UsageError
 from brace.identify.turning import settled
@@ -59,14 +60,31 @@ def diagnose_loading(
     record = whole if enough.all() else whole.select(enough)
     variants = all_variants(setting_of(record, believed))
     locked = locked_rows(record.dataset)
-    twin = None
-    if locked.any():
-        twin = search_pass(
-            record.select(~locked), trust, variants, lambda share, doing: advance(0.05 + 0.4 * share, doing)
-        )
-    final = search_pass(record, trust, variants, lambda share, doing: advance(0.45 + 0.45 * share, doing))
+    twin, final = _searches(record, locked, trust, variants, options.processes, advance)
     advance(0.92, "what to measure next")
     return outcome.diagnosis_of(whole, record, locked, believed, final, twin, options)
+
+
+def _searches(
+    record: Record, locked: np.ndarray, trust: Trust, variants: Sequence[Variant], processes: int, advance: Advance
+) -> tuple[Pass | None, Pass]:
+    """The twin's pass over the rows that are not locked, None where all would be left, and the pass over all of them.
+    Neither knows of the other, so that a second process may do the twin's."""
+
+    def over_all() -> Pass:
+        return search_pass(record, trust, variants, lambda share, doing: advance(0.05 + 0.45 * share, doing))
+
+    if not locked.any():
+        return None, over_all()
+    seen = record.select(~locked)
+    with beside(
+        lambda: search_pass(seen, trust, variants, silent),
+        lambda: search_pass(seen, trust, variants, lambda share, doing: advance(0.5 + 0.4 * share, doing)),
+        processes,
+    ) as twin:
+        final = over_all()
+        advance(0.5, "searching again without the postures that are held out")
+        return twin(), final
 
 
 def search_pass(record: Record, trust: Trust, variants: Sequence[Variant], advance: Advance) -> Pass:

@@ -11,12 +11,15 @@ import numpy as np
 from brace.diagnose.diagnosis import Gap
 from brace.diagnose.plain_words import number, unit
 from brace.diagnose.report.views import View
-from brace.plots.figure import FAINT, INK, MODEL, SOFT, STIFF, new_figure, svg_bytes
+from brace.plots.figure import FAINT, INK, MODEL, SOFT, STIFF, new_figure, place_panels, svg_bytes
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+WIDTH_IN = 9.4
+Y_LABEL_IN, X_LABEL_IN, TITLE_IN = 0.85, 0.5, 0.32  # with the numbers at the ticks
+LETTER_IN = 0.073  # of the house's letters, a wide one
 POINTS = 1400  # drawn in one panel at most
 LOOP_POINTS = 400
 BEFORE, AFTER, FLOOR = STIFF, SOFT, FAINT
@@ -29,8 +32,10 @@ def disagreement(view: View, gap: Gap) -> str:
     """The gap by load and branch, by configuration, by time; of the model refitted within its trust, where
     told."""
     with_time = bool(np.isfinite(view.time_s).all()) and np.ptp(view.time_s) > 0
-    figure = new_figure(9.4, 3.0)
-    panels = figure.subplots(1, 3 if with_time else 2, sharey=False)
+    figure = new_figure(WIDTH_IN, 3.0, None)
+    columns = 3 if with_time else 2
+    place_panels(figure, 1, columns, left_in=Y_LABEL_IN, top_in=TITLE_IN, bottom_in=X_LABEL_IN, beside_in=Y_LABEL_IN)
+    panels = figure.subplots(1, columns, sharey=False)
     _by_load(panels[0], view, gap)
     _by_group(panels[1], view, gap)
     if with_time:
@@ -42,8 +47,10 @@ def loops(view: View) -> str:
     """One run that was fitted and one that was held out, where the believed model did worst: measured,
     believed, corrected."""
     chosen = [(words, _worst_run(view, rows)) for words, rows in _sides(view)]
-    figure = new_figure(9.4, 3.6)
-    panels = figure.subplots(1, len(chosen), squeeze=False)[0]
+    figure = new_figure(WIDTH_IN, 3.6, None)
+    columns = len(chosen)
+    place_panels(figure, 1, columns, left_in=Y_LABEL_IN, top_in=TITLE_IN, bottom_in=X_LABEL_IN, beside_in=Y_LABEL_IN)
+    panels = figure.subplots(1, columns, squeeze=False)[0]
     for axes, (words, rows) in zip(panels, chosen, strict=True):
         rows = rows[_thin(len(rows), LOOP_POINTS)]
         x = view.imposed[rows]
@@ -69,7 +76,9 @@ def gap(view: View, found: Gap) -> str:
     """Measured less model in the record's order, before above after, fitted beside held out, on the same
     axes."""
     sides = _sides(view)
-    figure = new_figure(9.4, 4.4)
+    figure = new_figure(WIDTH_IN, 4.4, None)
+    room = {"left_in": Y_LABEL_IN, "top_in": TITLE_IN, "bottom_in": X_LABEL_IN, "beside_in": 0.2, "above_in": TITLE_IN}
+    place_panels(figure, 2, len(sides), **room)
     panels: Any = figure.subplots(2, len(sides), sharey=True, squeeze=False, sharex="col")
     limit = 1.08 * float(np.nanmax(np.abs(view.before[np.isfinite(view.before)]), initial=found.noise_floor))
     limit = max(limit, 3.2 * found.noise_floor, 1e-12)
@@ -97,7 +106,10 @@ def steps(found: Gap) -> str:
     stages = [("the model as given", found.before), *((step.added, step.gap) for step in found.steps)]
     if stages[-1][1] != found.after:
         stages.append(("the model as written", found.after))
-    figure = new_figure(9.4, 0.75 + 0.46 * len(stages))
+    names = [words if len(words) < 60 else words[:57] + "…" for words, _ in stages]
+    figure = new_figure(WIDTH_IN, 0.85 + 0.46 * len(stages), None)
+    left_in = 0.2 + LETTER_IN * max(map(len, names))
+    place_panels(figure, 1, 1, left_in=left_in, top_in=TITLE_IN, bottom_in=X_LABEL_IN)
     axes = figure.subplots()
     at = np.arange(len(stages))[::-1]
     held = [pair.held_out for _, pair in stages]
@@ -111,7 +123,7 @@ def steps(found: Gap) -> str:
     axes.set_title(
         f"noise floor {number(found.noise_floor)} {unit(found.unit)}, dashed", loc="left", fontsize=9.5
     )
-    axes.set_yticks(at, [words if len(words) < 60 else words[:57] + "…" for words, _ in stages])
+    axes.set_yticks(at, names)
     axes.set_xlabel(f"rms of measured − model [{unit(found.unit)}]")
     axes.grid(False, axis="y")
     axes.margins(x=0.08)
