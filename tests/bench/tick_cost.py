@@ -6,7 +6,6 @@ Calls of the hardware layer count as one instruction each, the call: what is beh
 
 import subprocess
 import sys
-from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -18,13 +17,15 @@ sys.path.insert(0, str(BENCH))
 from emulate import RUN_IMAGE, build_plugin  # noqa: E402
 from extra import Extra  # noqa: E402
 from limits import Check  # noqa: E402
-from toolchain import (BOARDS, BUILD, CORE, CORE_FLAGS, M3, M4F, PREFIX, Processor, compile_source,  # noqa: E402
-                       link_image, run, symbol_address)
+from fetch import ROOT, Missing  # noqa: E402
+from toolchain import (BOARDS, BUILD, CORE, M3, M4F, PREFIX, Processor, compile_source, link_image, run,  # noqa: E402
+                       symbol_address)
 
 TICK_LIMIT = 12_000  # instructions, of a limb in its plane,
 SPACE_LIMIT = 16_000  # and of one in space
 TICK_COUNT = 1_000_000
 FUNCTION = "brace_app_tick"
+BUILDS = {M4F.name: "m4f", M3.name: "m3"}
 
 KINDS = {"M": "monitor", "T": "taking up", "L": "loading test", "R": "loading test: a reading, with the drift check",
          "J": "loading test: its slopes", "K": "loading test: slopes against the model",
@@ -61,31 +62,24 @@ class TickCost:
         return self.maximum <= TICK_LIMIT and self.space_maximum <= SPACE_LIMIT
 
 
-def _sources(ticks: int) -> Iterator[tuple[Path, tuple[str, ...]]]:
-    """Sources of the image, and their flags: those of the firmware's own build."""
-    firmware = CORE.parent
-    for folder in ("core/src", "interface/src", "interface/generated", "store/src", "app/src"):
-        flags = (*CORE_FLAGS, "-O3") if folder == "app/src" else CORE_FLAGS
-        yield from ((path, flags) for path in sorted((firmware / folder).rglob("*.c")) if "batch" not in path.parts)
-    harness = ("-O2", f"-DTICKS={ticks}", "-fno-function-sections", "-fno-tree-loop-distribute-patterns")
-    yield from ((path, harness) for path in sorted((BENCH / "tick").glob("*.c")) if path.name != "count_ticks.c")
-    yield BOARDS / "common" / "startup.c", harness
-
-
 def build_image(ticks: int, processor: Processor = M4F) -> Path:
-    """The image."""
+    """The image: the harness, and the firmware's own libraries as ./dev setup builds them."""
+    built = ROOT / "build" / BUILDS[processor.name]
+    libraries = [built / "firmware" / name / f"libbrace_{name}.a" for name in ("app", "store", "interface", "core")]
+    if lacking := [library for library in libraries if not library.is_file()]:
+        raise Missing(f"{lacking[0].relative_to(ROOT)} is not built; try ./dev setup")
     firmware = CORE.parent
     includes = tuple(f"-I{folder}" for folder in (
         firmware / "app" / "include", firmware / "app" / "src", firmware / "store" / "include",
         firmware / "interface" / "include",
-        firmware / "interface" / "generated", firmware / "interface" / "src", BENCH.parents[1] / "hal" / "include"))
-    objects = []
-    for source, flags in _sources(ticks):
-        name = "_".join(source.relative_to(BENCH.parents[1]).parts)
-        objects.append(compile_source(source, BUILD / "objects" / f"tick {processor.name}" / f"{name}.o", processor,
-                                      (*flags, *includes)))
+        firmware / "interface" / "generated", firmware / "interface" / "src", ROOT / "hal" / "include"))
+    flags = ("-O2", f"-DTICKS={ticks}", "-fno-function-sections", "-fno-tree-loop-distribute-patterns", *includes)
+    harness = [path for path in sorted((BENCH / "tick").glob("*.c")) if path.name != "count_ticks.c"]
+    folder = BUILD / "objects" / f"tick {processor.name}"
+    objects = [compile_source(source, folder / f"{source.stem}.o", processor, flags)
+               for source in (*harness, BOARDS / "common" / "startup.c")]
     (BUILD / "images").mkdir(parents=True, exist_ok=True)
-    return link_image(objects, BUILD / "images" / f"tick_{processor.name}.elf", processor)
+    return link_image([*objects, *libraries], BUILD / "images" / f"tick_{processor.name}.elf", processor)
 
 
 def _door(image: Path) -> tuple[int, int]:

@@ -116,7 +116,7 @@ class _Unit:
         for at in self.source.tree.ext:
             if isinstance(at, c_ast.FuncDef):
                 self._function(at)
-            else:
+            elif isinstance(at, c_ast.Decl) and at.init is not None:
                 self.locals = {}
                 self._puts(at, "")
             if isinstance(at, c_ast.Typedef) and at.name == "brace_hal_t":

@@ -294,8 +294,9 @@ class Function:
     def _own_comments(self) -> str:
         """What stands before this function, wherever it is declared; and its own line's arguments."""
         own = re.escape(self.node.decl.name)
-        return "\n".join(match[0] for match in re.finditer(
-            rf"(?:/\*(?:(?!\*/).)*?\*/\s*\n)?[^\n;{{}}]*\b{own}\((?:(?!\)[;\s]).)*\)", self.source.documents, re.S))
+        # begun only where a declaration begins: from every letter of a line it would take half a second a file
+        shown = rf"(?:/\*(?:(?!\*/).)*?\*/\s*\n)?(?<![^\n;{{}}])[^\n;{{}}]*\b{own}\((?:(?!\)[;\s]).)*\)"
+        return "\n".join(match[0] for match in re.finditer(shown, self.source.documents, re.S))
 
     def _documented(self, name: str, is_member: bool = False) -> bool:
         """Its range stands where it is declared, or it is a byte."""

@@ -37,14 +37,16 @@ def _run(*command: str | Path) -> str:
 
 def library_findings(objects: Iterable[tuple[Path, Path]]) -> list[Finding]:
     """Of (source, object) pairs: forbidden functions that the object refers to."""
+    sources = {str(compiled): source for source, compiled in objects}
     found = []
-    for source, compiled in objects:
-        for line in _run(CROSS + "nm", "-u", compiled).splitlines():
-            name = line.split()[-1]
-            if why := forbidden(name):
-                text = source.read_text().splitlines()
-                at = next((i for i, row in enumerate(text, 1) if re.search(rf"\b{re.escape(name)}\b", row)), 1)
-                found.append(Finding(source, at, LIBRARY, f"{name}: {why}"))
+    listed = _run(CROSS + "nm", "-u", "--print-file-name", *sources) if sources else ""
+    for line in listed.splitlines():
+        name = line.split()[-1]
+        if why := forbidden(name):
+            source = sources[line.rpartition(":")[0]]
+            text = source.read_text().splitlines()
+            at = next((i for i, row in enumerate(text, 1) if re.search(rf"\b{re.escape(name)}\b", row)), 1)
+            found.append(Finding(source, at, LIBRARY, f"{name}: {why}"))
     return found
 
 

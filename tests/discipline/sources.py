@@ -11,7 +11,7 @@ import subprocess
 import tempfile
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cache, cached_property
 from pathlib import Path
 
 from pycparser import c_ast, c_parser
@@ -31,6 +31,9 @@ typedef int uint_fast8_t; typedef unsigned long uintmax_t; typedef long intmax_t
 """
 ASSEMBLY = re.compile(r"\b(?:__asm__|__asm|asm)\b\s*(?:volatile|__volatile__)?\s*(?=\()")
 RANGE_INITIALISER = re.compile(r"\[(\s*\w+\s*)\.\.\.[^\]]*\]")
+LINE_MARKER = re.compile(r'^(?=# \d+ ")', re.M)
+QUOTED = re.compile(r'"(?:\\.|[^"\\])*"|\'(?:\\.|[^\'\\])*\'')
+WORD = re.compile(r"[A-Za-z_]\w*")
 SYSTEM_INCLUDE = re.compile(r"#\s*include\s*<([^>]+)>")
 COMMENT = re.compile(r"/\*.*?\*/|//[^\n]*", re.S)
 PROJECT_INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.M)
@@ -146,17 +149,50 @@ def parse(source: Source) -> c_ast.FileAST:
     if done.returncode != 0:
         said = done.stderr.strip().splitlines()
         raise Unreadable(next((line for line in said if "error" in line), said[-1]))
-    text = RANGE_INITIALISER.sub(r"[\1]", without_assembly(done.stdout))
     try:
-        return c_parser.CParser().parse(text, str(source.path))
+        return c_ast.FileAST(_declarations(done.stdout))
     except Exception as error:  # pycparser's ParseError has moved between its versions
         raise Unreadable(f"{source.path}: {error}") from error
+
+
+def _declarations(preprocessed: str) -> list[c_ast.Node]:
+    """Of a translation unit, piece by piece: what the headers say is the same in most units, and parsed once."""
+    found: list[c_ast.Node] = []
+    types: set[str] = set()
+    piece = ""
+    for part in LINE_MARKER.split(preprocessed):
+        piece += part
+        if _is_whole(piece):
+            for node in _parsed(piece, tuple(sorted(types.intersection(WORD.findall(piece))))):
+                found.append(node)
+                if isinstance(node, c_ast.Typedef):
+                    types.add(node.name)
+            piece = ""
+    return found + _parsed(piece, tuple(sorted(types)))
+
+
+@cache
+def _is_whole(piece: str) -> bool:
+    """It ends where a declaration ends."""
+    code = QUOTED.sub("", re.sub(r"^#.*", "", piece, flags=re.M)).rstrip()
+    return code.count("{") == code.count("}") and code.count("(") == code.count(")") and code[-1:] in ("", ";", "}")
+
+
+@cache
+def _parsed(piece: str, types: tuple[str, ...]) -> list[c_ast.Node]:
+    """The declarations of a piece in which these names are types."""
+    text = RANGE_INITIALISER.sub(r"[\1]", without_assembly(piece))
+    known = "".join(f"typedef int {name};\n" for name in types)
+    return list(c_parser.CParser().parse(known + text).ext[len(types):])
+
+
+words_of = cache(shlex.split)
 
 
 def build_commands(build: Path) -> dict[Path, list[str]]:
     """Source -> compiler flags that matter, from CMake's compile_commands.json."""
     listed = json.loads((build / "compile_commands.json").read_text())
-    return {Path(entry["file"]): [flag for flag in shlex.split(entry["command"]) if flag[:2] in ("-I", "-D", "-m")]
+    return {Path(entry["file"]): [flag for flag in words_of(entry["command"]) if flag[:2] in ("-I", "-D", "-m")]
             for entry in listed}
 
 
@@ -164,7 +200,7 @@ def build_objects(build: Path) -> list[tuple[Path, Path]]:
     """Every (source under firmware/ or hal/, object) that the build has made."""
     pairs = []
     for entry in json.loads((build / "compile_commands.json").read_text()):
-        words = shlex.split(entry["command"])
+        words = words_of(entry["command"])
         source, compiled = Path(entry["file"]), build / words[words.index("-o") + 1]
         if any(source.is_relative_to(ROOT / folder) for folder in FOLDERS) and compiled.is_file():
             pairs.append((source, compiled))

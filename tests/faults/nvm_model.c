@@ -49,7 +49,6 @@ static void interrupt(nvm_t *nvm, uint32_t slot, uint32_t offset, const uint8_t 
         if (nvm->manner >= CUT_UNSTABLE) {
             nvm->after[slot][at] = after[i];
             nvm->unstable[slot][at] = (uint8_t)nvm->manner;
-            nvm->any_unstable = true;
         } else if (nvm->manner == CUT_ZEROS) {
             *byte = 0;
         } else if (nvm->manner == CUT_NOISE) {
@@ -72,6 +71,8 @@ static bool fails_now(nvm_t *nvm)
     return --nvm->steps_left == 0;
 }
 
+static const uint8_t all_stable[NVM_SLOT_BYTES];
+
 static int32_t nvm_read(void *context, uint32_t slot, uint32_t offset, uint8_t *bytes, uint32_t count)
 {
     nvm_t *nvm = context;
@@ -83,7 +84,7 @@ static int32_t nvm_read(void *context, uint32_t slot, uint32_t offset, uint8_t *
         return BRACE_HAL_E_RANGE;
     }
     const uint8_t all = (lot(nvm) & 1u) != 0 ? 0xff : 0x00; /* of CUT_UNSTABLE_WHOLE: one lot a read */
-    if (!nvm->any_unstable) {
+    if (memcmp(&nvm->unstable[slot][offset], all_stable, count) == 0) {
         memcpy(bytes, &nvm->bytes[slot][offset], count);
         return BRACE_HAL_OK;
     }

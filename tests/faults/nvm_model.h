@@ -39,7 +39,6 @@ typedef struct {
     uint8_t bytes[BRACE_NVM_SLOT_COUNT][NVM_SLOT_BYTES];  /* as before the interrupted step, where unstable */
     uint8_t after[BRACE_NVM_SLOT_COUNT][NVM_SLOT_BYTES];  /* as after it, where unstable */
     uint8_t unstable[BRACE_NVM_SLOT_COUNT][NVM_SLOT_BYTES]; /* 0, or the manner */
-    bool any_unstable;                                      /* has some unit been unstable ever? */
     uint8_t written[BRACE_NVM_SLOT_COUNT][NVM_SLOT_BYTES];
     uint8_t stuck_mask[BRACE_NVM_SLOT_COUNT][NVM_SLOT_BYTES]; /* bits that no write clears */
     bool half_erased[BRACE_NVM_SLOT_COUNT];

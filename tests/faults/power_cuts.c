@@ -19,7 +19,8 @@ enum {
     NO_SET = -1,
     STARTS_UNSTABLE = 4,  /* starts after a failure that leaves unstable units; else one */
     STEPS_MAX = 2000,     /* of an operation, a store step each */
-    TURNS = 4             /* rounds of pairs in turn: as many as their manners */
+    PAIR_MANNERS = 4,
+    TURNS = PAIR_MANNERS * PAIR_MANNERS /* rounds of pairs in turn: then every pair has been tried */
 };
 
 typedef enum { UPDATE = 'U', ROLL_BACK = 'R' } operation_t;
@@ -239,7 +240,7 @@ static void fail_again(const nvm_t *left, uint32_t first_lot, const allowed_t *o
             now.second_manner = manners[m];
             for (now.second_step = 1;; now.second_step++) {
                 /* Every first manner meets every second one. */
-                if (!has_turn(now.first_step / manner_count + now.second_step, m, manner_count)) {
+                if (!has_turn(now.first_step / manner_count + now.second_step + turn / PAIR_MANNERS, m, manner_count)) {
                     continue;
                 }
                 nvm = *left;
@@ -285,10 +286,10 @@ static void fail_again(const nvm_t *left, uint32_t first_lot, const allowed_t *o
 /* One operation, failing at each of its steps in each manner. returns its steps */
 static int32_t fail_everywhere(const nvm_t *left, operation_t operation, int new_set, bool pairs)
 {
-    static const cut_manner_t pair_manners[] = {CUT_BEFORE, CUT_AFTER, CUT_RANDOM_BITS, CUT_UNSTABLE_WHOLE};
+    static const cut_manner_t pair_manners[PAIR_MANNERS] = {CUT_BEFORE, CUT_AFTER, CUT_RANDOM_BITS, CUT_UNSTABLE_WHOLE};
     static nvm_t nvm;
     limb_t limb;
-    const int manner_count = pairs ? (int)(sizeof pair_manners / sizeof *pair_manners) : CUT_MANNER_COUNT;
+    const int manner_count = pairs ? PAIR_MANNERS : CUT_MANNER_COUNT;
     int32_t steps = 0;
     for (int m = 0; m < manner_count; m++) {
         now.first_manner = pairs ? pair_manners[m] : (cut_manner_t)m;

@@ -14,6 +14,11 @@ _HEX = np.full(256, 255, np.uint8)
 _HEX[np.frombuffer(b"0123456789ABCDEF", np.uint8)] = np.arange(16)
 
 
+def line_of(number: int, data: bytes) -> bytes:
+    """A frame as text."""
+    return b"t%03X%d%s\r" % (number, len(data), data.hex().upper().encode())
+
+
 class SlcanClient:
     """Speaks the text itself; nothing is waited for."""
 
@@ -27,7 +32,10 @@ class SlcanClient:
 
     def send(self, frames: list[tuple[int, bytes]]) -> None:
         """In order, in one piece."""
-        lines = [b"t%03X%d%s\r" % (number, len(data), data.hex().upper().encode()) for number, data in frames]
+        self.send_lines([line_of(*frame) for frame in frames])
+
+    def send_lines(self, lines: list[bytes]) -> None:
+        """The same of frames that are text already."""
         self.socket.setblocking(True)
         self.socket.sendall(b"".join(lines))
         self.socket.setblocking(False)

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from brace.errors import MissingLibraryError
 from brace.native.c_data import CData
-from brace.native.cdef import declarations
+from brace.native.c_types import c_types
 
 _PACKAGE = Path(__file__).resolve().parents[1]  # tools/brace
 _PROJECT = _PACKAGE.parents[1]
@@ -81,12 +81,9 @@ def servos_library() -> Library:
 
 def _load(headers: list[Path], folders: list[Path]) -> Library:
     path = _find_library()
-    from cffi import FFI  # here, so that a command that computes nothing starts at once
-
-    ffi = FFI()
     _refuse_stale(path, headers, folders)
+    ffi = c_types(headers, folders)
     try:
-        ffi.cdef(declarations(headers, folders))
         loaded = ffi.dlopen(str(path))
     except OSError as error:
         raise MissingLibraryError(
