@@ -92,8 +92,10 @@ def check_format(since: str) -> bool:
 def check_types(changed: Iterable[Path]) -> bool:
     """mypy on the folders with changed files, and on the command's tests when the command changed."""
     touched = {path for path in changed if path.suffix == ".py"}
-    folders = {folder for folder in TYPED if any(path.is_relative_to(folder) for path in touched)}
-    if "tools/brace" in folders:
+    folders = {
+        line for line in TYPED if any(path.is_relative_to(folder) for folder in line.split() for path in touched)
+    }
+    if any(path.is_relative_to("tools/brace") for path in touched):
         folders.add("tests/tools")
     print(f"types of {', '.join(sorted(folders)) or 'nothing'}")
     return all([run(*mypy_command(folder), environment=mypy_environment(folder)) for folder in sorted(folders)])

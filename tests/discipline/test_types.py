@@ -9,10 +9,10 @@ from sources import ROOT
 from typed_folders import TYPED, mypy_command, mypy_environment
 
 
-@pytest.mark.parametrize("folder", TYPED)
-def test_types(folder: str) -> None:
+@pytest.mark.parametrize("folders", TYPED)
+def test_types(folders: str) -> None:
     pytest.importorskip("mypy")
     done = subprocess.run(
-        mypy_command(folder), cwd=ROOT, env=mypy_environment(folder), capture_output=True, text=True, timeout=300
+        mypy_command(folders), cwd=ROOT, env=mypy_environment(folders), capture_output=True, text=True, timeout=300
     )
     assert done.returncode == 0, done.stdout + done.stderr
