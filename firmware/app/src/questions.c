@@ -65,7 +65,7 @@ static float load_off_n_mm(const controller_t *controller, int index)
  * returns as model_loaded */
 static brace_status_t k_if_off(controller_t *controller, int index, float off_n_mm, brace_stiffness_t *stiffness)
 {
-    const brace_snapshot_load_t *told = &brace_app_snapshot((const brace_app_t *)controller)->load;
+    const brace_snapshot_load_t *told = &controller->snapshot[controller->newest].load;
     const brace_parameters_t *parameters = &controller->parameters.in_force;
     float load_n_mm[BRACE_LINK_COUNT], temp_degc[BRACE_LINK_COUNT], deflection_rad[BRACE_LINK_COUNT];
     brace_loaded_joint_t springs[BRACE_LINK_COUNT];
