@@ -1,16 +1,24 @@
-// soak [TICKS [SEED]]: four limbs and their controllers on one CAN bus, for TICKS of a millisecond of simulated time;
-// 10,000,000 is ./dev soak's. Masters ask, send nonsense, hang up and come back; faults, postures, contacts, power cuts
-// come at random. Each minute has 40 s of that and 20 s of calm. It fails when
+// soak [TICKS [SEED [alone|blind]]]: four limbs and their controllers on one CAN bus, for TICKS of a millisecond of
+// simulated time; 10,000,000 is ./dev soak's. Masters ask, send nonsense, hang up and come back; faults, postures,
+// contacts, power cuts come at random. Each minute has 40 s of that and 20 s of calm. It fails when
 //   a valid K is wrong by more than its uncertainty, or an open gap is not told in the time that brace/app.h promises
 //   a request is not answered within 100 ticks in the calm, an answer is none, or its K is not the snapshot's
 //   a controller is not back in MONITOR with a valid K and no fault 10 s after the trouble, or counts trouble then
 //   the process keeps more memory or files in the last tenth than in the third
+// "alone": no master asks, and there is no bus. K is judged in a sixth of the time, under other random events.
+// "blind": the same without sensors at the tips, so that the joints tell every load.
+//
+// Motors are sampled before the plant settles under what happens in a tick. So a K that is right for the moment in
+// which its motors were sampled, and wrong only for that in which it is told, a tick later, is counted apart: no sensor
+// of a motor could know.
 // While a sensor is stuck or off by a constant, wrong K are counted apart and do not fail the run: before the
 // controller has detected the fault, it cannot know that the sensor is wrong.
 // Stopped by SIGINT or SIGTERM, it tells of what it has run. Exit code 0 when all is well.
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -18,7 +26,6 @@
 #include <ctime>
 #include <dirent.h>
 #include <memory>
-#include <vector>
 
 #include "limbs.h"
 #include "masters.h"
@@ -36,8 +43,7 @@ using namespace soak;
 
 constexpr int kTenths = 10, kModbusMastersOfALimb = 3, kCanMasters = 3;
 constexpr std::uint64_t kTick_us = 1000;
-constexpr int kJudgedOnceIn = 149;  // ticks of a limb whose K is judged
-constexpr int kNearOnceIn = 5;      // of those just after something has happened
+constexpr int kJudgedOnceIn = 149;  // ticks of a limb whose K is judged; just after something has happened all are
 constexpr double kMemoryGrows_kb = 1024.0;
 constexpr int kFilesOfMasters = 2 * (kLimbs * kModbusMastersOfALimb + kCanMasters); // both ends of every connection
 constexpr std::uint32_t kGapSpare_ticks = 4; // brace/app.h: how long after its gap has opened a flank may be told
@@ -55,6 +61,50 @@ struct Found { // what must not be
     std::uint64_t sum() const
     {
         return wrong + gaps_denied + answers_wrong + late_in_calm + not_back + counted_in_calm;
+    }
+};
+
+class Shares // of K's norm, to 0.005 %: a soak may not keep more and more
+{
+public:
+    void take(double share)
+    {
+        ++bins_[static_cast<std::size_t>(std::min(share / kWidth, kBins - 1.0))];
+        ++count_;
+    }
+    double percentile(double percent) const
+    {
+        std::uint64_t below = 0;
+        std::size_t bin = 0;
+        while (bin + 1u < bins_.size() && 100.0 * static_cast<double>(below + bins_[bin])
+                                              < percent * static_cast<double>(count_)) {
+            below += bins_[bin++];
+        }
+        return count_ == 0u ? 0.0 : kWidth * (static_cast<double>(bin) + 0.5);
+    }
+
+private:
+    static constexpr double kWidth = 5e-5, kBins = 4000.0;
+    std::array<std::uint64_t, static_cast<std::size_t>(kBins)> bins_{};
+    std::uint64_t count_ = 0;
+};
+
+struct Told { // one sigma of the K that were judged
+    Shares told, by_parameters;
+    std::uint64_t endless = 0; // the newest load is not known yet, or has no equilibrium
+    void take(const Agreement &agreed)
+    {
+        told.take(agreed.told);
+        by_parameters.take(agreed.by_parameters);
+        endless += std::isinf(agreed.told) ? 1u : 0u;
+    }
+    void report(const char *what) const
+    {
+        std::printf("sigma of K / its norm, %s: median %.3f %%, 99th percentile %.3f %%, endless %llu; by the "
+                    "parameters alone %.3f %%, %.3f %%\n",
+                    what, 100.0 * told.percentile(50.0), 100.0 * told.percentile(99.0),
+                    static_cast<unsigned long long>(endless), 100.0 * by_parameters.percentile(50.0),
+                    100.0 * by_parameters.percentile(99.0));
     }
 };
 
@@ -111,7 +161,8 @@ double mean_ticks(const Answered &answered)
 class Soak
 {
 public:
-    explicit Soak(std::uint64_t seed) : chance_(seed), limbs_(four_limbs(chance_))
+    Soak(std::uint64_t seed, bool is_alone, bool is_blind)
+        : chance_(seed), limbs_(four_limbs(chance_)), is_alone_(is_alone)
     {
         std::array<brace_node_limb_t, kLimbs> there;
         std::array<std::array<std::uint8_t, BRACE_BLOCK_BYTES>, kLimbs> blocks;
@@ -121,14 +172,18 @@ public:
                 std::exit(4);
             }
             there[i] = limbs_[i].there;
+            there[i].modbus_tcp = is_alone ? nullptr : there[i].modbus_tcp;
             there[i].block = blocks[i].data();
             there[i].block_bytes = BRACE_BLOCK_BYTES;
         }
         brace_node_failure_t failure{};
-        node_.reset(brace_node_create(there.data(), kLimbs, "tcp://127.0.0.1:0", seed, &failure));
+        node_.reset(brace_node_create(there.data(), kLimbs, is_alone ? nullptr : "tcp://127.0.0.1:0", seed, &failure));
         if (node_ == nullptr) {
             std::printf("soak: no node: part %d, detail %d\n", static_cast<int>(failure.part), failure.detail);
             std::exit(4);
+        }
+        for (int limb = 0; limb < kLimbs && is_blind; ++limb) {
+            (void)brace_node_fault(node_.get(), limb, BRACE_NODE_FAULT_FORCE_DEAD, 0, 0.0, 0.0, INFINITY);
         }
     }
 
@@ -162,6 +217,7 @@ private:
 
     Chance chance_;
     std::array<Limb, kLimbs> limbs_;
+    bool is_alone_;
     std::unique_ptr<brace_node_t, Closed> node_;
     std::array<Trouble, kLimbs> trouble_;
     std::array<std::array<ModbusMaster, kModbusMastersOfALimb>, kLimbs> modbus_;
@@ -169,6 +225,10 @@ private:
     std::array<Tenth, kTenths> tenths_;
     std::array<brace_app_counters_t, kLimbs> counters_{};
     std::array<bool, kLimbs> has_counters_{};
+    std::array<brace_node_truth_t, kLimbs> truth_before_{}; // of the tick before
+    Told sensed_, unsensed_;
+    std::uint64_t saved_ = 0;         // K that would be wrong were no more allowed than the parameters leave open
+    std::uint64_t since_sampled_ = 0; // K that are wrong by what has happened since the motors were sampled
     std::array<std::uint32_t, kLimbs> denied_ticks_{}; // an open gap is not told for so long
     std::uint32_t gap_told_ticks_ = 0;                  // the longest
     std::clock_t since_ = std::clock();
@@ -189,13 +249,20 @@ void Soak::step(Tenth &tenth, double t_s)
     Answered can, modbus;
     for (std::size_t limb = 0; limb < kLimbs; ++limb) {
         for (ModbusMaster &master : modbus_[limb]) {
+            if (is_alone_) {
+                break;
+            }
             const bool is_calm = trouble_[limb].is_calm(t_s);
             const bool is_right = master.step(node_.get(), static_cast<int>(limb), chance_, is_calm, modbus);
             found_.answers_wrong += is_right ? 0u : 1u;
         }
         judge(tenth, limb, t_s);
+        (void)brace_node_truth(node_.get(), static_cast<int>(limb), &truth_before_[limb]);
     }
     for (CanMaster &master : can_) {
+        if (is_alone_) {
+            break;
+        }
         master.step(brace_node_can_place(node_.get()), chance_, trouble_[0].is_calm(t_s), can);
     }
     if (is_settled) { // in the calm: what is asked amid faults waits as long as they last
@@ -228,10 +295,11 @@ void Soak::judge(Tenth &tenth, std::size_t limb, double t_s)
     judge_calm(limb, told, t_s);
     judge_gaps(limb, truth, told, t_s);
     const bool is_near = trouble_[limb].is_near(t_s);
-    if (whole(chance_, is_near ? kNearOnceIn : kJudgedOnceIn) != 0) {
+    if (!is_near && whole(chance_, kJudgedOnceIn) != 0) {
         return;
     }
-    const Agreement agreed = agreement(limbs_[limb], truth, told);
+    brace_app_t *app = brace_node_app(node_.get(), static_cast<int>(limb));
+    const Agreement agreed = agreement(limbs_[limb], truth, app);
     if (!agreed.is_judged) {
         return;
     }
@@ -241,6 +309,13 @@ void Soak::judge(Tenth &tenth, std::size_t limb, double t_s)
         lies_.worst = std::max(lies_.worst, agreed.share);
         return;
     }
+    (agreed.is_sensed ? sensed_ : unsensed_).take(agreed);
+    if (agreed.share > 1.0 && agreement(limbs_[limb], truth_before_[limb], app).share <= 1.0) {
+        ++since_sampled_;
+        return;
+    }
+    const bool is_open = (told.stiffness.now.flags & BRACE_FLAG_GAP_OPEN) != 0u;
+    saved_ += agreed.share_by_parameters > 1.0 && agreed.share <= 1.0 && !is_open ? 1u : 0u;
     ++tenth.judged;
     tenth.worst = std::max(tenth.worst, agreed.share);
     if (agreed.share > 1.0) {
@@ -333,6 +408,10 @@ int Soak::report(std::uint64_t ticks, std::uint64_t seed) const
     std::printf("\nwhile a sensor lies: %llu valid K judged, %llu beyond their uncertainty, the worst %.2f of what is "
                 "allowed\n",
                 number(lies_.judged), number(lies_.wrong), lies_.worst);
+    sensed_.report("load sensed at the tip");
+    unsensed_.report("load by the joints");
+    std::printf("K right only because the load's lag is told: %llu\n", number(saved_));
+    std::printf("K wrong only by what has happened since their motors were sampled: %llu\n", number(since_sampled_));
     std::printf("an open gap was told after %u ticks at most\n", gap_told_ticks_);
     std::printf("wrong K %llu, gaps denied %llu, wrong answers %llu, late in the calm %llu, not back %llu, "
                 "counted in the calm %llu, watchdog resets %u\n",
@@ -359,7 +438,9 @@ int main(int count, char **arguments)
     }
     (void)std::signal(SIGINT, stop);
     (void)std::signal(SIGTERM, stop);
-    Soak soak(seed);
+    const bool is_blind = count > 3 && std::strcmp(arguments[3], "blind") == 0;
+    const bool is_alone = is_blind || (count > 3 && std::strcmp(arguments[3], "alone") == 0);
+    Soak soak(seed, is_alone, is_blind);
     const std::uint64_t run = soak.run(ticks);
     return soak.report(run, seed);
 }

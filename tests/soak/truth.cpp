@@ -6,6 +6,7 @@
 
 extern "C" {
 #include "api/brace_host.h"
+#include "brace/app.h"
 #include "brace/uncertainty.h"
 }
 
@@ -57,36 +58,37 @@ bool denies_gap(const Limb &limb, const brace_node_truth_t &truth, const brace_s
     return is_open && (told.stiffness.now.flags & BRACE_FLAG_GAP_OPEN) == 0u;
 }
 
-Agreement agreement(const Limb &limb, const brace_node_truth_t &truth, const brace_snapshot_t &told)
+Agreement agreement(const Limb &limb, const brace_node_truth_t &truth, brace_app_t *app)
 {
     Agreement found;
+    const brace_snapshot_t &told = *brace_app_snapshot(app);
     found.is_told = told.k_is_valid;
-    if (!told.k_is_valid) {
+    Entries true_n_per_mm;
+    brace_stiffness_sigma_t sigma, by_parameters;
+    const auto largest = [](const brace_stiffness_sigma_t &of) {
+        return static_cast<double>(std::max({of.k_xx_n_per_mm, of.k_xz_n_per_mm, of.k_zz_n_per_mm}));
+    };
+    if (!found.is_told || !true_k(limb, truth, told.load.is_counted, true_n_per_mm) ||
+        brace_app_uncertainty(app, &sigma) != BRACE_OK ||
+        brace_uncertainty_stiffness(&brace_app_parameters(app)->limb, told.theta_rad[kFemur], told.theta_rad[kTibia],
+                                    &told.stiffness.engaged, &by_parameters) != BRACE_OK) {
         return found;
     }
     const brace_stiffness_t &k = told.stiffness.engaged;
-    const bool doubts_flank = (told.stiffness.now.flags & BRACE_FLAG_GAP_OPEN) != 0u;
-    brace_limb_t believed = limb.believed.limb;
-    for (const int joint : {kFemur, kTibia}) {
-        if (doubts_flank) {
-            believed.uncertainty.angle_rad =
-                std::hypot(believed.uncertainty.angle_rad, 0.5f * believed.joint[joint].gap_rad);
-        }
-    }
-    Entries true_n_per_mm;
-    brace_stiffness_sigma_t sigma;
-    const float theta1_rad = told.theta_rad[kFemur], theta2_rad = told.theta_rad[kTibia];
-    if (!true_k(limb, truth, told.load.is_counted, true_n_per_mm) ||
-        brace_uncertainty_stiffness(&believed, theta1_rad, theta2_rad, &k, &sigma) != BRACE_OK) {
-        return found;
-    }
     found.is_judged = true;
     const Entries entries = {k.k_xx_n_per_mm, k.k_xz_n_per_mm, k.k_zz_n_per_mm};
-    const Entries sigmas = {sigma.k_xx_n_per_mm, sigma.k_xz_n_per_mm, sigma.k_zz_n_per_mm};
+    const auto sigmas = [](const brace_stiffness_sigma_t &of) {
+        return Entries{of.k_xx_n_per_mm, of.k_xz_n_per_mm, of.k_zz_n_per_mm};
+    };
     const double norm = std::sqrt(entries[0] * entries[0] + 2.0 * entries[1] * entries[1] + entries[2] * entries[2]);
+    found.told = largest(sigma) / norm;
+    found.by_parameters = largest(by_parameters) / norm;
+    found.is_sensed = told.force_is_sensed;
     for (std::size_t i = 0; i < entries.size(); ++i) {
-        const double allowed = kSigmas * sigmas[i] + kLoadedShare * norm;
-        found.share = std::max(found.share, std::fabs(entries[i] - true_n_per_mm[i]) / allowed);
+        const double error = std::fabs(entries[i] - true_n_per_mm[i]), loaded = kLoadedShare * norm;
+        found.share = std::max(found.share, error / (kSigmas * sigmas(sigma)[i] + loaded));
+        found.share_by_parameters =
+            std::max(found.share_by_parameters, error / (kSigmas * sigmas(by_parameters)[i] + loaded));
     }
     return found;
 }

@@ -7,6 +7,7 @@
 #include "limbs.h"
 
 extern "C" {
+#include "brace/app.h"
 #include "brace/snapshot.h"
 }
 
@@ -17,13 +18,15 @@ namespace soak
 struct Agreement {
     bool is_told = false;         // there was a valid K to judge
     bool is_judged = false;       // and the reference has an answer
+    double told = 0.0, by_parameters = 0.0; // K's largest sigma / its norm; and what the parameters alone make of it
+    bool is_sensed = false;       // a sensor at the tip tells the load
     double share = 0.0;           // error of the worst entry / allowed error; K is wrong above 1
+    double share_by_parameters = 0.0; // the same, were no more allowed than for what the parameters leave open
 };
 
-// Allowed for an entry of K: three of the sigmas that brace_uncertainty_stiffness tells of it, and 0.6 % of K's norm,
-// which brace/loaded.h promises for a load. Where a flank is not known, the joint may stand anywhere in its gap: half
-// of it is added to the angles' sigma.
-Agreement agreement(const Limb &limb, const brace_node_truth_t &truth, const brace_snapshot_t &told);
+// Allowed for an entry of K: three of the sigmas that brace_app_uncertainty tells of it, and 0.6 % of K's norm, which
+// brace/loaded.h promises for a load.
+Agreement agreement(const Limb &limb, const brace_node_truth_t &truth, brace_app_t *app);
 
 // Is a gap open, and no flag says so?
 bool denies_gap(const Limb &limb, const brace_node_truth_t &truth, const brace_snapshot_t &told);

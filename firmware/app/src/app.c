@@ -4,6 +4,7 @@
 
 #include "brace/app_memory.h"
 #include "stiffness/stiffness.h"
+#include "tip_load.h"
 
 /* Of what must not change, so many words are looked over: all of them in less than 100 ms. */
 #define GUARDED_WORDS_PER_MS 8u
@@ -237,26 +238,17 @@ static void take_posture(controller_t *controller, brace_snapshot_t *snapshot)
     posture_take(&controller->posture, &controller->parameters.in_force, snapshot->motor_rad, offset_rad, link_rad);
 }
 
-/* The tip's force in the limb's plane: by its sensor, else from what the joints carry. Across it, only the coxa joint
- * tells it. Without a posture nobody could use it. */
+/* The load that K counts. */
 static void take_force(const controller_t *controller, brace_snapshot_t *snapshot)
 {
-    const tip_force_t *force = &controller->tip_force;
-    snapshot->force_is_sensed = force->known && controller->posture.has_levers;
-    if (snapshot->force_is_sensed) {
-        snapshot->force_x_n = force->x_n;
-        snapshot->force_z_n = force->z_n;
-    } else {
-        posture_force_of_loads(&controller->posture, &controller->parameters.in_force, controller->gravity.down,
-                               snapshot->play[BRACE_FEMUR].load_n_mm, snapshot->play[BRACE_TIBIA].load_n_mm,
-                               &snapshot->force_x_n, &snapshot->force_z_n);
-    }
-    snapshot->force_y_n = __builtin_nanf("");
-    if (controller->joints.joint[BRACE_COXA].sound) {
-        snapshot->force_y_n = posture_force_across_n(&controller->posture, &controller->parameters.in_force,
-                                                     controller->gravity.down, snapshot->play[BRACE_COXA].load_n_mm,
-                                                     !snapshot->force_is_sensed, &snapshot->force_x_n);
-    }
+    const float load_n_mm[BRACE_LINK_COUNT] = {snapshot->play[BRACE_COXA].load_n_mm,
+                                               snapshot->play[BRACE_FEMUR].load_n_mm,
+                                               snapshot->play[BRACE_TIBIA].load_n_mm};
+    const brace_vec3_t tip_n = tip_load_n(controller, load_n_mm);
+    snapshot->force_is_sensed = tip_load_is_sensed(controller);
+    snapshot->force_x_n = tip_n.x;
+    snapshot->force_y_n = tip_n.y;
+    snapshot->force_z_n = tip_n.z;
 }
 
 /* K of these samples. In CONFIGURATION there is none, because the model may be in the making. */

@@ -14,6 +14,7 @@
 #include "brace/recorder.h"
 #include "brace/snapshot.h"
 #include "brace/store.h"
+#include "brace/uncertainty.h"
 #include "brace/who.h"
 
 typedef struct brace_app brace_app_t;
@@ -200,6 +201,20 @@ brace_status_t brace_app_set_gravity(brace_app_t *app, float direction_rad, floa
 
 /* The direction of down that holds now. */
 void brace_app_gravity(const brace_app_t *app, float *direction_rad, float *lean_rad);
+
+/* One sigma of the K of now with every gap closed: brace_uncertainty_stiffness by the parameters in force, and two
+ * things that those do not know.
+ *   Where the tip has no sensor, and across the plane, the joints tell the load, as a mean over 20 ms. What a joint
+ *   carries now may be as far from it as its newest samples are (flank/flank.h), and the friction of its motor holds a
+ *   part of it. K of the one and of the other end are a span apart. Where nothing more is known than a span, its sigma
+ *   is span / sqrt(3); those of the joints are independent. So three sigmas hold K even where all three joints stand at
+ *   the ends of their spans.
+ *   What a joint carries is the torque less what accelerates the motor. Until there are five samples in a row nobody
+ *   knows three of those; sigmas are infinite then, as they are where such a load has no equilibrium.
+ *   A joint whose flank is not known stands anywhere in its gap: half of it counts with the sigma of the angles.
+ * returns as brace_uncertainty_stiffness; BRACE_E_MODE: there is no valid K. It looks at the samples of the newest
+ *   tick. About 9,000 instructions in the plane and 22,000 in space: no part of a tick. */
+brace_status_t brace_app_uncertainty(brace_app_t *app, brace_stiffness_sigma_t *sigma);
 
 /* What the K of now makes of a displacement, and of a load.
  * returns as brace_contact_force and brace_contact_sag; BRACE_E_MODE: there is no valid K */

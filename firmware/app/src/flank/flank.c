@@ -98,6 +98,21 @@ void flank_tick(flank_t *flank, const joints_t *joints, const tip_force_t *force
     }
 }
 
+float flank_lag_n_mm(const flank_t *flank, const joints_t *joints, int index)
+{
+    const joint_t *joint = &joints->joint[index];
+    const flank_joint_t *ours = &flank->joint[index];
+    /* The load that is told of a watched joint has friction taken off, too: its torque's mean is another number. */
+    const float mean_n_mm = ours->watched ? ours->machine.torque_n_mm : joint->torque_n_mm;
+    float squares_n2_mm2 = 0.0f;
+    for (int i = 0; i < JOINTS_CARRIED; i++) {
+        const float off_n_mm = joint->carries_n_mm[i] - mean_n_mm;
+        squares_n2_mm2 += off_n_mm * off_n_mm;
+    }
+    return __builtin_copysignf(__builtin_sqrtf(squares_n2_mm2 / (float)JOINTS_CARRIED),
+                               joint->carries_n_mm[0] - mean_n_mm);
+}
+
 uint32_t flank_open_gaps(const flank_t *flank)
 {
     uint32_t open = 0;

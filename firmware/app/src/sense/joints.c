@@ -10,6 +10,8 @@
 #define TORQUE_MEAN_US 20000.0f
 #define SAMPLES_FIRST 3u
 
+#define US2_PER_S2 1e12f
+
 /* The backlash machine's filters bear a stretch of four ticks without a sample. */
 #define PROVING_TICKS 4u
 
@@ -59,8 +61,32 @@ static float agreed(float a, float b)
     return a * b > 0.0f ? smaller : 0.0f;
 }
 
-static void take_sample(joint_t *joint, const brace_hal_joint_t *fresh, uint32_t tick_us)
+/* What accelerates the motor. An encoder behind the gear does not tell how it moves. */
+static float inertial_n_mm(const joint_t *joint, float faster_rad_per_us, float per_us, const brace_drive_t *drive)
 {
+    if (joint->is_link_only) {
+        return 0.0f;
+    }
+    return joint->samples_seen < SAMPLES_FIRST - 1u
+               ? __builtin_nanf("")
+               : US2_PER_S2 * drive->motor_inertia_n_mm_s2_per_rad * per_us * faster_rad_per_us;
+}
+
+static void take_carried(joint_t *joint, const brace_hal_joint_t *fresh, const brace_drive_t *drive)
+{
+    const float per_us = 1.0f / (float)(fresh->taken_us - joint->sample.taken_us);
+    const float speed_rad_per_us = (fresh->motor_rad - joint->sample.motor_rad) * per_us;
+    for (int i = JOINTS_CARRIED - 1; i > 0; i--) {
+        joint->carries_n_mm[i] = joint->carries_n_mm[i - 1];
+    }
+    joint->carries_n_mm[0] =
+        fresh->torque_n_mm - inertial_n_mm(joint, speed_rad_per_us - joint->speed_rad_per_us, per_us, drive);
+    joint->speed_rad_per_us = speed_rad_per_us;
+}
+
+static void take_sample(joint_t *joint, const brace_hal_joint_t *fresh, const brace_drive_t *drive, uint32_t tick_us)
+{
+    take_carried(joint, fresh, drive);
     const float mean_n_mm = joint->torque_n_mm;
     const float moves_n_mm = agreed(joint->sample.torque_n_mm - mean_n_mm, fresh->torque_n_mm - mean_n_mm);
     joint->sample = *fresh;
@@ -89,7 +115,7 @@ static void read_one(joints_t *joints, int index, const brace_hal_t *hal, const 
     }
     if (newer && is_sound(&fresh, drive) && is_within_reach(joint, &fresh)) {
         joint->is_link_only = is_link_only;
-        take_sample(joint, &fresh, tick_us);
+        take_sample(joint, &fresh, drive, tick_us);
     } else if (newer || (answer != BRACE_HAL_OK && answer != BRACE_HAL_AGAIN)) {
         brace_count(samples_bad);
     }

@@ -9,11 +9,16 @@
 #include "brace/snapshot.h"
 #include "brace_hal.h"
 
+enum { JOINTS_CARRIED = 3 };
+
 typedef struct {
     bool fitted;              /* the limb has this joint */
     bool is_link_only;        /* its one encoder is behind the gear: sample.motor_rad is the link's angle */
     brace_hal_joint_t sample; /* the newest sound one; NaN before the first */
     float torque_n_mm;        /* mean over 20 ms; a single wild sample does not move it */
+    float speed_rad_per_us;   /* of the motor, between the newest two samples */
+    float carries_n_mm[JOINTS_CARRIED]; /* by the newest samples, newest first: the torque less what accelerates the
+                                           motor; NaN: not known, because three samples in a row tell one of them */
     bool sound;               /* the sample is no older than controller.age_limit_us */
     bool is_new_enough_to_prove_a_flank; /* no older than four ticks, which the backlash machine's filters bear */
     uint8_t samples_seen;     /* in a row; counts to 3 */
@@ -33,7 +38,7 @@ void joints_start(joints_t *joints, const brace_hal_t *hal);
  * greatest) is counted, and the sound one before stays until it is older than controller.age_limit_us. So is an angle
  * that no joint could have reached since the sample before: 50 rad/s. Where the next sample agrees, it is believed.
  *   samples_bad: of brace_app_counters_t
- * At most 150 instructions a joint. */
+ * At most 190 instructions a joint. */
 void joints_read(joints_t *joints, const brace_hal_t *hal, const brace_parameters_t *parameters,
                  uint32_t now_us, uint32_t *samples_bad);
 

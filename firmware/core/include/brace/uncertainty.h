@@ -16,6 +16,9 @@
 #include "brace/limb.h"
 #include "brace/stiffness.h"
 
+/* pi / sqrt(12): one sigma of an axis that may point anywhere. */
+#define BRACE_UNKNOWN_AXIS_RAD 0.906899682f
+
 /* One sigma of each entry of a brace_stiffness_t, all >= 0. */
 typedef struct {
     float k_xx_n_per_mm;
@@ -23,7 +26,7 @@ typedef struct {
     float k_zz_n_per_mm;
     float lambda_min_n_per_mm;
     float lambda_max_n_per_mm;
-    float stiff_axis_rad; /* at most 0.907, the sigma of an axis whose direction is unknown */
+    float stiff_axis_rad; /* at most BRACE_UNKNOWN_AXIS_RAD */
     uint32_t flags;       /* the flags of K; BRACE_FLAG_SATURATED when stiff_axis_rad is at its limit */
 } brace_stiffness_sigma_t;
 

@@ -15,9 +15,6 @@
 #include "brace/kinematics.h"
 #include "use/stiffness_check.h"
 
-/* pi / sqrt(12): one sigma of an axis that may point anywhere. */
-#define UNKNOWN_AXIS_RAD 0.906899682f
-
 /* The vectors of C and of its derivatives, seen from K's axes and multiplied by K. If dC is a sum of terms u v', then
  * -dK = K dC K is the same sum of these vectors. */
 typedef struct {
@@ -192,14 +189,14 @@ static void take_roots(const brace_stiffness_sigma_t *variance, const brace_stif
                        float apart_n_per_mm, brace_stiffness_sigma_t *sigma)
 {
     const float axis_rad = sqrtf(variance->stiff_axis_rad) / apart_n_per_mm;
-    const bool is_known = axis_rad < UNKNOWN_AXIS_RAD; /* a round K divides by zero: the axis is not known */
+    const bool is_known = axis_rad < BRACE_UNKNOWN_AXIS_RAD; /* a round K divides by zero: the axis is not known */
     *sigma = (brace_stiffness_sigma_t){
         .k_xx_n_per_mm = sqrtf(variance->k_xx_n_per_mm),
         .k_xz_n_per_mm = sqrtf(variance->k_xz_n_per_mm),
         .k_zz_n_per_mm = sqrtf(variance->k_zz_n_per_mm),
         .lambda_min_n_per_mm = sqrtf(variance->lambda_min_n_per_mm),
         .lambda_max_n_per_mm = sqrtf(variance->lambda_max_n_per_mm),
-        .stiff_axis_rad = is_known ? axis_rad : UNKNOWN_AXIS_RAD,
+        .stiff_axis_rad = is_known ? axis_rad : BRACE_UNKNOWN_AXIS_RAD,
         .flags = stiffness->flags | (is_known ? 0u : (uint32_t)BRACE_FLAG_SATURATED),
     };
 }

@@ -1,0 +1,332 @@
+/* How far K is told to be off: what the parameters leave open, the load that the joints' mean has not followed yet, and
+ * the gap in which a joint may stand. */
+#include <string.h>
+
+#include "app_bench.h"
+#include "brace/uncertainty.h"
+
+#define DOWN ((brace_vec_t){0.0f, -1.0f})
+#define SAME_SIGMA 2e-4 /* N/mm: two float paths to a K of some 4 N/mm, and a difference between them */
+
+static brace_parameters_t parameters;
+
+void setUp(void)
+{
+    parameters = bench_parameters();
+    parameters.gravity = (brace_gravity_t){.direction_rad = -1.57079633f};
+    parameters.limb.uncertainty =
+        (brace_uncertainty_t){.length_mm = 0.3f, .angle_rad = 0.002f, .compliance_rel = 0.03f};
+}
+
+void tearDown(void) {}
+
+static brace_stiffness_sigma_t told(void)
+{
+    brace_stiffness_sigma_t sigma;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_uncertainty(&app, &sigma));
+    return sigma;
+}
+
+static brace_stiffness_sigma_t by_parameters(void)
+{
+    brace_stiffness_sigma_t sigma;
+    TEST_ASSERT_EQUAL(BRACE_OK,
+                      brace_uncertainty_stiffness(&parameters.limb, now()->theta_rad[BRACE_FEMUR],
+                                                  now()->theta_rad[BRACE_TIBIA], &now()->stiffness.engaged, &sigma));
+    return sigma;
+}
+
+static void expect_no_more_than_parameters(void)
+{
+    const brace_stiffness_sigma_t sigma = told(), expected = by_parameters();
+    ASSERT_CLOSE(expected.k_xx_n_per_mm, sigma.k_xx_n_per_mm, SAME_SIGMA);
+    ASSERT_CLOSE(expected.k_xz_n_per_mm, sigma.k_xz_n_per_mm, SAME_SIGMA);
+    ASSERT_CLOSE(expected.k_zz_n_per_mm, sigma.k_zz_n_per_mm, SAME_SIGMA);
+    ASSERT_CLOSE(expected.lambda_min_n_per_mm, sigma.lambda_min_n_per_mm, SAME_SIGMA);
+    ASSERT_CLOSE(expected.lambda_max_n_per_mm, sigma.lambda_max_n_per_mm, SAME_SIGMA);
+    ASSERT_CLOSE(expected.stiff_axis_rad, sigma.stiff_axis_rad, SAME_SIGMA);
+}
+
+/* A limb without a sensor at its tip whose joints have carried these torques for long. */
+static void start_carrying(float femur_n_mm, float tibia_n_mm)
+{
+    bench_start(&parameters);
+    brace_fake_without_force(&fake);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_start(&app, &fake.hal));
+    fake.joint[BRACE_FEMUR].sample.torque_n_mm = femur_n_mm;
+    fake.joint[BRACE_TIBIA].sample.torque_n_mm = tibia_n_mm;
+    ticks(100);
+    TEST_ASSERT_FALSE(now()->force_is_sensed);
+}
+
+/* K of a limb whose joints have carried these torques for long: what the controller tells then. */
+static brace_stiffness_t k_carrying(float femur_n_mm, float tibia_n_mm)
+{
+    start_carrying(femur_n_mm, tibia_n_mm);
+    return now()->stiffness.engaged;
+}
+
+static float with_spans(float sigma, float from, float to, float or_to)
+{
+    return sqrtf(sigma * sigma + ((to - from) * (to - from) + (or_to - from) * (or_to - from)) / 3.0f);
+}
+
+/* sigma holds the spans from the K that is told to those where one joint carries another load. */
+static void expect_spans_to(float femur_n_mm, float tibia_n_mm)
+{
+    const brace_stiffness_t k = now()->stiffness.engaged;
+    const float femur_told_n_mm = now()->play[BRACE_FEMUR].load_n_mm;
+    const float tibia_told_n_mm = now()->play[BRACE_TIBIA].load_n_mm;
+    const brace_stiffness_sigma_t sigma = told(), least = by_parameters();
+    const brace_stiffness_t a = k_carrying(femur_n_mm, tibia_told_n_mm), b = k_carrying(femur_told_n_mm, tibia_n_mm);
+    const double span = fmax(fabs((double)(a.k_xz_n_per_mm - k.k_xz_n_per_mm)),
+                             fabs((double)(b.k_xz_n_per_mm - k.k_xz_n_per_mm)));
+    const double most = 0.1 * span; /* levers are those of the limb under the load told, not under the other one */
+    TEST_ASSERT_TRUE(span > 0.05);  /* or this test shows nothing */
+    ASSERT_CLOSE(with_spans(least.k_xx_n_per_mm, k.k_xx_n_per_mm, a.k_xx_n_per_mm, b.k_xx_n_per_mm),
+                 sigma.k_xx_n_per_mm, most);
+    ASSERT_CLOSE(with_spans(least.k_xz_n_per_mm, k.k_xz_n_per_mm, a.k_xz_n_per_mm, b.k_xz_n_per_mm),
+                 sigma.k_xz_n_per_mm, most);
+    ASSERT_CLOSE(with_spans(least.k_zz_n_per_mm, k.k_zz_n_per_mm, a.k_zz_n_per_mm, b.k_zz_n_per_mm),
+                 sigma.k_zz_n_per_mm, most);
+    ASSERT_CLOSE(with_spans(least.lambda_min_n_per_mm, k.lambda_min_n_per_mm, a.lambda_min_n_per_mm,
+                            b.lambda_min_n_per_mm), sigma.lambda_min_n_per_mm, most);
+    ASSERT_CLOSE(with_spans(least.lambda_max_n_per_mm, k.lambda_max_n_per_mm, a.lambda_max_n_per_mm,
+                            b.lambda_max_n_per_mm), sigma.lambda_max_n_per_mm, most);
+    ASSERT_CLOSE(with_spans(least.stiff_axis_rad, k.stiff_axis_rad, a.stiff_axis_rad, b.stiff_axis_rad),
+                 sigma.stiff_axis_rad, 0.2 * fabs((double)(b.stiff_axis_rad - k.stiff_axis_rad)));
+}
+
+static void test_a_sensed_load_leaves_open_what_the_parameters_do(void)
+{
+    bench_start(&parameters);
+    fake.force_x_n = 3.0f;
+    fake.force_z_n = 12.0f;
+    ticks(5);
+    fake.joint[BRACE_FEMUR].sample.torque_n_mm = 3000.0f; /* the sensor tells the load, not the joints */
+    ticks(1);
+    TEST_ASSERT_TRUE(now()->force_is_sensed);
+    expect_no_more_than_parameters();
+}
+
+static void test_a_load_by_the_joints_that_stands_leaves_open_the_same(void)
+{
+    start_carrying(-2000.0f, 1500.0f);
+    expect_no_more_than_parameters();
+}
+
+/* A motor's friction carries a part of the load, and nobody sees it. */
+static void test_what_the_friction_of_the_motors_may_hold_counts(void)
+{
+    parameters.drive[BRACE_FEMUR].motor_friction_n_mm = parameters.drive[BRACE_TIBIA].motor_friction_n_mm = 2000.0f;
+    start_carrying(-2000.0f, 1500.0f);
+    expect_spans_to(-4400.0f, 3900.0f); /* with its tolerance of a fifth */
+}
+
+static void test_a_load_that_the_mean_has_not_followed_counts_from_its_first_sample_on(void)
+{
+    start_carrying(-2000.0f, 1500.0f);
+    fake.joint[BRACE_FEMUR].sample.torque_n_mm = -6000.0f;
+    fake.joint[BRACE_TIBIA].sample.torque_n_mm = 4000.0f;
+    ticks(1);
+    expect_spans_to(-2000.0f - 4000.0f / sqrtf(3.0f), 1500.0f + 2500.0f / sqrtf(3.0f)); /* of three samples, one */
+}
+
+static void test_once_three_samples_tell_another_load_all_of_it_counts(void)
+{
+    start_carrying(-2000.0f, 1500.0f);
+    fake.joint[BRACE_FEMUR].sample.torque_n_mm = -6000.0f;
+    fake.joint[BRACE_TIBIA].sample.torque_n_mm = 4000.0f;
+    ticks(3);
+    expect_spans_to(-6000.0f, 4000.0f);
+}
+
+static void test_it_counts_less_as_the_mean_follows_and_no_more_once_it_has(void)
+{
+    start_carrying(-2000.0f, 1500.0f);
+    fake.joint[BRACE_FEMUR].sample.torque_n_mm = -4000.0f; /* more beside a standing angle is a stuck encoder */
+    ticks(1);
+    float before_n_per_mm = told().k_xx_n_per_mm;
+    for (int i = 0; i < 4; i++) {
+        ticks(15);
+        TEST_ASSERT_TRUE(told().k_xx_n_per_mm < before_n_per_mm);
+        before_n_per_mm = told().k_xx_n_per_mm;
+    }
+    ticks(400);
+    expect_no_more_than_parameters();
+}
+
+static void test_a_joint_with_play_has_a_mean_of_its_own(void)
+{
+    parameters.limb.joint[BRACE_FEMUR].gap_rad = parameters.limb.joint[BRACE_TIBIA].gap_rad = 0.006f;
+    start_carrying(-2000.0f, 1500.0f);
+    TEST_ASSERT_EQUAL_HEX32(0, engaged_flags());
+    fake.joint[BRACE_FEMUR].sample.torque_n_mm = -6000.0f;
+    fake.joint[BRACE_TIBIA].sample.torque_n_mm = 4000.0f;
+    ticks(10);
+    TEST_ASSERT_EQUAL_HEX32(0, now()->stiffness.now.flags);
+    expect_spans_to(-6000.0f, 4000.0f);
+}
+
+static void test_a_spring_that_hardens_does_so_by_the_newest_load(void)
+{
+    parameters.drive[BRACE_FEMUR].hardening_n_mm_per_rad3 = 2e7f;
+    parameters.drive[BRACE_TIBIA].hardening_n_mm_per_rad3 = 2e7f;
+    start_carrying(-2000.0f, 1500.0f);
+    fake.joint[BRACE_FEMUR].sample.torque_n_mm = -5000.0f;
+    fake.joint[BRACE_TIBIA].sample.torque_n_mm = 3500.0f;
+    ticks(3);
+    expect_spans_to(-5000.0f, 3500.0f);
+}
+
+/* A load that has come moves the motor before its torque grows: what it carries is the torque less what its own inertia
+ * takes. A tick's way that is longer by 8e-5 rad than the one before tells 80 rad/s2: 4,000 N mm of 50 N mm s2/rad. */
+static void test_what_accelerates_a_motor_is_load_too(void)
+{
+    parameters.drive[BRACE_FEMUR].motor_inertia_n_mm_s2_per_rad = 50.0f;
+    parameters.drive[BRACE_TIBIA].motor_inertia_n_mm_s2_per_rad = 50.0f;
+    start_carrying(-2000.0f, 1500.0f);
+    for (int i = 1; i <= 3; i++) {
+        fake.joint[BRACE_FEMUR].sample.motor_rad += 8e-5f * (float)i;
+        fake.joint[BRACE_TIBIA].sample.motor_rad -= 5e-5f * (float)i;
+        ticks(1);
+    }
+    expect_spans_to(-6000.0f, 4000.0f);
+}
+
+static void test_a_motor_that_keeps_its_speed_carries_its_torque(void)
+{
+    parameters.drive[BRACE_FEMUR].motor_inertia_n_mm_s2_per_rad = 50.0f;
+    start_carrying(-2000.0f, 1500.0f);
+    for (int i = 0; i < 5; i++) {
+        fake.joint[BRACE_FEMUR].sample.motor_rad += 0.0009765625f; /* 2^-10: no rounding in a float near 1 */
+        ticks(1);
+    }
+    expect_no_more_than_parameters();
+}
+
+/* Behind the spring, a joint turns as soon as a load comes; its motor may not have moved at all. */
+static void test_an_encoder_behind_the_gear_tells_no_acceleration_of_the_motor(void)
+{
+    parameters.drive[BRACE_FEMUR].motor_inertia_n_mm_s2_per_rad = 50.0f;
+    start_carrying(-2000.0f, 1500.0f);
+    fake.joint[BRACE_FEMUR].sample.link_rad = fake.joint[BRACE_FEMUR].sample.motor_rad;
+    fake.joint[BRACE_FEMUR].sample.motor_rad = __builtin_nanf("");
+    ticks(50);
+    fake.joint[BRACE_FEMUR].sample.link_rad += 8e-5f;
+    ticks(1);
+    expect_no_more_than_parameters();
+}
+
+/* Three samples tell how fast a motor becomes faster. Before, its torque may be load or all for itself. Five tell three
+ * such loads. */
+static void test_a_load_by_fewer_than_five_samples_leaves_all_open(void)
+{
+    bench_start(&parameters);
+    brace_fake_without_force(&fake);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_start(&app, &fake.hal));
+    int in_a_row = 0, endless = 0;
+    for (int i = 0; i < 600; i++) {
+        const bool is_out = i >= 30 && i < 60; /* longer than a sample may be old */
+        fake.joint[BRACE_TIBIA].not_newer = is_out;
+        ticks(1);
+        in_a_row = is_out && !app.controller.joints.joint[BRACE_TIBIA].sound ? 0 : in_a_row + (is_out ? 0 : 1);
+        const float carries_n_mm = app.controller.joints.joint[BRACE_TIBIA].carries_n_mm[0];
+        TEST_ASSERT_EQUAL(in_a_row < 3, isnan(carries_n_mm) || in_a_row == 0);
+        if (now()->k_is_valid) {
+            TEST_ASSERT_EQUAL(in_a_row < 5, isinf(told().k_xx_n_per_mm) != 0);
+            endless += in_a_row < 5 ? 1 : 0;
+        }
+    }
+    TEST_ASSERT_TRUE(endless > 0);
+    expect_no_more_than_parameters();
+}
+
+/* Half a gap may lie between the told angle and the true one. */
+static void test_a_joint_that_may_stand_anywhere_in_its_gap_counts_with_the_angles(void)
+{
+    parameters.limb.joint[BRACE_FEMUR].gap_rad = 0.006f;
+    bench_start(&parameters);
+    ticks(5);
+    TEST_ASSERT_TRUE((now()->stiffness.now.flags & BRACE_FLAG_GAP_OPEN) != 0u);
+    parameters.limb.uncertainty.angle_rad = sqrtf(0.002f * 0.002f + 0.003f * 0.003f);
+    expect_no_more_than_parameters();
+}
+
+static void test_a_newest_load_without_an_equilibrium_leaves_all_open(void)
+{
+    parameters.drive[BRACE_FEMUR].torque_range_n_mm = parameters.drive[BRACE_TIBIA].torque_range_n_mm = 60000.0f;
+    start_carrying(-2000.0f, 1500.0f);
+    fake.joint[BRACE_FEMUR].sample.torque_n_mm = -110000.0f;
+    fake.joint[BRACE_TIBIA].sample.torque_n_mm = -110000.0f;
+    ticks(1);
+    TEST_ASSERT_TRUE(now()->k_is_valid);
+    const brace_stiffness_sigma_t sigma = told();
+    TEST_ASSERT_TRUE(isinf(sigma.k_xx_n_per_mm) && isinf(sigma.k_zz_n_per_mm) && isinf(sigma.lambda_max_n_per_mm));
+    TEST_ASSERT_EQUAL_FLOAT(BRACE_UNKNOWN_AXIS_RAD, sigma.stiff_axis_rad);
+}
+
+/* Across the plane nobody but the coxa joint tells the load. */
+static void test_of_a_limb_in_space_the_coxa_joint_s_load_counts_beside_a_sensor(void)
+{
+    parameters.limb.joint[BRACE_COXA].compliance_rad_per_n_mm = 8e-6f;
+    parameters.limb.link[BRACE_FEMUR].lateral_mm_per_n = 0.06f;
+    parameters.limb.link[BRACE_TIBIA].lateral_mm_per_n = 0.25f;
+    parameters.limb.link[BRACE_TIBIA].moment_transfer_ratio = 1.0f;
+    bench_start(&parameters);
+    fake.joint[BRACE_COXA].absent = false;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_start(&app, &fake.hal));
+    fake.force_x_n = -5.0f;
+    ticks(50);
+    TEST_ASSERT_TRUE(now()->force_is_sensed && now()->load.is_counted);
+    expect_no_more_than_parameters();
+    fake.joint[BRACE_COXA].sample.torque_n_mm = -9000.0f;
+    ticks(3);
+    TEST_ASSERT_TRUE(told().k_xx_n_per_mm > 1.01f * by_parameters().k_xx_n_per_mm ||
+                     told().k_zz_n_per_mm > 1.01f * by_parameters().k_zz_n_per_mm);
+}
+
+static void test_asking_changes_nothing(void)
+{
+    static uint8_t before[sizeof app];
+    parameters.drive[BRACE_FEMUR].hardening_n_mm_per_rad3 = 1e9f;
+    start_carrying(-2000.0f, 1500.0f);
+    fake.joint[BRACE_FEMUR].sample.torque_n_mm = -6000.0f;
+    ticks(1);
+    memcpy(before, &app, sizeof app);
+    (void)told();
+    TEST_ASSERT_EQUAL_MEMORY(before, &app, sizeof app);
+}
+
+static void test_without_a_valid_K_there_is_nothing_to_tell(void)
+{
+    brace_stiffness_sigma_t sigma = {.k_xx_n_per_mm = 7.0f};
+    bench_start(&parameters);
+    TEST_ASSERT_EQUAL(BRACE_E_MODE, brace_app_uncertainty(&app, &sigma));
+    TEST_ASSERT_EQUAL_FLOAT(7.0f, sigma.k_xx_n_per_mm);
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_uncertainty(NULL, &sigma));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_uncertainty(&app, NULL));
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_a_sensed_load_leaves_open_what_the_parameters_do);
+    RUN_TEST(test_a_load_by_the_joints_that_stands_leaves_open_the_same);
+    RUN_TEST(test_what_the_friction_of_the_motors_may_hold_counts);
+    RUN_TEST(test_a_load_that_the_mean_has_not_followed_counts_from_its_first_sample_on);
+    RUN_TEST(test_once_three_samples_tell_another_load_all_of_it_counts);
+    RUN_TEST(test_it_counts_less_as_the_mean_follows_and_no_more_once_it_has);
+    RUN_TEST(test_a_joint_with_play_has_a_mean_of_its_own);
+    RUN_TEST(test_a_spring_that_hardens_does_so_by_the_newest_load);
+    RUN_TEST(test_what_accelerates_a_motor_is_load_too);
+    RUN_TEST(test_a_motor_that_keeps_its_speed_carries_its_torque);
+    RUN_TEST(test_an_encoder_behind_the_gear_tells_no_acceleration_of_the_motor);
+    RUN_TEST(test_a_load_by_fewer_than_five_samples_leaves_all_open);
+    RUN_TEST(test_a_joint_that_may_stand_anywhere_in_its_gap_counts_with_the_angles);
+    RUN_TEST(test_a_newest_load_without_an_equilibrium_leaves_all_open);
+    RUN_TEST(test_of_a_limb_in_space_the_coxa_joint_s_load_counts_beside_a_sensor);
+    RUN_TEST(test_asking_changes_nothing);
+    RUN_TEST(test_without_a_valid_K_there_is_nothing_to_tell);
+    return UNITY_END();
+}
