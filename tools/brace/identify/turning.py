@@ -11,7 +11,10 @@ turn only where two things say so:
   out whatever is linear and wrong in the limb. What is left is compared with the same of the fitted limb that turns.
   Their ratio is 1 for a limb that turns and 0 for one that does not, whatever else bends the readings.
 
-An effect that nobody knows of yet can disturb either, seldom both. In doubt the limb turned."""
+An effect that nobody knows of yet can disturb either, seldom both. In doubt the limb turned.
+
+Most limbs turn, and most believed limbs are not far off: where the curve is there by the believed limb alone, nothing is
+fitted."""
 
 from __future__ import annotations
 
@@ -36,6 +39,7 @@ FORCES = ("fx_n", "fz_n")
 ROWS = 1000  # are enough
 MUST_BE_LIKELIER = math.log(1e4)  # nats; of ten thousand records that say nothing about it, one may not turn
 NOT_TURNED = 0.5  # of the ratio: nearer to 0 than to 1, on either side
+AS_BELIEVED = 0.75  # of the ratio by the believed limb: half-way from NOT_TURNED to what turns as believed
 MUST_DIFFER = 3.0  # sigmas of the ratio that it has to lie below 1
 AT_THE_TOP = 0.98  # of the largest reading
 ENOUGH = 1e-6  # of a fit's cost: what it could still gain
@@ -53,6 +57,8 @@ def _never_turned(dataset: Dataset, believed: LimbModel) -> bool:
     some = dataset.select(enough_rows(dataset, ROWS))
     some = some.select(np.all([np.isfinite(values) for values in some.columns.values()], axis=0))
     some = some.select(~_cut_off(some.columns))
+    if _curve(some, believed)[0] > AS_BELIEVED:
+        return False
     try:
         linear, turning = (_refitted(some, believed, small=small) for small in (True, False))
     except BraceError:  # nothing to fit, or nothing that can be fitted
@@ -84,16 +90,21 @@ def _cost(fitted: Fit) -> float:
 
 
 def _shows_no_curve(dataset: Dataset, turning: LimbModel) -> bool:
+    ratio, sigma = _curve(dataset, turning)
+    return abs(ratio) <= NOT_TURNED and 1.0 - ratio > MUST_DIFFER * sigma
+
+
+def _curve(dataset: Dataset, turning: LimbModel) -> tuple[float, float]:
+    """How much of the curve of a limb that turns the readings have, and its sigma; NaN where that limb has none."""
     played = player_of(replace(dataset, small_displacements=False), FORCES).play_numbers(model_numbers(turning)[None])
     measured = np.stack([np.asarray(dataset[name], float) for name in FORCES])
     expected, found = (_curved(dataset.columns, forces).ravel() for forces in (played[0], measured))
     power = float(expected @ expected)
     if not power > 0.0:
-        return False
+        return math.nan, math.nan
     ratio = float(expected @ found) / power
     left = found - ratio * expected
-    sigma = float(np.sqrt(left @ left / left.size / power))
-    return abs(ratio) <= NOT_TURNED and 1.0 - ratio > MUST_DIFFER * sigma
+    return ratio, float(np.sqrt(left @ left / left.size / power))
 
 
 def _curved(columns: Mapping[str, np.ndarray], forces: np.ndarray) -> np.ndarray:
