@@ -473,8 +473,7 @@ void brace_app_tick(brace_app_t *app, uint32_t now_us)
     controller->has_worked = job_has_worked || softening_works;
     const bool is_dear = controller->has_worked || softening_may_search(&controller->softening);
     if (!is_dear) {
-        watch_sensors(controller); /* proofs take a quarter of a second: a tick that is dear already may be left out, of
-                                      a limb in space every sixth at least */
+        watch_sensors(controller); /* proofs take a quarter of a second, so dear ticks may be left out */
     }
     part_is_done(controller, PART_JOBS);
     step_guard(controller, is_dear);

@@ -4,7 +4,10 @@
 
 #include "app_bench.h"
 
-enum { SEEN_WITHIN_TICKS = 500 }; /* 250 ms, after what proves it has grown large enough */
+enum {
+    SEEN_WITHIN_TICKS = 500, /* 250 ms, after what proves it has grown large enough */
+    LOOK_EACH_TICKS = 54     /* at a joint, where all ask for a K in every tick */
+};
 
 static const double femur_mm = 185.0, tibia_mm = 313.5;
 static brace_parameters_t parameters;
@@ -75,6 +78,43 @@ static void test_a_joint_that_does_not_feel_the_tip_s_force_is_frozen(void)
         }
         TEST_ASSERT_EQUAL(0, now()->faults);
         TEST_ASSERT_TRUE(now()->k_is_valid);
+    }
+}
+
+/* Every asker asks for K at a posture of its own in every tick: most ticks are dear then. */
+static void press_more_while_all_ask(int tick)
+{
+    const bool is_spatial = !fake.joint[BRACE_COXA].absent;
+    for (int asker = 0; asker < (int)BRACE_ASKER_COUNT; asker++) {
+        brace_k_answer_t answer;
+        const brace_k_question_t question = {
+            .where = is_spatial ? BRACE_K_IN_SPACE : BRACE_K_AT_POSTURE,
+            .theta_rad = {0.3f, 0.5f + 0.1f * (float)asker, 1.0f + 1e-4f * (float)tick}};
+        (void)brace_app_ask_k(&app, (brace_asker_t)asker, &question, &answer);
+    }
+    press_more(tick);
+}
+
+static void fit_the_coxa_joint(void)
+{
+    fake.joint[BRACE_COXA].absent = false;
+    fake.joint[BRACE_COXA].sample.motor_rad = 0.3f;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_start(&app, &fake.hal)); /* again: now the joint is there */
+    ticks(50);
+}
+
+static void test_questions_in_every_tick_hide_no_frozen_joint(void)
+{
+    for (int turn = 0; turn < 4; turn++) {
+        setUp();
+        if (turn >= 2) {
+            fit_the_coxa_joint();
+        }
+        carry(0.0f);
+        ticks(5);
+        frozen_joint = turn % 2 == 0 ? BRACE_FEMUR : BRACE_TIBIA;
+        frozen_n_mm = fake.joint[frozen_joint].sample.torque_n_mm;
+        TEST_ASSERT_NOT_EQUAL(0, seen_after(SEEN_WITHIN_TICKS + 2 * LOOK_EACH_TICKS, press_more_while_all_ask));
     }
 }
 
@@ -403,6 +443,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_a_joint_that_does_not_feel_the_tip_s_force_is_frozen);
+    RUN_TEST(test_questions_in_every_tick_hide_no_frozen_joint);
     RUN_TEST(test_joints_that_feel_it_are_not);
     RUN_TEST(test_what_friction_hides_is_no_proof);
     RUN_TEST(test_a_limb_at_rest_is_not_frozen);

@@ -46,7 +46,7 @@ typedef struct {
 /* What one tick says. Everything in it comes from the same samples. */
 typedef struct {
     uint32_t sequence;    /* counts snapshots; wraps */
-    uint32_t taken_us;    /* when the joints were sampled; of several samples the oldest */
+    uint32_t taken_us;    /* when the joints were sampled; of several sound samples the oldest */
     brace_mode_t mode;
     uint32_t faults;      /* BRACE_FAULT_... */
     bool k_is_valid;      /* stiffness may be used, with its flags; else it is NaN and its flags say why */

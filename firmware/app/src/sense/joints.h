@@ -51,14 +51,16 @@ static inline bool joints_plane_is_sound(const joints_t *joints)
 /* True angles by the encoders behind the gears; NaN: there is none, or what it reads is absurd. */
 void joints_link_angles(const joints_t *joints, float link_rad[BRACE_LINK_COUNT]);
 
-/* When the samples were taken: the oldest of those that are sound. */
+/* When the samples were taken: the oldest of the femur joint's, without which there is no K, and of the others that are
+ * sound. */
 uint32_t joints_taken_us(const joints_t *joints);
 
 /* Each joint's temperature [degC]. Femur and tibia joint take the other's where they have no sensor; NaN: not
  * measured. */
 void joints_temperatures(const joints_t *joints, float temp_degc[BRACE_LINK_COUNT]);
 
-/* Temperature of femur and tibia joint, the warmer one [degC]; NaN: not measured. */
+/* Temperature of femur and tibia joint, the warmer one [degC], by their newest samples however old; the coxa joint is
+ * left out. NaN: not measured. */
 float joints_warmest_degc(const joints_t *joints);
 
 #endif

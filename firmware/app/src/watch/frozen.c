@@ -2,6 +2,9 @@
 
 /* So long a proof has to last: a drive answers its command, and a motor its load, well within a quarter of a second. */
 #define FROZEN_US 250000u
+/* One look counts for no longer, so that several must agree. Where four ask for a K in every tick, a joint is looked at
+ * each 54 ms. */
+#define LOOK_LASTS_US 60000u
 #define SAMPLES_SETTLED 3u /* the torque's mean begins with as many */
 
 #define TOLD_LEAST_RAD 0.005f
@@ -85,11 +88,18 @@ static bool link_has_left(const frozen_joint_t *joint, const brace_joint_t *spri
     return width(joint->link_rad) > LINK_LEAST_RAD + follows_rad;
 }
 
+/* So long has lasted what holds now and held at the look before. */
+static uint32_t lasted_us(uint32_t before_us, uint32_t since_us)
+{
+    const uint32_t counted_us = since_us < LOOK_LASTS_US ? since_us : LOOK_LASTS_US;
+    return before_us + counted_us < FROZEN_US ? before_us + counted_us : FROZEN_US;
+}
+
 static void watch_one(frozen_joint_t *joint, const frozen_inputs_t *inputs, int index)
 {
     const joint_t *seen = &inputs->joints->joint[index];
     const brace_drive_t *drive = &inputs->parameters->drive[index];
-    const uint32_t since_us = inputs->parameters->controller.tick_us * (uint32_t)BRACE_LINK_COUNT;
+    const uint32_t since_us = seen->sample.taken_us - joint->taken_us;
     const float carries_n_mm = load_n_mm(inputs, index), told_rad = inputs->told_rad[index];
     float link_rad[BRACE_LINK_COUNT];
     joints_link_angles(inputs->joints, link_rad);
@@ -100,13 +110,14 @@ static void watch_one(frozen_joint_t *joint, const frozen_inputs_t *inputs, int 
 
     joint->motor_rad = seen->sample.motor_rad;
     joint->torque_n_mm = seen->sample.torque_n_mm;
+    joint->taken_us = seen->sample.taken_us;
     joint->told_rad = same && has_torque ? with(joint->told_rad, told_rad) : just(told_rad);
     joint->same_load_n_mm = same ? with(joint->same_load_n_mm, carries_n_mm) : just(carries_n_mm);
     joint->load_n_mm = stands ? with(joint->load_n_mm, carries_n_mm) : just(carries_n_mm);
     joint->pulls_n_mm = stands ? with(joint->pulls_n_mm, seen->torque_n_mm) : just(seen->torque_n_mm);
     joint->link_rad = stands ? with_link(joint->link_rad, link_rad[index]) : just(link_rad[index]);
     joint->stood_at_rad = stands ? joint->stood_at_rad : seen->sample.motor_rad;
-    joint->stood_us = !stands ? 0u : joint->stood_us < FROZEN_US ? joint->stood_us + since_us : FROZEN_US;
+    joint->stood_us = stands ? lasted_us(joint->stood_us, since_us) : 0u;
     joint->is_settled = seen->samples_seen >= SAMPLES_SETTLED;
 
     const float hidden = hidden_n_mm(joint, inputs, index); /* NaN, and no more than it, where the load is not known */
@@ -115,7 +126,7 @@ static void watch_one(frozen_joint_t *joint, const frozen_inputs_t *inputs, int 
     const bool was_loaded = width(joint->same_load_n_mm) > hidden;
     const bool is_unheld = width(joint->pulls_n_mm) > width(joint->load_n_mm) + hidden;
     const bool is_proven = (same && (was_told || was_loaded)) || (stands && is_unheld);
-    joint->proven_us = !is_proven ? 0u : joint->proven_us < FROZEN_US ? joint->proven_us + since_us : FROZEN_US;
+    joint->proven_us = is_proven ? lasted_us(joint->proven_us, since_us) : 0u;
     joint->is_frozen = joint->proven_us >= FROZEN_US ||
                        (joint->stood_us >= FROZEN_US && (swings(joint, drive) ||
                                                          link_has_left(joint, &inputs->parameters->limb.joint[index])));

@@ -34,7 +34,8 @@ typedef struct {
 typedef struct {
     bool is_frozen;
     bool is_settled;               /* the torque's mean is one of several samples */
-    float motor_rad, torque_n_mm;  /* of the sample three ticks before */
+    float motor_rad, torque_n_mm;  /* of the sample of the look before, */
+    uint32_t taken_us;             /* and its time */
     float stood_at_rad;            /* where the angle began to stand */
     uint32_t stood_us;             /* how long; counts to a quarter of a second */
     uint32_t proven_us;            /* how long one of the first three proofs has lasted */
@@ -60,8 +61,9 @@ typedef struct {
     const float *limit_n_mm;      /* and the torque within which it may follow */
 } frozen_inputs_t;
 
-/* Looks at one joint's sample of this tick, each joint in its turn: a frozen sensor is known by a quarter of a second, and
- * a tick is spared two of three joints. At most 300 instructions. */
+/* Looks at one joint's sample of this tick, each joint in its turn: a tick is spared two of three joints, and a dear
+ * tick all of them. A proof lasts as long as the samples' times say, so that it is late by two looks at most. At most
+ * 310 instructions. */
 void frozen_watch(frozen_t *frozen, const frozen_inputs_t *inputs);
 
 /* Forgets all evidence against every joint. Only what a joint does after this call counts. */

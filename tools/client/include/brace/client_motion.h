@@ -93,7 +93,8 @@ brace_client_status_t brace_client_wait(brace_client_t *client, brace_motion_t *
  * later, brace_client_begin_end_test after a loading test. OK where nothing moves, too. */
 brace_client_status_t brace_client_stop(brace_client_t *client, int timeout_ms);
 
-/* Clears faults that stay until somebody clears them: MODEL_DRIFT (bit 7), CRASHED (bit 8).
+/* Clears faults that stay until somebody clears them: ENCODER_STUCK (bit 2; it comes
+ * again while its cause lasts), MODEL_DRIFT (bit 7), CRASHED (bit 8).
  *   left: the faults that are there now; null is allowed */
 brace_client_status_t brace_client_clear(brace_client_t *client, uint32_t faults, int timeout_ms, uint32_t *left);
 
