@@ -8,9 +8,9 @@
 // "alone": no master asks, and there is no bus. K is judged in a sixth of the time, under other random events.
 // "blind": the same without sensors at the tips, so that the joints tell every load.
 //
-// Motors are sampled before the plant settles under what happens in a tick. So a K that is right for the moment in
-// which its motors were sampled, and wrong only for that in which it is told, a tick later, is counted apart: no sensor
-// of a motor could know.
+// The simulation samples the motors first, and then lets the limb settle under what happens in the tick. So K may be
+// right when the motors are sampled, and wrong a tick later, when the controller tells K. No motor's sensor could know
+// that. Such K are counted separately.
 // While a sensor is stuck or off by a constant, wrong K are counted apart and do not fail the run: before the
 // controller has detected the fault, it cannot know that the sensor is wrong.
 // Stopped by SIGINT or SIGTERM, it tells of what it has run. Exit code 0 when all is well.

@@ -111,6 +111,17 @@ def test_another_header_is_read_anew(keeping: Path, tmp_path: Path) -> None:
             assert c_types([header], [header.parent]).sizeof("thing_t") == size
 
 
+def test_a_damaged_file_is_made_anew(keeping: Path) -> None:
+    roots, folders = _headers()
+    c_types(roots, folders)
+    (kept,) = [path for path in keeping.rglob("*") if path.is_file()]
+    whole = kept.read_bytes()
+    for length in (len(whole) // 2, 40, 0):
+        kept.write_bytes(whole[:length])
+        assert isinstance(c_types(roots, folders), FFI)
+        assert kept.read_bytes() == whole
+
+
 def test_nothing_is_kept_where_python_keeps_nothing(keeping: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     roots, folders = _headers()
     monkeypatch.setattr(sys, "dont_write_bytecode", True)

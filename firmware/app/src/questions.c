@@ -51,8 +51,8 @@ brace_status_t brace_app_grip(const brace_app_t *app, float normal_rad, float fr
     return status == BRACE_OK ? brace_contact_grip(force, normal.x, normal.z, friction_ratio, grip) : status;
 }
 
-/* How far the load that is told of a joint may be off: by its mean's lag, and by the friction of the motor, which holds
- * a part of the load. Both are bounds, and independent. NaN: not known */
+/* How far a joint's load may be from the load that the controller tells [N mm], with a sign. The mean lags behind, and
+ * the motor's friction carries a part of the load. Both are bounds and independent. NaN: not known */
 static float load_off_n_mm(const controller_t *controller, int index)
 {
     const brace_drive_t *drive = &controller->parameters.in_force.drive[index];
@@ -61,7 +61,8 @@ static float load_off_n_mm(const controller_t *controller, int index)
     return __builtin_copysignf(__builtin_sqrtf(lag_n_mm * lag_n_mm + friction_n_mm * friction_n_mm), lag_n_mm);
 }
 
-/* K if one joint carried a load that is off by so much. What follows springs from tick to tick stays as it is.
+/* K if one joint's load were off_n_mm larger than told. The deflections that the model keeps between ticks are
+ * left unchanged.
  * returns as model_loaded */
 static brace_status_t k_if_off(controller_t *controller, int index, float off_n_mm, brace_stiffness_t *stiffness)
 {
@@ -95,7 +96,7 @@ static brace_status_t k_if_off(controller_t *controller, int index, float off_n_
     return status;
 }
 
-/* A sigma with that of a place in a span. */
+/* A sigma, and the sigma of a value that may be anywhere within a span to either side, together. */
 static float with_span(float sigma, float span)
 {
     return __builtin_sqrtf(sigma * sigma + span * span * (1.0f / 3.0f));
@@ -108,7 +109,7 @@ static float between_axes_rad(float one_rad, float other_rad)
     return apart_rad > HALF_TURN_RAD - apart_rad ? HALF_TURN_RAD - apart_rad : apart_rad;
 }
 
-/* Adds that K may be another one, or anything between. */
+/* Adds to sigma that K may lie anywhere from k to other. */
 static void count_span(brace_stiffness_sigma_t *sigma, const brace_stiffness_t *k, const brace_stiffness_t *other)
 {
     const float axis_rad = with_span(sigma->stiff_axis_rad, between_axes_rad(k->stiff_axis_rad, other->stiff_axis_rad));

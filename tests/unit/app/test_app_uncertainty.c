@@ -1,5 +1,5 @@
-/* How far K is told to be off: what the parameters leave open, the load that the joints' mean has not followed yet, and
- * the gap in which a joint may stand. */
+/* The uncertainty that the controller tells of K has three parts: the uncertainty of its parameters, a load that the
+ * mean over the joints' samples has not followed yet, and a gap in which a joint may stand anywhere. */
 #include <string.h>
 
 #include "app_bench.h"
@@ -71,7 +71,8 @@ static float with_spans(float sigma, float from, float to, float or_to)
     return sqrtf(sigma * sigma + ((to - from) * (to - from) + (or_to - from) * (or_to - from)) / 3.0f);
 }
 
-/* sigma holds the spans from the K that is told to those where one joint carries another load. */
+/* Checks that sigma counts two spans: from the K that is told to K with the femur joint's load, and to K with the tibia
+ * joint's load. */
 static void expect_spans_to(float femur_n_mm, float tibia_n_mm)
 {
     const brace_stiffness_t k = now()->stiffness.engaged;

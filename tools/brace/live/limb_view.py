@@ -16,7 +16,7 @@ from brace.wire.layout import Value
 
 SILENT_S = 2.0  # a heartbeat comes each second
 LOAD_LATE_S = 2.0  # it may come more seldom than K
-_KNOWN_MOST = 64  # sets of states whose words are kept: they hardly change, and are sent thirty times a second
+_KNOWN_MOST = 64  # states hardly change, and the page gets their words thirty times a second: the last words are kept
 _SHORT = "%.6g"  # as many digits as a frame carries: a page is sent thirty times a second
 
 _NO_LOAD_SENT = "not sent: controller.load_hz is 0"

@@ -1,5 +1,5 @@
-"""The C types and functions that headers declare, as cffi has them. To read headers takes longer than most commands, so
-what came of it is kept where Python keeps what it has compiled, and read anew when a header is another."""
+"""The C types and functions that headers declare, as cffi has them. Reading the headers takes longer than most
+commands, so the result is kept beside Python's compiled files. Headers are read again when one of them has changed."""
 
 from __future__ import annotations
 
@@ -52,12 +52,12 @@ def _digest(roots: Sequence[Path], folders: Sequence[Path], version: str) -> byt
 
 
 def _read(kept: Path, digest: bytes) -> CodeType | None:
-    """What was kept of the same headers."""
+    """What was kept of the same headers; None where nothing was, or the file is damaged."""
     try:
         content = kept.read_bytes()
-    except OSError:
+        code = marshal.loads(content[_DIGEST_BYTES:]) if content.startswith(digest) else None
+    except (OSError, EOFError, ValueError, TypeError):
         return None
-    code = marshal.loads(content[_DIGEST_BYTES:]) if content.startswith(digest) else None
     return code if isinstance(code, CodeType) else None
 
 

@@ -202,18 +202,21 @@ brace_status_t brace_app_set_gravity(brace_app_t *app, float direction_rad, floa
 /* The direction of down that holds now. */
 void brace_app_gravity(const brace_app_t *app, float *direction_rad, float *lean_rad);
 
-/* One sigma of the K of now with every gap closed: brace_uncertainty_stiffness by the parameters in force, and two
- * things that those do not know.
- *   Where the tip has no sensor, and across the plane, the joints tell the load, as a mean over 20 ms. What a joint
- *   carries now may be as far from it as its newest samples are (flank/flank.h), and the friction of its motor holds a
- *   part of it. K of the one and of the other end are a span apart. Where nothing more is known than a span, its sigma
- *   is span / sqrt(3); those of the joints are independent. So three sigmas hold K even where all three joints stand at
- *   the ends of their spans.
- *   What a joint carries is the torque less what accelerates the motor. Until there are five samples in a row nobody
- *   knows three of those; sigmas are infinite then, as they are where such a load has no equilibrium.
- *   A joint whose flank is not known stands anywhere in its gap: half of it counts with the sigma of the angles.
- * returns as brace_uncertainty_stiffness; BRACE_E_MODE: there is no valid K. It looks at the samples of the newest
- *   tick. About 9,000 instructions in the plane and 22,000 in space: no part of a tick. */
+/* One sigma of the present K with every gap closed. It is brace_uncertainty_stiffness by the parameters in force, and
+ * counts three things more:
+ *   - The joints tell the load where the tip has no sensor, and always across the plane. They tell it as a mean over
+ *     20 ms. The true load may be as far from the mean as the newest samples are (flank/flank.h), and the motor's
+ *     friction carries a part of it. The function works out K for that other load, too. K may be anywhere between the
+ *     two, so this adds a sigma of span / sqrt(3) for each joint. The joints are independent: three sigmas hold K even
+ *     where all three loads are the other ones.
+ *   - The load of a joint is its torque less the torque that accelerates its motor. Three such values need five
+ *     samples in a row; before, the sigmas are infinite. They are infinite, too, where the limb has no equilibrium at
+ *     the other load.
+ *   - A joint whose flank is not known may stand anywhere in its gap. Half of the gap is added to the sigma of the
+ *     angles.
+ * To be called between ticks: it uses the newest tick's samples.
+ * returns as brace_uncertainty_stiffness; BRACE_E_MODE: there is no valid K
+ * About 9,000 instructions in the plane and 22,000 in space: too much for a tick. */
 brace_status_t brace_app_uncertainty(brace_app_t *app, brace_stiffness_sigma_t *sigma);
 
 /* What the K of now makes of a displacement, and of a load.

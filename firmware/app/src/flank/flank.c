@@ -102,7 +102,7 @@ float flank_lag_n_mm(const flank_t *flank, const joints_t *joints, int index)
 {
     const joint_t *joint = &joints->joint[index];
     const flank_joint_t *ours = &flank->joint[index];
-    /* The load that is told of a watched joint has friction taken off, too: its torque's mean is another number. */
+    /* For a watched joint, load_n_mm has friction subtracted. The mean torque itself is in its machine. */
     const float mean_n_mm = ours->watched ? ours->machine.torque_n_mm : joint->torque_n_mm;
     float squares_n2_mm2 = 0.0f;
     for (int i = 0; i < JOINTS_CARRIED; i++) {

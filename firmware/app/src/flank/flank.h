@@ -40,11 +40,12 @@ void flank_tick(flank_t *flank, const joints_t *joints, const tip_force_t *force
 void flank_expect_load(brace_backlash_sample_t *sample, int index, const tip_force_t *force, const posture_t *posture,
                        brace_vec3_t down, const brace_parameters_t *parameters);
 
-/* How far the load that is told of a joint, which is a mean, may be from what the joint carries now [N mm]: the root
- * mean square of how far the newest three samples are from that mean, with the newest one's sign. NaN: not known.
- * One sample alone would be near the mean too often while the load is elsewhere, because of its noise. Three are as
- * many as may be: a load that changes by D in the newest sample alone makes D / sqrt(3). Taken as the bound of a span,
- * that has a sigma of D / 3, and three sigmas hold all of D. */
+/* The controller tells a joint's load as a mean over 20 ms. This is how far the load now may be from the mean [N mm]:
+ * the root mean square distance of the newest three samples from the mean, with the sign of the newest one's distance.
+ * NaN: not known.
+ * One sample is not enough: noise often puts it near the mean although the load has changed. More than three are too
+ * many. After a change by D, the first new sample alone gives D / sqrt(3). A span of that half-width has a sigma of
+ * D / 3, so three sigmas reach D from the first sample on. */
 float flank_lag_n_mm(const flank_t *flank, const joints_t *joints, int index);
 
 /* Joints whose gap is open or may be, as bits 1 << joint. */

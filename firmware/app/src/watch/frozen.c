@@ -2,8 +2,8 @@
 
 /* So long a proof has to last: a drive answers its command, and a motor its load, well within a quarter of a second. */
 #define FROZEN_US 250000u
-/* One look counts for no longer, so that several must agree. Where four ask for a K in every tick, a joint is looked at
- * each 54 ms. */
+/* One look counts for this time at most, so that several looks must agree. Where all ports ask for K in every tick,
+ * each joint gets a look every 54 ms. */
 #define LOOK_LASTS_US 60000u
 #define SAMPLES_SETTLED 3u /* the torque's mean begins with as many */
 
@@ -88,7 +88,7 @@ static bool link_has_left(const frozen_joint_t *joint, const brace_joint_t *spri
     return width(joint->link_rad) > LINK_LEAST_RAD + follows_rad;
 }
 
-/* So long has lasted what holds now and held at the look before. */
+/* The duration of something that held at the look before and holds now. */
 static uint32_t lasted_us(uint32_t before_us, uint32_t since_us)
 {
     const uint32_t counted_us = since_us < LOOK_LASTS_US ? since_us : LOOK_LASTS_US;
