@@ -485,6 +485,24 @@ static void test_configuration_is_its_owner_s(void)
     attacks++;
 }
 
+/* A commit that does not name its set could take in what somebody else has staged: even its owner's is refused. */
+static void test_a_guarded_board_stores_no_set_that_is_not_named(void)
+{
+    uint8_t data[8];
+    begin(CONFIGURING);
+    make_commit(0, data);
+    const answer_t answer = command(data);
+    TEST_ASSERT_EQUAL(BRACE_E_CHECKSUM, refusal_of(&answer, BRACE_REQUEST_COMMIT).status);
+    pass(400);
+    TEST_ASSERT_EQUAL_FLOAT(185.0f, brace_app_parameters(&app)->limb.femur_mm);
+    brace_parameters_t meant = *brace_app_parameters(&app);
+    meant.limb.femur_mm = 190.0f;
+    make_commit(brace_parameters_crc(&meant), data);
+    (void)command(data);
+    pass(400);
+    TEST_ASSERT_EQUAL_FLOAT(190.0f, brace_app_parameters(&app)->limb.femur_mm);
+}
+
 /* No request tells a byte of the key: every entry, every register. */
 static void test_the_key_is_never_told(void)
 {
@@ -546,6 +564,7 @@ int main(void)
     RUN_TEST(test_a_flood_of_guesses_moves_nothing);
     RUN_TEST(test_stop_is_heard_in_a_flood);
     RUN_TEST(test_configuration_is_its_owner_s);
+    RUN_TEST(test_a_guarded_board_stores_no_set_that_is_not_named);
     RUN_TEST(test_the_key_is_never_told);
     RUN_TEST(test_without_a_key_nobody_moves_it);
     RUN_TEST(test_reading_stays_open);

@@ -342,12 +342,25 @@ static void any_press(float theta1_rad, float theta2_rad)
         .femur_n = any(0.0f, most_n), .knee_n = any(0.0f, most_n), .tibia_n = any(0.0f, most_n)};
 }
 
+/* Where the random numbers of rare limbs begin: those that find their equilibrium and are too soft there, and those
+ * whose search for the buckling load goes by its chord. Of 6 million there are eight. */
+static const struct {
+    uint32_t state;
+    int place;
+} rare[] = {{2462139262u, 2}, {2129253177u, 0}, {1741665497u, 2}, {2834531906u, 1},
+            {1773296794u, 2}, {3992481812u, 1}, {1316552449u, 2}, {233524246u, 2}};
+enum { RARE = sizeof rare / sizeof *rare };
+
 /* Loads near and beyond what bends the limb out of its range, or buckles it: it is refused, or K is that of a limb that
  * stands; and where the float path is sure of it, the same. */
 static void test_soft_limbs_near_their_buckling(void)
 {
     int told = 0, refused = 0, compared = 0;
-    for (int i = 0; i < SOFT_LIMBS; i++) {
+    for (int n = -RARE; n < SOFT_LIMBS; n++) {
+        const int i = n < 0 ? rare[n + RARE].place : n;
+        if (n <= 0) {
+            state = n < 0 ? rare[n + RARE].state : 12345u;
+        }
         any_soft_limb();
         take_springs();
         const float theta1 = any(-3.0f, 3.0f), theta2 = i % 3 == 0 ? any(-3.0f, 3.0f) : any(-0.5f, 0.5f);

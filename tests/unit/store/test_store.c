@@ -351,6 +351,24 @@ static void test_a_memory_that_does_not_keep(void)
     expect_after_start(BRACE_PARAMETERS_SLOT_A, 3);
 }
 
+/* A mark that is not kept takes a place each time. When no place is left, an update goes on without: the old set counts as
+ * long as the memory keeps nothing, and the new one when it does. */
+static void test_marks_that_are_not_kept_use_up_their_places(void)
+{
+    update(1);
+    update(2);
+    memory.write_lost = true;
+    for (uint32_t i = 0; i < 3u * BRACE_STORE_MARK_COUNT; i++) {
+        expect_failure(update(3), BRACE_STORE_E_READ_BACK);
+        expect_failure(roll_back(), BRACE_STORE_E_NOTHING); /* the other slot has been given up */
+    }
+    memory.write_lost = false;
+    TEST_ASSERT_EQUAL(BRACE_STORE_DONE, update(4));
+    expect_after_start(status_now().in_force, 4);
+    TEST_ASSERT_EQUAL(BRACE_STORE_DONE, update(5));
+    expect_after_start(status_now().in_force, 5);
+}
+
 /* Wherever a write is refused, power staying on, the old set stays in force and the next start has it too. */
 static void test_each_write_refused_in_turn(void)
 {
@@ -580,6 +598,7 @@ int main(void)
     RUN_TEST(test_a_value_out_of_range_is_named);
     RUN_TEST(test_marks_never_run_out);
     RUN_TEST(test_a_memory_that_does_not_keep);
+    RUN_TEST(test_marks_that_are_not_kept_use_up_their_places);
     RUN_TEST(test_each_write_refused_in_turn);
     RUN_TEST(test_each_read_refused_in_turn);
     RUN_TEST(test_each_read_of_a_start_refused_in_turn);
