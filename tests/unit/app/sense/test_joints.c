@@ -140,6 +140,10 @@ static void test_absurd_samples_are_counted_and_grow_old(void)
     }
     TEST_ASSERT_FALSE(read_at(NAN, NAN, 0.0f)->sound); /* after 20 ms */
     TEST_ASSERT_FALSE(joints_plane_is_sound(&joints));
+    joints.joint[BRACE_TIBIA].sound = true;
+    TEST_ASSERT_FALSE(joints_plane_is_sound(&joints));
+    joints.joint[BRACE_TIBIA].sound = false, joints.joint[BRACE_FEMUR].sound = true;
+    TEST_ASSERT_FALSE(joints_plane_is_sound(&joints));
     TEST_ASSERT_TRUE(read_at(1.5f, NAN, 0.0f)->sound); /* what comes then is believed */
 }
 

@@ -120,6 +120,22 @@ static void test_the_program_needs_no_signs_of_life(void)
     TEST_ASSERT_TRUE(ownership_is_idle(&ownership));
 }
 
+/* What a wire begins after the program needs signs of life again. */
+static void test_after_the_program_a_wire_s_owner_needs_them(void)
+{
+    ownership.is_by_wire = false;
+    ownership_begin(&ownership);
+    TEST_ASSERT_EQUAL(OWNERSHIP_GOES_ON, moves(0));
+    asks(we);
+    lives(we);
+    ownership_step_t last = OWNERSHIP_GOES_ON;
+    for (uint32_t us = 0; us <= SESSION_LIFE_US; us += TICK_US) {
+        last = moves(0);
+    }
+    TEST_ASSERT_EQUAL(OWNERSHIP_STOPS, last);
+    TEST_ASSERT_TRUE(ownership.is_held && ownership.fell_silent);
+}
+
 static void test_one_master_writes_until_it_has_gone(void)
 {
     const ownership_inputs_t configures = {.configures = true, .since_us = TICK_US}, rests = {.since_us = TICK_US};
@@ -234,6 +250,7 @@ int main(void)
     RUN_TEST(test_what_somebody_has_stopped_is_not_let_go);
     RUN_TEST(test_stop_takes_back_what_waits);
     RUN_TEST(test_the_program_needs_no_signs_of_life);
+    RUN_TEST(test_after_the_program_a_wire_s_owner_needs_them);
     RUN_TEST(test_one_master_writes_until_it_has_gone);
     RUN_TEST(test_storing_is_no_silence);
     RUN_TEST(test_what_was_held_stays_held_when_the_next_motion_is_forgotten);

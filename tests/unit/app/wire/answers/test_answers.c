@@ -134,6 +134,21 @@ static void test_a_loading_test_from_its_start_to_its_rows(void)
     refuses(BRACE_E_MODE, BRACE_MODE_MONITOR, BRACE_REQUEST_LOADING_TEST_STOP);
 }
 
+/* The motor that pulls harder bounds a test; each drive is told its own bound beside. */
+static void test_the_torque_of_a_test_is_the_stronger_motor_s(void)
+{
+    for (int i = 0; i < 2; i++) {
+        brace_parameters_t p = bench_parameters();
+        p.drive[BRACE_FEMUR + i].torque_range_n_mm = 12000.0f;
+        stand(&p);
+        asked.loading_test_start = (brace_loading_test_start_request_t){.axis = 0, .steps_per_side = 2, .step_mm = 0.5f,
+                                                                        .dwell_ms = 20};
+        takes(BRACE_REQUEST_LOADING_TEST_START);
+        TEST_ASSERT_EQUAL(BRACE_AXIS_X, result()->setup.axis);
+        TEST_ASSERT_EQUAL_FLOAT(12000.0f, result()->setup.torque_max_n_mm);
+    }
+}
+
 /* The items are the dictionary's entries in their order, as measured.c tells them. */
 static void test_each_item_of_a_loading_test_s_result(void)
 {
@@ -352,6 +367,8 @@ static void test_modes_are_told_and_refused(void)
 {
     asked.set_mode = (brace_set_mode_request_t){.mode = BRACE_MODE_CONFIGURATION, .key = 0xc0df};
     refuses(BRACE_REFUSED_KEY, BRACE_MODE_MONITOR, BRACE_REQUEST_SET_MODE);
+    asked.set_mode.key = 0xc0dd;
+    refuses(BRACE_REFUSED_KEY, BRACE_MODE_MONITOR, BRACE_REQUEST_SET_MODE);
     asked.set_mode = (brace_set_mode_request_t){.mode = BRACE_MODE_MONITOR, .key = 0xc0de}; /* where it is */
     takes(BRACE_REQUEST_SET_MODE);
     TEST_ASSERT_EQUAL(BRACE_MODE_MONITOR, answer.set_mode.mode);
@@ -388,8 +405,39 @@ static void test_entries_are_staged_and_read(void)
     refuses(BRACE_REFUSED_READ_ONLY, asked.write_entry.index, BRACE_REQUEST_WRITE_ENTRY);
     asked.write_entry.index = BRACE_ENTRY_MEASURED + BRACE_MEASURED_COUNT;
     TEST_ASSERT_NOT_EQUAL(BRACE_REFUSED_READ_ONLY, put(BRACE_REQUEST_WRITE_ENTRY));
+    /* a seal that comes by a way on which none can come is taken, and forgotten */
+    asked.write_entry = (brace_write_entry_request_t){
+        BRACE_ENTRY_COMMANDS + (uint32_t)(offsetof(brace_commands_t, seal_mac) / 4u), 0x1234u};
+    takes(BRACE_REQUEST_WRITE_ENTRY);
+    TEST_ASSERT_TRUE(seal.is_there);
+    TEST_ASSERT_EQUAL_HEX32(0x31, seal.counter);
+    TEST_ASSERT_EQUAL(8, seal.counter_bits);
+    TEST_ASSERT_EQUAL_HEX32(0x1234, seal.mac);
+    request.seal = NULL;
+    TEST_ASSERT_EQUAL(BRACE_OK, answer_request(&request, BRACE_REQUEST_WRITE_ENTRY, &asked, &answer));
     asked.read_entry.index = BRACE_ENTRY_MEASURED + BRACE_MEASURED_COUNT;
     refuses(BRACE_E_RANGE, asked.read_entry.index, BRACE_REQUEST_READ_ENTRY);
+}
+
+/* Values that no entry may have are refused at once; values that do not go together are, with the whole set. */
+static void test_what_no_limb_has_is_refused(void)
+{
+    const uint32_t femur = brace_parameter_number(BRACE_PARAMETER_GEOMETRY_FEMUR_MM);
+    const uint32_t least = brace_parameter_number(BRACE_PARAMETER_MOTOR_FEMUR_ANGLE_MIN_RAD);
+    static const uint32_t none[] = {0x7fc00000u, 0x7f800000u, 0xc3390000u}; /* NaN, infinite, -185.0f */
+    to_configuration();
+    for (int i = 0; i < 3; i++) {
+        asked.write_entry = (brace_write_entry_request_t){femur, none[i]};
+        TEST_ASSERT_NOT_EQUAL(BRACE_OK, put(BRACE_REQUEST_WRITE_ENTRY));
+        TEST_ASSERT_EQUAL(femur, request.detail);
+    }
+    asked.write_entry = (brace_write_entry_request_t){least, 0x40e00000u}; /* 7.0f: above its greatest */
+    takes(BRACE_REQUEST_WRITE_ENTRY);
+    asked.commit = (brace_commit_request_t){.crc = 0};
+    const int32_t status = put(BRACE_REQUEST_COMMIT);
+    TEST_ASSERT_EQUAL(BRACE_E_PARAMETER, status);
+    TEST_ASSERT_TRUE(request.detail == least || request.detail == least + 1u);
+    TEST_ASSERT_EQUAL_FLOAT(-2.0f, brace_app_parameters(&app)->drive[BRACE_FEMUR].angle_min_rad);
 }
 
 static void test_an_upload_needs_its_mode_its_size_and_its_order(void)
@@ -520,6 +568,7 @@ int main(void)
     RUN_TEST(test_who_this_is);
     RUN_TEST(test_where_down_is);
     RUN_TEST(test_a_loading_test_from_its_start_to_its_rows);
+    RUN_TEST(test_the_torque_of_a_test_is_the_stronger_motor_s);
     RUN_TEST(test_each_item_of_a_loading_test_s_result);
     RUN_TEST(test_faults_are_cleared_and_what_is_left_is_told);
     RUN_TEST(test_play_and_its_take_up);
@@ -531,6 +580,7 @@ int main(void)
     RUN_TEST(test_what_the_K_of_now_means_at_the_contact);
     RUN_TEST(test_modes_are_told_and_refused);
     RUN_TEST(test_entries_are_staged_and_read);
+    RUN_TEST(test_what_no_limb_has_is_refused);
     RUN_TEST(test_an_upload_needs_its_mode_its_size_and_its_order);
     RUN_TEST(test_the_board_s_ceiling_refuses_a_block_and_tells_which_entry);
     RUN_TEST(test_a_set_that_is_stored_answers_with_what_is_in_force);
