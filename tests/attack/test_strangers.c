@@ -222,6 +222,28 @@ static void test_no_register_takes_a_stranger_s_write(void)
     }
 }
 
+/* The owner's own way over Modbus TCP: its challenge, a sign of life in one block, then each command behind its seal. */
+static void test_the_owner_goes_by_modbus_too(void)
+{
+    uint8_t pdu[14], sealing[14];
+    begin(ALONE);
+    challenge = read_entry(ENTRY(challenge_low));
+    challenge |= (uint64_t)read_entry(ENTRY(challenge_high)) << 32;
+    drain();
+    uint32_t count = make_block(COMMAND_REGISTER(life_counter), 0, check_of(the_key, 0, 1, NULL, 0), 2, pdu);
+    TEST_ASSERT_EQUAL(5, tcp_asks(UNIT, pdu, count).count);
+    TEST_ASSERT_EQUAL(BRACE_OWNER_MODBUS_TCP, read_entry(ENTRY(owner)));
+    count = make_block(COMMAND_REGISTER(take_up), 0x101, 0, 1, pdu); /* the femur's play, towards its positive flank */
+    TEST_ASSERT_EQUAL_HEX8(0x90, tcp_asks(UNIT, pdu, count).byte[0]); /* not without its seal */
+    const uint32_t sealed = make_block(COMMAND_REGISTER(seal_counter), 5, check_of(the_key, 5, 2, pdu, count), 2, sealing);
+    TEST_ASSERT_EQUAL(5, tcp_asks(UNIT, sealing, sealed).count);
+    TEST_ASSERT_EQUAL(5, tcp_asks(UNIT, pdu, count).count);
+    ticks(20);
+    TEST_ASSERT_NOT_EQUAL(BRACE_TAKEUP_IDLE, now()->play[BRACE_FEMUR].phase);
+    TEST_ASSERT_EQUAL_HEX8(0x90, tcp_asks(UNIT, pdu, count).byte[0]); /* a seal is used up */
+    drain();
+}
+
 /* A request to everybody on the line is answered by nobody, but counted. */
 static void test_a_broadcast_moves_nothing(void)
 {
@@ -555,6 +577,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_no_command_of_a_stranger_is_taken);
     RUN_TEST(test_no_register_takes_a_stranger_s_write);
+    RUN_TEST(test_the_owner_goes_by_modbus_too);
     RUN_TEST(test_a_broadcast_moves_nothing);
     RUN_TEST(test_a_recorded_block_does_not_replay);
     RUN_TEST(test_a_command_does_not_count_twice_or_under_a_stolen_seal);

@@ -245,6 +245,16 @@ static void test_stop_takes_back_what_has_not_begun(void)
     TEST_ASSERT_EQUAL_FLOAT(0.0f, fake.joint[BRACE_TIBIA].command.offset_rad);
 }
 
+/* A question needs no seal, and leaves one that has come for the command behind it; a command uses it up. */
+static void test_a_seal_is_for_a_command(void)
+{
+    seal = (brace_seal_t){.is_there = true, .counter = 3};
+    takes(BRACE_REQUEST_IDENTIFY);
+    TEST_ASSERT_TRUE(seal.is_there);
+    (void)put(BRACE_REQUEST_LET_GO);
+    TEST_ASSERT_FALSE(seal.is_there);
+}
+
 static void test_what_no_request_stands_for(void)
 {
     refuses(BRACE_REFUSED_UNKNOWN, BRACE_REQUEST_CODE_MOST, BRACE_REQUEST_CODE_MOST + 1u);
@@ -535,6 +545,9 @@ static void test_a_set_that_is_stored_answers_with_what_is_in_force(void)
     const int32_t status = put(BRACE_REQUEST_COMMIT);
     TEST_ASSERT_EQUAL(BRACE_REFUSED_EARLY, status);
     TEST_ASSERT_TRUE(request.detail > 5000u && request.detail <= 10000u);
+    ticks(2);
+    TEST_ASSERT_EQUAL(1, app.wires.measured.commits_refused);
+    TEST_ASSERT_EQUAL(BRACE_REFUSED_EARLY, (int32_t)app.controller.ownership.last_refusal);
 }
 
 /* The whole set word by word is the block that it was packed to. */
@@ -573,6 +586,7 @@ int main(void)
     RUN_TEST(test_faults_are_cleared_and_what_is_left_is_told);
     RUN_TEST(test_play_and_its_take_up);
     RUN_TEST(test_stop_takes_back_what_has_not_begun);
+    RUN_TEST(test_a_seal_is_for_a_command);
     RUN_TEST(test_what_no_request_stands_for);
     RUN_TEST(test_a_force_is_used_up_by_its_answer);
     RUN_TEST(test_both_knees_under_a_load);
