@@ -1,8 +1,10 @@
 /* Every frame of CAN and CAN FD: what is packed comes back, each member has its own bits, and what a frame cannot carry
  * is counted. */
 #include <stdbool.h>
+#include <stdio.h>
 #include <string.h>
 
+#include "brace/answering.h"
 #include "brace/can_frames.h"
 #include "unity.h"
 
@@ -139,11 +141,68 @@ static void test_what_a_frame_cannot_carry_is_counted(void)
     }
 }
 
+/* The byte of a frame that is told without a member: of a request its code, of an answer its code and its part, of a
+ * message in parts its part. Zeros are sent as zeros beside it. */
+static const frame_t *frame_named(const char *name)
+{
+    for (uint32_t f = 0; f < FRAMES; f++) {
+        if (strcmp(frames[f].name, name) == 0) {
+            return &frames[f];
+        }
+    }
+    return NULL;
+}
+
+static void sends_zeros(const frame_t *frame, uint32_t first, uint32_t second)
+{
+    uint32_t words[MOST_WORDS] = {0};
+    uint8_t data[MOST_BYTES];
+    TEST_ASSERT_EQUAL_MESSAGE(0, frame->pack(words, data), frame->name);
+    TEST_ASSERT_EQUAL_HEX8_MESSAGE(first, data[0], frame->name);
+    TEST_ASSERT_EQUAL_HEX8_MESSAGE(second, data[1], frame->name);
+    for (uint32_t i = 2; i < frame->bytes; i++) {
+        TEST_ASSERT_EQUAL_HEX8_MESSAGE(0, data[i], frame->name);
+    }
+}
+
+static void test_zeros_are_sent_behind_code_and_part(void)
+{
+    uint32_t requests = 0, parts = 0;
+    char name[80];
+#define CODE(code, request)                                                               \
+    if (frame_named(#request "_request") != NULL) {                                       \
+        sends_zeros(frame_named(#request "_request"), (uint32_t)(code), 0);               \
+        requests++;                                                                       \
+    }                                                                                     \
+    for (uint32_t part = 0; part < brace_can_answer_parts[code]; part++) {                \
+        (void)snprintf(name, sizeof name, #request "_answer_%u", (unsigned)part);         \
+        sends_zeros(frame_named(name), (uint32_t)(code) + 32u * part, 0);                 \
+        parts++;                                                                          \
+    }
+    BRACE_REQUESTS(CODE)
+#undef CODE
+    TEST_ASSERT_TRUE(requests > 20u && parts > 40u);
+    for (uint32_t part = 0; part < 7u; part++) {
+        (void)snprintf(name, sizeof name, "space_%u", (unsigned)part);
+        sends_zeros(frame_named(name), 0, part);
+    }
+    for (uint32_t part = 0; part < 5u; part++) {
+        (void)snprintf(name, sizeof name, "load_%u", (unsigned)part);
+        sends_zeros(frame_named(name), 0, part);
+    }
+    static const char *const whole[] = {"stiffness_a", "stiffness_b", "eigenvalues", "posture",
+                                        "snapshot_fd", "space_fd",    "load_fd",     "emergency"};
+    for (uint32_t i = 0; i < 8u; i++) {
+        sends_zeros(frame_named(whole[i]), 0, 0);
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_what_is_packed_comes_back);
     RUN_TEST(test_each_member_has_its_own_bits);
     RUN_TEST(test_what_a_frame_cannot_carry_is_counted);
+    RUN_TEST(test_zeros_are_sent_behind_code_and_part);
     return UNITY_END();
 }

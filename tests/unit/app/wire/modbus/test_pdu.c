@@ -1,5 +1,7 @@
 /* What a Modbus PDU is made of: how long each request is at least, which exception stands for which refusal, what the
  * server says of itself, and what it counts over TCP. */
+#include <stddef.h>
+
 #include "modbus_master.h"
 #include "wire/modbus/pdu.h"
 #include "wire/modbus/refusal.h"
@@ -75,6 +77,33 @@ static void test_the_server_says_who_it_is(void)
     TEST_ASSERT_EQUAL_HEX8(0x91, line_asks(UNIT, odd, sizeof odd).byte[0]);
 }
 
+static uint32_t told_by(uint32_t byte_of_member)
+{
+    const reply_t reply = read_asks(3, BRACE_REGISTER_COMMANDS + byte_of_member / 2u, 2);
+    return value_at(&reply, 0);
+}
+
+/* Commands read what has come of them. */
+static void test_what_a_command_s_register_reads(void)
+{
+    TEST_ASSERT_EQUAL(BRACE_MODE_MONITOR, told_by(offsetof(brace_commands_t, set_mode)));
+    TEST_ASSERT_EQUAL(0, told_by(offsetof(brace_commands_t, clear_faults)));
+    TEST_ASSERT_EQUAL(0, told_by(offsetof(brace_commands_t, commit)));
+    TEST_ASSERT_EQUAL(0, told_by(offsetof(brace_commands_t, let_go)));
+    TEST_ASSERT_EQUAL(0, told_by(offsetof(brace_commands_t, stop)));
+    TEST_ASSERT_EQUAL(0, told_by(offsetof(brace_commands_t, life_counter)));
+    TEST_ASSERT_EQUAL(0, told_by(offsetof(brace_commands_t, seal_mac)));
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_enter(&app));
+    ticks(1);
+    TEST_ASSERT_EQUAL(BRACE_MODE_CONFIGURATION, told_by(offsetof(brace_commands_t, set_mode)));
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_leave(&app));
+    ticks(20);
+    fake.joint[BRACE_FEMUR].not_newer = true;
+    ticks(60);
+    TEST_ASSERT_EQUAL_HEX32(now()->faults, told_by(offsetof(brace_commands_t, clear_faults)));
+    TEST_ASSERT_NOT_EQUAL(0, now()->faults);
+}
+
 static uint32_t counted_over_tcp(uint8_t code)
 {
     const uint8_t pdu[] = {8, 0, code, 0, 0};
@@ -103,6 +132,7 @@ int main(void)
     RUN_TEST(test_how_long_each_request_is_at_least);
     RUN_TEST(test_which_exception_stands_for_which_refusal);
     RUN_TEST(test_the_server_says_who_it_is);
+    RUN_TEST(test_what_a_command_s_register_reads);
     RUN_TEST(test_what_comes_over_tcp_is_counted_once);
     return UNITY_END();
 }
