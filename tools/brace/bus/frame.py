@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 NODE_MASK = 0x7F
 BROADEST_BYTES = 8
 
 
-@dataclass(frozen=True, slots=True)
-class Frame:
+class Frame(NamedTuple):
     """Eleven-bit identifier, up to eight bytes; with more it is one of CAN FD."""
 
     time_s: float  # since 1970, on this computer's clock

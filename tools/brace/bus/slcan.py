@@ -7,7 +7,6 @@ tIIILDD...CR. python-can's own sleeps two seconds at each opening; this one does
 from __future__ import annotations
 
 import contextlib
-import re
 import time
 from binascii import Error as NotHex
 from binascii import unhexlify
@@ -28,7 +27,6 @@ _LONGEST_LINE = 160
 _BYTES = (*range(9), 12, 16, 20, 24, 32, 48, 64)  # by a line's length code
 _HEX = frozenset(b"0123456789abcdefABCDEF")
 _NO_FRAME = (0, -1000)
-_END = re.compile(rb"([\r\a])")
 _ERROR_BITS = (
     "receive queue full",
     "send queue full",
@@ -165,13 +163,13 @@ class SlcanBus:
         if not part:
             return
         now = time.time()
-        *texts, rest = _END.split(self._rest + part)  # each text, then what ended it
-        for text, end in zip(texts[::2], texts[1::2]):
-            frame = frame_of(text, now) if end == b"\r" else None
+        *texts, rest = (self._rest + part).replace(b"\a", b"\a\r").split(b"\r")
+        for text in texts:
+            frame = frame_of(text, now)
             if frame is not None:
                 self._frames.append(frame)
             else:
-                self._take_answer(text + end)
+                self._take_answer(text if text.endswith(b"\a") else text + b"\r")
         self._rest = rest[-_LONGEST_LINE:]
 
     def _take_answer(self, text: bytes) -> None:

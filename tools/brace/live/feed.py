@@ -8,7 +8,7 @@ import threading
 import time
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import partial
 
 from brace.bus.can_controller import CanController
@@ -120,7 +120,7 @@ class Feed:
             state = self.watch.nodes.setdefault(device.node, NodeState())
             self.trouble = ""
             while not self._stopped.wait(_MODBUS_S):
-                snapshot = replace(device.live(), load=device.load())
+                snapshot = device.live()._replace(load=device.load())
                 with self._lock:
                     state.last_s = self.watch.last_s = snapshot.time_s
                     self.watch.take(state, snapshot)
