@@ -86,13 +86,12 @@ def played(taken: Sequence[Frame], split: int) -> tuple[Watch, Watch, int]:
     for part in (taken[:split], taken[split:], []):
         thin = thinned([*held, *part], may_hold=bool(part))
         held = thin.held
-        for frame, is_needed in thin.frames:
-            decoded += is_needed
-            every.add(frame)
-            if is_needed:
-                watch.add(frame)
-            else:
-                watch.count(frame)
+        for frame in thin.needed:
+            watch.add(frame)
+        watch.count(thin.counted)
+        decoded += len(thin.needed)
+    for frame in taken:
+        every.add(frame)
     return watch, every, decoded
 
 

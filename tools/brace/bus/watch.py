@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections import deque
+from collections import Counter, deque
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from brace.bus.controller import check_dictionary
@@ -32,14 +33,23 @@ class NodeState:
     in_space: int = 0  # snapshots with K in space
     frames: int = 0
     last_s: float = 0.0
-    times_s: deque[float] = field(default_factory=deque)
+    marks: deque[tuple[float, int]] = field(default_factory=deque)  # when, and how many snapshots there were then
 
     @property
     def rate_hz(self) -> float:
         """Snapshots a second, over the last two."""
-        if len(self.times_s) < 2 or self.times_s[-1] <= self.times_s[0]:
+        if len(self.marks) < 2:
             return 0.0
-        return (len(self.times_s) - 1) / (self.times_s[-1] - self.times_s[0])
+        (first_s, first), (last_s, last) = self.marks[0], self.marks[-1]
+        return (last - first) / (last_s - first_s)
+
+    def mark(self, time_s: float) -> None:
+        """Counts the snapshots up to now; what an adapter hands over together, or out of order, has one time."""
+        if self.marks and time_s <= self.marks[-1][0]:
+            time_s = self.marks.pop()[0]
+        self.marks.append((time_s, self.snapshots))
+        while time_s - self.marks[0][0] > RATE_S:
+            self.marks.popleft()
 
 
 class Watch:
@@ -84,16 +94,18 @@ class Watch:
             state.drift_cause = event.drift_cause
         return event
 
-    def count(self, frame: Frame) -> None:
-        """A frame whose content nobody needs: it counts for how often K comes."""
-        state = self.nodes.get(frame.node)  # `add` has let it in
-        if state is None:
-            return
-        state.last_s = self.last_s = frame.time_s
-        state.frames += 1
-        if frame.identifier & ~NODE_MASK in _ENDS_K:
-            state.snapshots += 1
-            _at(state.times_s, frame.time_s)
+    def count(self, frames: Sequence[Frame]) -> None:
+        """Frames whose content nobody needs, in their order: they count for how often K comes."""
+        times_s = {frame.identifier: frame.time_s for frame in frames}  # of the newest
+        for identifier, number in Counter(frame.identifier for frame in frames).items():
+            state = self.nodes.get(identifier & NODE_MASK)
+            if state is None:  # `add` has not let it in
+                continue
+            state.last_s = self.last_s = max(state.last_s, times_s[identifier])
+            state.frames += number
+            if identifier & ~NODE_MASK in _ENDS_K:
+                state.snapshots += number
+                state.mark(times_s[identifier])
 
     def take(self, state: NodeState, snapshot: Snapshot) -> None:
         """A snapshot, or more of the newest one; each counts once."""
@@ -111,13 +123,7 @@ class Watch:
             return
         state.snapshots += 1
         state.valid += snapshot.is_valid
-        _at(state.times_s, snapshot.time_s)
-
-
-def _at(times_s: deque[float], time_s: float) -> None:
-    times_s.append(time_s)
-    while times_s[-1] - times_s[0] > RATE_S:
-        times_s.popleft()
+        state.mark(snapshot.time_s)
 
 
 def as_json(event: Event) -> dict[str, object]:

@@ -20,42 +20,41 @@ _OF_SNAPSHOT = frozenset(
         *(MULTIPLEXED[name][0].identifier for name in ("space", "load", "load_across")),
     )
 )  # in all of them the first byte counts the snapshots
+_SAYS_WANTED = {False: _OF_SNAPSHOT, True: _OF_SNAPSHOT - _K}  # whose newest number a page wants; by: with posture?
 _ALWAYS = frozenset((MESSAGES["heartbeat"].identifier, MESSAGES["emergency"].identifier))
+
+_Key = tuple[int, bytes]  # identifier, first byte
 
 
 @dataclass
 class Thinned:
-    """The frames of one period."""
+    """The frames of one period, each kind in its order."""
 
-    frames: list[tuple[Frame, bool]] = field(default_factory=list)  # in their order; is the content needed?
+    needed: list[Frame] = field(default_factory=list)
+    counted: list[Frame] = field(default_factory=list)  # their content is not needed
     held: list[Frame] = field(default_factory=list)  # for the next period: more of their snapshot may come
 
 
 def thinned(frames: Sequence[Frame], may_hold: bool) -> Thinned:
     """A page shows K with its posture; K alone only of a limb that sends no posture. A snapshot that has begun, and may
     get its posture in the next period, is held until then."""
-    last = {frame.identifier: frame.data[:1] for frame in frames}
-    with_posture = {identifier & NODE_MASK for identifier in last if identifier & ~NODE_MASK in _WITH_POSTURE}
-    wanted: dict[int, set[bytes]] = {}  # by node
-    for identifier, number in last.items():
-        message, node = identifier & ~NODE_MASK, identifier & NODE_MASK
-        if message in _OF_SNAPSHOT and (message not in _K or node not in with_posture):
-            wanted.setdefault(node, set()).add(number)
-    begun = {
-        identifier & NODE_MASK: number
-        for identifier, number in last.items()
-        if may_hold and identifier & ~NODE_MASK == _FIRST and last.get(_POSTURE | identifier & NODE_MASK) != number
-    }
-    of_snapshot = {identifier for identifier in last if identifier & ~NODE_MASK in _OF_SNAPSHOT}
+    keys = [(frame.identifier, frame.data[:1]) for frame in frames]
+    last = dict(keys)
+    by_node: dict[int, list[int]] = {}
+    for identifier in last:
+        by_node.setdefault(identifier & NODE_MASK, []).append(identifier & ~NODE_MASK)
+    needed, held = set[_Key](), set[_Key]()
+    for node, messages in by_node.items():
+        says = _SAYS_WANTED[not _WITH_POSTURE.isdisjoint(messages)]
+        numbers = {last[message | node] for message in messages if message in says}
+        of_snapshot = [message | node for message in messages if message in _OF_SNAPSHOT]
+        needed |= {(identifier, number) for identifier in of_snapshot for number in numbers}
+        for always in _ALWAYS.intersection(messages):
+            needed |= {key for key in keys if key[0] == always | node}
+        begun = last.get(_FIRST | node)
+        if may_hold and begun is not None and last.get(_POSTURE | node) != begun:
+            held |= {(identifier, begun) for identifier in of_snapshot}
     out = Thinned()
-    for frame in frames:
-        identifier = frame.identifier
-        if identifier not in of_snapshot:
-            out.frames.append((frame, identifier & ~NODE_MASK in _ALWAYS))
-            continue
-        node, number = identifier & NODE_MASK, frame.data[:1]
-        if begun.get(node) == number:
-            out.held.append(frame)
-        else:
-            out.frames.append((frame, number in wanted[node]))
+    for frame, key in zip(frames, keys, strict=True):
+        (out.held if key in held else out.needed if key in needed else out.counted).append(frame)
     return out
