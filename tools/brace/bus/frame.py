@@ -35,6 +35,9 @@ class Bus(Protocol):
     def receive(self, timeout_s: float) -> Frame | None:
         """The next frame; None when none came in time. EndOfLog after a log's last."""
 
+    def receive_all(self) -> list[Frame]:
+        """Those that have come, without waiting; of a log, some. EndOfLog after a log's last."""
+
     def send(self, identifier: int, data: bytes) -> None:
         """One frame; NoDeviceError when the bus does not take it."""
 

@@ -24,6 +24,7 @@ ANSWER_S = 0.7
 SYNC_S = 0.4
 SEND_S = 1.0
 _LONGEST_LINE = 160
+_MUCH_BYTES = 2048  # of one read: more may be there
 _BYTES = (*range(9), 12, 16, 20, 24, 32, 48, 64)  # by a line's length code
 _HEX = frozenset(b"0123456789abcdefABCDEF")
 _NO_FRAME = (0, -1000)
@@ -102,6 +103,14 @@ class SlcanBus:
                 return None
         return self._frames.popleft()
 
+    def receive_all(self) -> list[Frame]:
+        """Those that have come."""
+        while self._take(0.0) > _MUCH_BYTES:
+            pass
+        frames = list(self._frames)
+        self._frames.clear()
+        return frames
+
     def send(self, identifier: int, data: bytes) -> None:
         """One frame. The adapter's word for it is not waited for: the answer, if one is wanted, tells more."""
         self._answers.clear()
@@ -155,13 +164,12 @@ class SlcanBus:
         self._frames.clear()
         self._answers.clear()
 
-    def _take(self, timeout_s: float) -> None:
+    def _take(self, timeout_s: float) -> int:
+        """How many bytes have come."""
         try:
             part = self._line.read(timeout_s)
         except OSError as error:
             raise self._gone(error) from None
-        if not part:
-            return
         now = time.time()
         *texts, rest = (self._rest + part).replace(b"\a", b"\a\r").split(b"\r")
         for text in texts:
@@ -171,6 +179,7 @@ class SlcanBus:
             else:
                 self._take_answer(text if text.endswith(b"\a") else text + b"\r")
         self._rest = rest[-_LONGEST_LINE:]
+        return len(part)
 
     def _take_answer(self, text: bytes) -> None:
         """Unless it is a frame that is none of ours, or broken."""

@@ -123,18 +123,12 @@ class _Parts:
     parts: set[int] = field(default_factory=set)
 
 
-@dataclass
-class _Half:
-    time_s: float
-    values: Mapping[str, Value]
-
-
 class Joiner:
     """Snapshots from frames of any number of nodes."""
 
     def __init__(self) -> None:
-        self._stiffness_a: dict[int, _Half] = {}
-        self._eigenvalues: dict[int, _Half] = {}
+        self._stiffness_a: dict[int, Frame] = {}
+        self._eigenvalues: dict[int, Frame] = {}
         self._parts: dict[tuple[str, int], _Parts] = {}  # by message and node
         self._newest: dict[int, Snapshot] = {}
         self._seen: set[int] = set()
@@ -173,10 +167,10 @@ class Joiner:
     def _take_stiffness_a(self, frame: Frame) -> None:
         self._seen.add(frame.node)
         self.unmatched += frame.node in self._stiffness_a
-        self._stiffness_a[frame.node] = _Half(frame.time_s, _STIFFNESS_A.decode(frame.data))
+        self._stiffness_a[frame.node] = frame
 
     def _take_eigenvalues(self, frame: Frame) -> None:
-        self._eigenvalues[frame.node] = _Half(frame.time_s, _EIGENVALUES.decode(frame.data))
+        self._eigenvalues[frame.node] = frame
 
     def _take_whole(self, frame: Frame) -> Snapshot:
         self._whole_alone[frame.node] = self._whole_alone.get(frame.node, 0) + 1
@@ -194,19 +188,19 @@ class Joiner:
         return self._add_load(frame.node, frame.time_s, int(values["sequence"] or 0) & 0xFF, values, "load")
 
     def _join_stiffness(self, frame: Frame) -> Snapshot | None:
-        b = _STIFFNESS_B.decode(frame.data)
-        a = self._stiffness_a.pop(frame.node, None)
-        if not _fit(a, frame, b) or a is None:
+        first = self._stiffness_a.pop(frame.node, None)
+        if first is None or not _fit(first, frame):
             self.unmatched += frame.node in self._seen  # we may have come between the two
             return None
+        a, b = _STIFFNESS_A.decode(first.data), _STIFFNESS_B.decode(frame.data)
         self._newest[frame.node] = Snapshot(
             node=frame.node,
             time_s=frame.time_s,
             sequence=int(b["sequence"] or 0),
-            k_xx=a.values["k_xx"],
-            k_xz=a.values["k_xz"],
+            k_xx=a["k_xx"],
+            k_xz=a["k_xz"],
             k_zz=b["k_zz"],
-            flags=bit_names(_STIFFNESS_A, "flags", a.values),
+            flags=bit_names(_STIFFNESS_A, "flags", a),
             age_ms=b["age"],
             play=(name_of(_STIFFNESS_B, "play_femur", b), name_of(_STIFFNESS_B, "play_tibia", b)),
             parameter_tag=b["parameter_tag"],
@@ -219,17 +213,17 @@ class Joiner:
         return self._newest[frame.node]
 
     def _join_posture(self, frame: Frame) -> Snapshot | None:
-        posture = _POSTURE.decode(frame.data)
-        eigenvalues = self._eigenvalues.pop(frame.node, None)
-        newest = self._of_newest(frame.node, frame.time_s, posture["sequence"])
-        if newest is None or newest.has_posture or eigenvalues is None or not _fit(eigenvalues, frame, posture):
+        first = self._eigenvalues.pop(frame.node, None)
+        newest = self._of_newest(frame.node, frame.time_s, frame.data[0])
+        if newest is None or newest.has_posture or first is None or not _fit(first, frame):
             return None
+        eigenvalues, posture = _EIGENVALUES.decode(first.data), _POSTURE.decode(frame.data)
         self._newest[frame.node] = newest._replace(
             adds="posture",
             has_posture=True,
-            lambda_min=eigenvalues.values["lambda_min"],
-            lambda_max=eigenvalues.values["lambda_max"],
-            stiff_axis=eigenvalues.values["stiff_axis"],
+            lambda_min=eigenvalues["lambda_min"],
+            lambda_max=eigenvalues["lambda_max"],
+            stiff_axis=eigenvalues["stiff_axis"],
             theta1=posture["theta1"],
             theta2=posture["theta2"],
             mode=name_of(_POSTURE, "mode", posture),
@@ -335,12 +329,9 @@ def _whole(frame: Frame) -> Snapshot:
     )
 
 
-def _fit(half: _Half | None, frame: Frame, values: Mapping[str, Value]) -> bool:
-    return (
-        half is not None
-        and half.values["sequence"] == values["sequence"]
-        and abs(frame.time_s - half.time_s) <= PAIR_S
-    )
+def _fit(first: Frame, second: Frame) -> bool:
+    """Are they of one snapshot? Its number is their first byte."""
+    return first.data[0] == second.data[0] and abs(second.time_s - first.time_s) <= PAIR_S
 
 
 def heartbeat_of(frame: Frame) -> Heartbeat | None:

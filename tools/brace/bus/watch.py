@@ -12,7 +12,7 @@ from brace.bus.snapshot import Emergency, Heartbeat, Joiner, Snapshot, emergency
 from brace.wire.frames import FD_MESSAGES, MESSAGES
 
 RATE_S = 2.0
-_HEARTBEAT, _EMERGENCY = MESSAGES["heartbeat"].identifier, MESSAGES["emergency"].identifier
+_READ = {MESSAGES["heartbeat"].identifier: heartbeat_of, MESSAGES["emergency"].identifier: emergency_of}
 _ENDS_K = (MESSAGES["stiffness_b"].identifier, FD_MESSAGES["snapshot_fd"].identifier)
 
 Event = Snapshot | Heartbeat | Emergency
@@ -68,14 +68,7 @@ class Watch:
         node = frame.node
         if node == 0 or (self._only is not None and node != self._only):
             return None
-        message = frame.identifier & ~NODE_MASK
-        event: Event | None
-        if message == _HEARTBEAT:
-            event = heartbeat_of(frame)
-        elif message == _EMERGENCY:
-            event = emergency_of(frame)
-        else:
-            event = self.joiner.add(frame)
+        event: Event | None = _READ.get(frame.identifier & ~NODE_MASK, self.joiner.add)(frame)
         state = self.nodes.get(node)
         if state is None:
             if event is None:
@@ -84,12 +77,12 @@ class Watch:
         self.first_s = self.first_s or frame.time_s
         state.last_s = self.last_s = frame.time_s
         state.frames += 1
-        if isinstance(event, Heartbeat):
+        if isinstance(event, Snapshot):
+            self.take(state, event)
+        elif isinstance(event, Heartbeat):
             if not self._any_dictionary:
                 check_dictionary(event.dictionary_hash, f"{self._where}, node {node}")
             state.heartbeat = event
-        elif isinstance(event, Snapshot):
-            self.take(state, event)
         elif isinstance(event, Emergency):
             state.drift_cause = event.drift_cause
         return event

@@ -7,7 +7,6 @@ import json
 import math
 import time
 from collections.abc import Callable
-from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import partial
 
@@ -27,7 +26,6 @@ from brace.live.thinning import thinned
 from brace.model import LimbModel
 
 _AS_TEXT = json.JSONEncoder(allow_nan=False, separators=(",", ":")).encode
-_AT_ONCE_MOST = 500
 _MODBUS_S = 0.033
 _AGAIN_S = 2.0  # after a bus that went away, or a controller that did not answer
 
@@ -104,7 +102,7 @@ class Feed:
             bus.close()
 
     def _take_frames(self, bus: Bus) -> None:
-        new, is_log = _waiting(bus), isinstance(bus, LogBus)
+        new, is_log = bus.receive_all(), isinstance(bus, LogBus)
         thin = thinned([*self._held, *new], may_hold=bool(new) and not is_log)
         self._held = thin.held
         for frame in thin.needed:
@@ -148,18 +146,6 @@ class Feed:
         self.cards[node] = card_from(lambda: controller().download(lambda words: None).model)
         is_known = self.cards[node].lengths_mm is not None
         self._ask_at_s[node] = math.inf if is_known else time.monotonic() + _AGAIN_S
-
-
-def _waiting(bus: Bus) -> list[Frame]:
-    """All frames that are there. EndOfLog once there is none before it."""
-    frames: list[Frame] = []
-    with suppress(EndOfLog):
-        while len(frames) < _AT_ONCE_MOST and (frame := bus.receive(0.0)) is not None:
-            frames.append(frame)
-        return frames
-    if not frames:
-        raise EndOfLog
-    return frames
 
 
 def _controller_on(bus: Bus, node: int) -> Controller:
