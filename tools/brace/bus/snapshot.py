@@ -188,15 +188,16 @@ class Joiner:
         return self._add_load(frame.node, frame.time_s, int(values["sequence"] or 0) & 0xFF, values, "load")
 
     def _join_stiffness(self, frame: Frame) -> Snapshot | None:
-        first = self._stiffness_a.pop(frame.node, None)
+        node = frame.node
+        first = self._stiffness_a.pop(node, None)
         if first is None or not _fit(first, frame):
-            self.unmatched += frame.node in self._seen  # we may have come between the two
+            self.unmatched += node in self._seen  # we may have come between the two
             return None
         a, b = _STIFFNESS_A.decode(first.data), _STIFFNESS_B.decode(frame.data)
-        self._newest[frame.node] = Snapshot(
-            node=frame.node,
+        self._newest[node] = Snapshot(
+            node=node,
             time_s=frame.time_s,
-            sequence=int(b["sequence"] or 0),
+            sequence=frame.data[0],
             k_xx=a["k_xx"],
             k_xz=a["k_xz"],
             k_zz=b["k_zz"],
@@ -206,19 +207,20 @@ class Joiner:
             parameter_tag=b["parameter_tag"],
         )
         # they came before: their identifiers are the lower ones
-        self._join_load(frame.node, adds="stiffness")
-        space = self._parts.get(("space", frame.node))
+        self._join_load(node, adds="stiffness")
+        space = self._parts.get(("space", node))
         if space is not None and len(space.parts) == len(_SPACE):
-            self._add_space(frame.node, space.time_s, space.sequence, space.values)
-        return self._newest[frame.node]
+            self._add_space(node, space.time_s, space.sequence, space.values)
+        return self._newest[node]
 
     def _join_posture(self, frame: Frame) -> Snapshot | None:
-        first = self._eigenvalues.pop(frame.node, None)
-        newest = self._of_newest(frame.node, frame.time_s, frame.data[0])
+        node = frame.node
+        first = self._eigenvalues.pop(node, None)
+        newest = self._of_newest(node, frame.time_s, frame.data[0])
         if newest is None or newest.has_posture or first is None or not _fit(first, frame):
             return None
         eigenvalues, posture = _EIGENVALUES.decode(first.data), _POSTURE.decode(frame.data)
-        self._newest[frame.node] = newest._replace(
+        self._newest[node] = newest._replace(
             adds="posture",
             has_posture=True,
             lambda_min=eigenvalues["lambda_min"],
@@ -229,7 +231,7 @@ class Joiner:
             mode=name_of(_POSTURE, "mode", posture),
             faults=bit_names(_POSTURE, "faults", posture),
         )
-        return self._newest[frame.node]
+        return self._newest[node]
 
     def _take_part(self, message: str, frame: Frame) -> Snapshot | None:
         """One of the frames that carry K in space, the load, or the load across, together."""

@@ -97,8 +97,7 @@ class Watch:
             state.last_s = self.last_s = max(state.last_s, times_s[identifier])
             state.frames += number
             if identifier & ~NODE_MASK in _ENDS_K:
-                state.snapshots += number
-                state.mark(times_s[identifier])
+                state.snapshots += number  # for the rate, too, from the next snapshot on that `add` is given
 
     def take(self, state: NodeState, snapshot: Snapshot) -> None:
         """A snapshot, or more of the newest one; each counts once."""

@@ -11,7 +11,9 @@ from brace.wire.frames import FD_MESSAGES, MESSAGES, MULTIPLEXED
 
 _FIRST, _POSTURE = MESSAGES["stiffness_a"].identifier, MESSAGES["posture"].identifier  # of a snapshot in several frames
 _K = frozenset((_FIRST, MESSAGES["stiffness_b"].identifier))
-_WITH_POSTURE = frozenset((_POSTURE, FD_MESSAGES["snapshot_fd"].identifier))
+_WHOLE = FD_MESSAGES["snapshot_fd"].identifier
+_HAS_K = _K | {_WHOLE}
+_WITH_POSTURE = frozenset((_POSTURE, _WHOLE))
 _OF_SNAPSHOT = frozenset(
     (
         *_K,
@@ -20,7 +22,6 @@ _OF_SNAPSHOT = frozenset(
         *(MULTIPLEXED[name][0].identifier for name in ("space", "load", "load_across")),
     )
 )  # in all of them the first byte counts the snapshots
-_SAYS_WANTED = {False: _OF_SNAPSHOT, True: _OF_SNAPSHOT - _K}  # whose newest number a page wants; by: with posture?
 _ALWAYS = frozenset((MESSAGES["heartbeat"].identifier, MESSAGES["emergency"].identifier))
 
 _Key = tuple[int, bytes]  # identifier, first byte
@@ -45,15 +46,16 @@ def thinned(frames: Sequence[Frame], may_hold: bool) -> Thinned:
         by_node.setdefault(identifier & NODE_MASK, []).append(identifier & ~NODE_MASK)
     needed, held = set[_Key](), set[_Key]()
     for node, messages in by_node.items():
-        says = _SAYS_WANTED[not _WITH_POSTURE.isdisjoint(messages)]
-        numbers = {last[message | node] for message in messages if message in says}
-        of_snapshot = [message | node for message in messages if message in _OF_SNAPSHOT]
-        needed |= {(identifier, number) for identifier in of_snapshot for number in numbers}
+        parts = _OF_SNAPSHOT.intersection(messages)
+        shown = _WITH_POSTURE & parts or _K & parts
+        for message in parts - _K | shown:
+            its = parts if message in shown else (message, *_HAS_K)  # K's parts are what it is joined to
+            needed |= {(part | node, last[message | node]) for part in its}
         for always in _ALWAYS.intersection(messages):
             needed |= {key for key in keys if key[0] == always | node}
         begun = last.get(_FIRST | node)
         if may_hold and begun is not None and last.get(_POSTURE | node) != begun:
-            held |= {(identifier, begun) for identifier in of_snapshot}
+            held |= {(part | node, begun) for part in parts}
     out = Thinned()
     for frame, key in zip(frames, keys, strict=True):
         (out.held if key in held else out.needed if key in needed else out.counted).append(frame)
