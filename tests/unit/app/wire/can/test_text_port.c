@@ -99,6 +99,36 @@ static void test_a_channel_that_is_opened_again_begins_anew(void)
     TEST_ASSERT_TRUE(is_told); /* its end, now that somebody listens */
 }
 
+/* A commit is answered when it has ended, by the way it came. */
+static void test_a_commit_as_text_is_answered_as_text(void)
+{
+    char line[40];
+    uint8_t data[8];
+    say("O\r");
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_enter(&app));
+    ticks(2);
+    (void)heard();
+    const uint32_t longer = 0x433e0000u; /* 190.0f */
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_parameters_stage(&app, brace_parameter_number(BRACE_PARAMETER_GEOMETRY_FEMUR_MM),
+                                                           1, &longer));
+    brace_can_pack_commit_request(&(brace_can_commit_request_t){0x10, 0}, data);
+    uint32_t at = (uint32_t)snprintf(line, sizeof line, "t6058");
+    for (uint32_t i = 0; i < 8u; i++) {
+        at += (uint32_t)snprintf(line + at, sizeof line - at, "%02X", data[i]);
+    }
+    (void)snprintf(line + at, sizeof line - at, "\r");
+    say(line);
+    char part[16];
+    (void)snprintf(part, sizeof part, "t5858%02X10", (unsigned)BRACE_REQUEST_COMMIT);
+    bool is_answered = false;
+    for (int i = 0; i < 400; i++) {
+        ticks(1);
+        is_answered = strstr(heard(), part) != NULL || is_answered;
+    }
+    TEST_ASSERT_TRUE(is_answered);
+    TEST_ASSERT_EQUAL_FLOAT(190.0f, brace_app_parameters(&app)->limb.femur_mm);
+}
+
 static void test_who_closes_the_channel_owns_the_limb_no_longer(void)
 {
     brace_session_report_t report;
@@ -132,6 +162,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_requests_of_a_host_that_does_not_read_wait);
     RUN_TEST(test_a_channel_that_is_opened_again_begins_anew);
+    RUN_TEST(test_a_commit_as_text_is_answered_as_text);
     RUN_TEST(test_who_closes_the_channel_owns_the_limb_no_longer);
     return UNITY_END();
 }
