@@ -9,6 +9,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from pathlib import Path
 
+from brace.pages import located
+
 EXIT_OK = 0
 EXIT_CHECK_FAILED = 1
 EXIT_USAGE = 2
@@ -39,7 +41,7 @@ class BraceError(Exception):
             lines.append(f"  why: {self.why}")
         if self.next_step:
             lines.append(f"  try: {self.next_step}")
-        return "\n".join(printable(line) for line in lines)
+        return "\n".join(printable(located(line)) for line in lines)
 
 
 def printable(text: str) -> str:

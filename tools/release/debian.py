@@ -70,18 +70,23 @@ def package(source: Source, wheel: Path, work: Path, cache: Path, dist: Path) ->
     man_pages.write(root / "usr/share/man/man1", source.version)
     for page in sorted((root / "usr/share/man/man1").iterdir()):
         _compressed(page)
-    documents = root / "usr/share/doc/brace"
-    _write(documents / "copyright", COPYRIGHT)
-    _compressed(_write(documents / "changelog", (source.folder / "CHANGELOG.md").read_text()))
-    shutil.copytree(source.folder / "examples", documents / "examples")
-    for name in ("paper-limb.toml", "paper-rig.toml"):
-        shutil.copy(source.folder / "tools" / "brace" / "data" / name, documents)
+    _documents(source, root / "usr/share/doc/brace")
     _control(root, source)
     set_times(root, source.epoch_s)
     out = dist / f"brace_{source.version}_{ARCHITECTURE}.deb"
     build = ("dpkg-deb", "--root-owner-group", "-Zzstd", "-z9", "--threads-max=1", "--build", root, out)
     run(*build, environment=source.environment)
     return out
+
+
+def _documents(source: Source, folder: Path) -> None:
+    """What a person reads. brace/pages.py says in messages where the pages lie."""
+    _write(folder / "copyright", COPYRIGHT)
+    _compressed(_write(folder / "changelog", (source.folder / "CHANGELOG.md").read_text()))
+    shutil.copytree(source.folder / "examples", folder / "examples")
+    shutil.copytree(source.folder / "docs", folder / "docs", ignore=shutil.ignore_patterns("*.json", "*.toml"))
+    for name in ("paper-limb.toml", "paper-rig.toml"):
+        shutil.copy(source.folder / "tools" / "brace" / "data" / name, folder)
 
 
 def _python(wheel: Path, wheels: Path, folder: Path, source: Source) -> None:

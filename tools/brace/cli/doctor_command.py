@@ -10,6 +10,7 @@ from brace.cli.bus_options import add_bus
 from brace.cli.options import Subcommands
 from brace.cli.subcommands import SUBCOMMANDS
 from brace.errors import EXIT_CHECK_FAILED, EXIT_OK
+from brace.pages import located
 
 if TYPE_CHECKING:
     from brace.doctor.finding import Finding
@@ -83,7 +84,7 @@ def _text(findings: list[Finding], needed: set[str], lacking: int) -> str:
         for finding in (finding for finding in findings if finding.purpose == purpose):
             lines.append(f"  {finding.state:<8} {finding.name:<22} {finding.found}")
             if finding.next_step:
-                lines.append(f"  {'':<8} {'':<22} try: {finding.next_step}")
+                lines.append(f"  {'':<8} {'':<22} try: {located(finding.next_step)}")
     missing = f"{lacking} of the things that are needed: missing, too old or faulty, see 'try' above"
     lines += ["", missing if lacking else "everything needed is there"]
     return "\n".join(lines[1:])

@@ -8,6 +8,7 @@ import time
 from typing import TYPE_CHECKING
 
 from brace.cli import common
+from brace.pages import located
 
 if TYPE_CHECKING:
     from rich.columns import Columns
@@ -207,7 +208,7 @@ def _lines(state: NodeState) -> list[str]:
             f"age {'over 127' if k.age_ms is None else format(k.age_ms, 'g')} ms, {state.rate_hz:.0f} Hz"
         )
         lines.append(f"play {k.play[0]}, {k.play[1]}" if len(k.play) == 2 else "play not sent")
-        lines += [f"flag {name}: {_FLAG_WORDS.get(name, 'docs/errors.md')}" for name in k.flags] or ["flags none"]
+        lines += [f"flag {name}: {_FLAG_WORDS.get(name, located('docs/errors.md'))}" for name in k.flags] or ["flags none"]
     if beat is not None:
         lines.append(f"{beat.mode} ({beat.state}), faults {' '.join(fault_words(state)) or 'none'}")
     return lines
