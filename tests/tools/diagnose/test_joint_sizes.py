@@ -18,7 +18,10 @@ from brace.diagnose.joint_test.terms import effects_of
 from brace.effects import JointTestBench
 from brace.identify.joint_test import usable
 from brace.identify.run import Options, identify
+from brace.model import load_limb
+from brace.predict import predict
 
+LIMB = Path(__file__).parents[3] / "tools/brace/data/paper-limb.toml"
 COMPLIANCE, GAP, FRICTION = 2e-6, 0.04, 1200.0
 FULL_N_MM = 4000.0
 GAP_KEY, RATIO_KEY = "joint.femur.gap_rad", "joint.femur.coulomb_per_load_ratio"
@@ -103,6 +106,16 @@ def test_identify_and_diagnose_give_the_same_numbers(tmp_path: Path) -> None:
         if not key.endswith("per_load_ratio"):
             assert told[key].value == pytest.approx(held.value, rel=0.01), key
             assert told[key].low <= held.high and held.low <= told[key].high, key
+
+
+def test_a_record_without_noise_is_identified_and_predicted(tmp_path: Path) -> None:
+    """As somebody's own simulator writes it, and with a model that is far from it."""
+    record = load_dataset(recorded(tmp_path, [ramps(share * 0.02, 0.004, COMPLIANCE) for share in (0.5, 1.0, 0.52)]))
+    found = identify(record, spring_alone(record), Options()).fit.model
+    assert found.number(GAP_KEY) == pytest.approx(0.004, rel=0.02)
+    assert found.number("joint.femur.compliance_rad_per_n_mm") == pytest.approx(COMPLIANCE, rel=0.02)
+    torque = np.asarray(predict(record, load_limb(LIMB)).columns["torque_n_mm"])
+    assert np.all(np.isfinite(torque)) and np.std(torque - record["torque_n_mm"]) > 100.0
 
 
 def test_readings_where_the_drive_does_not_follow_tell_nothing() -> None:
