@@ -370,6 +370,8 @@ static void test_a_commit_by_register_names_its_set(void)
 {
     uint32_t value[] = {0xc0de0002};
     TEST_ASSERT_EQUAL(5, write_values(COMMAND_REGISTER(set_mode), value, 1).count);
+    value[0] = 0; /* names none */
+    TEST_ASSERT_EQUAL(2, write_values(COMMAND_REGISTER(commit_crc), value, 1).count);
     value[0] = 0x12345678;
     TEST_ASSERT_EQUAL(5, write_values(COMMAND_REGISTER(commit_crc), value, 1).count);
     ticks(400);

@@ -222,6 +222,28 @@ static void test_no_register_takes_a_stranger_s_write(void)
     }
 }
 
+/* The owner's own way over Modbus TCP: its challenge, a sign of life in one block, then each command behind its seal. */
+static void test_the_owner_goes_by_modbus_too(void)
+{
+    uint8_t pdu[14], sealing[14];
+    begin(ALONE);
+    challenge = read_entry(ENTRY(challenge_low));
+    challenge |= (uint64_t)read_entry(ENTRY(challenge_high)) << 32;
+    drain();
+    uint32_t count = make_block(COMMAND_REGISTER(life_counter), 0, check_of(the_key, 0, 1, NULL, 0), 2, pdu);
+    TEST_ASSERT_EQUAL(5, tcp_asks(UNIT, pdu, count).count);
+    TEST_ASSERT_EQUAL(BRACE_OWNER_MODBUS_TCP, read_entry(ENTRY(owner)));
+    count = make_block(COMMAND_REGISTER(take_up), 0x101, 0, 1, pdu); /* the femur's play, towards its positive flank */
+    TEST_ASSERT_EQUAL_HEX8(0x90, tcp_asks(UNIT, pdu, count).byte[0]); /* not without its seal */
+    const uint32_t sealed = make_block(COMMAND_REGISTER(seal_counter), 5, check_of(the_key, 5, 2, pdu, count), 2, sealing);
+    TEST_ASSERT_EQUAL(5, tcp_asks(UNIT, sealing, sealed).count);
+    TEST_ASSERT_EQUAL(5, tcp_asks(UNIT, pdu, count).count);
+    ticks(20);
+    TEST_ASSERT_NOT_EQUAL(BRACE_TAKEUP_IDLE, now()->play[BRACE_FEMUR].phase);
+    TEST_ASSERT_EQUAL_HEX8(0x90, tcp_asks(UNIT, pdu, count).byte[0]); /* a seal is used up */
+    drain();
+}
+
 /* A request to everybody on the line is answered by nobody, but counted. */
 static void test_a_broadcast_moves_nothing(void)
 {
@@ -485,6 +507,24 @@ static void test_configuration_is_its_owner_s(void)
     attacks++;
 }
 
+/* A commit that does not name its set could take in what somebody else has staged: even its owner's is refused. */
+static void test_a_guarded_board_stores_no_set_that_is_not_named(void)
+{
+    uint8_t data[8];
+    begin(CONFIGURING);
+    make_commit(0, data);
+    const answer_t answer = command(data);
+    TEST_ASSERT_EQUAL(BRACE_E_CHECKSUM, refusal_of(&answer, BRACE_REQUEST_COMMIT).status);
+    pass(400);
+    TEST_ASSERT_EQUAL_FLOAT(185.0f, brace_app_parameters(&app)->limb.femur_mm);
+    brace_parameters_t meant = *brace_app_parameters(&app);
+    meant.limb.femur_mm = 190.0f;
+    make_commit(brace_parameters_crc(&meant), data);
+    (void)command(data);
+    pass(400);
+    TEST_ASSERT_EQUAL_FLOAT(190.0f, brace_app_parameters(&app)->limb.femur_mm);
+}
+
 /* No request tells a byte of the key: every entry, every register. */
 static void test_the_key_is_never_told(void)
 {
@@ -537,6 +577,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_no_command_of_a_stranger_is_taken);
     RUN_TEST(test_no_register_takes_a_stranger_s_write);
+    RUN_TEST(test_the_owner_goes_by_modbus_too);
     RUN_TEST(test_a_broadcast_moves_nothing);
     RUN_TEST(test_a_recorded_block_does_not_replay);
     RUN_TEST(test_a_command_does_not_count_twice_or_under_a_stolen_seal);
@@ -546,6 +587,7 @@ int main(void)
     RUN_TEST(test_a_flood_of_guesses_moves_nothing);
     RUN_TEST(test_stop_is_heard_in_a_flood);
     RUN_TEST(test_configuration_is_its_owner_s);
+    RUN_TEST(test_a_guarded_board_stores_no_set_that_is_not_named);
     RUN_TEST(test_the_key_is_never_told);
     RUN_TEST(test_without_a_key_nobody_moves_it);
     RUN_TEST(test_reading_stays_open);

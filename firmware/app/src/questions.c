@@ -44,9 +44,6 @@ brace_status_t brace_app_grip(const brace_app_t *app, float normal_rad, float fr
     }
     const brace_snapshot_t *now = brace_app_snapshot(app);
     const brace_force_t force = {now->force_x_n, now->force_z_n};
-    if (force.x_n != force.x_n || force.z_n != force.z_n) {
-        return BRACE_E_NOT_FINITE;
-    }
     const brace_status_t status = brace_kinematics_direction(normal_rad, &normal);
     return status == BRACE_OK ? brace_contact_grip(force, normal.x, normal.z, friction_ratio, grip) : status;
 }

@@ -31,6 +31,29 @@ static void test_the_force_is_bounded(void)
     ends_with(BRACE_LOADING_E_FORCE);
 }
 
+/* Each side of the force ends it, whichever way the test goes. */
+static void test_the_force_is_bounded_on_every_side(void)
+{
+    static const float more_n[][2] = {{25.0f, 0.0f}, {-25.0f, 0.0f}, {0.0f, 25.0f}, {0.0f, -25.0f}};
+    for (int i = 0; i < 4; i++) {
+        const brace_parameters_t p = bench_parameters();
+        stand(&p);
+        brace_loading_setup_t setup = along_x;
+        setup.force_max_n = 20.0f;
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_app_loading_start(&app, &setup));
+        for (int j = 0; j < 20000 && result()->rows < 1; j++) {
+            ticks(1);
+        }
+        ticks(30);
+        TEST_ASSERT_EQUAL(BRACE_LOADING_RUNNING, result()->outcome);
+        preload_x_n += (double)more_n[i][0], preload_z_n += (double)more_n[i][1];
+        for (int j = 0; j < 20000 && app.controller.mode.now == BRACE_MODE_LOADING_TEST; j++) {
+            ticks(1);
+        }
+        TEST_ASSERT_EQUAL(BRACE_LOADING_E_FORCE, result()->outcome);
+    }
+}
+
 static void test_the_torque_is_bounded(void)
 {
     brace_loading_setup_t setup = along_x;
@@ -217,6 +240,20 @@ static void test_setups_that_cannot_be_are_refused(void)
     TEST_ASSERT_EQUAL(BRACE_E_RANGE, brace_app_loading_start(&app, &s));
     s = along_x, s.source = (brace_loading_source_t)7;
     TEST_ASSERT_EQUAL(BRACE_E_RANGE, brace_app_loading_start(&app, &s));
+    s = along_x, s.steps_per_side = 61;
+    TEST_ASSERT_EQUAL(BRACE_E_RANGE, brace_app_loading_start(&app, &s));
+    s = along_x, s.dwell_us = 10000001;
+    TEST_ASSERT_EQUAL(BRACE_E_RANGE, brace_app_loading_start(&app, &s));
+    s = along_x, s.rate_mm_per_s = 1001.0f;
+    TEST_ASSERT_EQUAL(BRACE_E_RANGE, brace_app_loading_start(&app, &s));
+    s = along_x, s.rate_mm_per_s = 0.9e-3f;
+    TEST_ASSERT_EQUAL(BRACE_E_RANGE, brace_app_loading_start(&app, &s));
+    s = along_x, s.force_max_n = 1.1e6f;
+    TEST_ASSERT_EQUAL(BRACE_E_RANGE, brace_app_loading_start(&app, &s));
+    s = along_x, s.torque_max_n_mm = 1.1e6f;
+    TEST_ASSERT_EQUAL(BRACE_E_RANGE, brace_app_loading_start(&app, &s));
+    s = along_x, s.torque_max_n_mm = 0.0f;
+    TEST_ASSERT_EQUAL(BRACE_E_RANGE, brace_app_loading_start(&app, &s));
     fake.play = NULL;
     fake.joint[BRACE_TIBIA].sample.motor_rad = 0.01f; /* nearly straight */
     ticks(3);
@@ -271,6 +308,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_the_force_is_bounded);
+    RUN_TEST(test_the_force_is_bounded_on_every_side);
     RUN_TEST(test_the_torque_is_bounded);
     RUN_TEST(test_a_tip_that_nothing_holds_gives_no_slope_but_no_harm);
     RUN_TEST(test_motors_that_do_not_follow_are_told);

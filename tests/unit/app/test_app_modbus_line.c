@@ -180,6 +180,20 @@ static void test_what_is_no_modbus_on_tcp_is_dropped(void)
     TEST_ASSERT_EQUAL(6, tcp_asks(UNIT, read, sizeof read).count);
 }
 
+/* Lengths that no request has, below and above, on their own and behind a good one. */
+static void test_lengths_that_no_request_has_are_dropped_on_tcp(void)
+{
+    static const uint32_t lengths[] = {0, 1, 255, 0xffff};
+    const uint8_t read[] = {4, 0, 0, 0, 2};
+    for (uint32_t i = 0; i < 4u; i++) {
+        const uint8_t odd[] = {0, 1, 0, 0, (uint8_t)(lengths[i] >> 8), (uint8_t)lengths[i], UNIT, 4, 0, 0, 0, 2};
+        (void)brace_fake_bytes_arrive(&fake, BRACE_SERIAL_MODBUS_TCP, odd, sizeof odd);
+        TEST_ASSERT_EQUAL(0, heard(BRACE_SERIAL_MODBUS_TCP).count);
+        TEST_ASSERT_EQUAL(i + 1u, broken());
+        TEST_ASSERT_EQUAL(6, tcp_asks(UNIT, read, sizeof read).count);
+    }
+}
+
 static void test_a_slow_line_waits_its_silence(void)
 {
     brace_parameters_t p = bench_parameters();
@@ -259,6 +273,7 @@ int main(void)
     RUN_TEST(test_tcp_answers_the_same);
     RUN_TEST(test_tcp_and_line_at_once_do_not_mix);
     RUN_TEST(test_what_is_no_modbus_on_tcp_is_dropped);
+    RUN_TEST(test_lengths_that_no_request_has_are_dropped_on_tcp);
     RUN_TEST(test_a_slow_line_waits_its_silence);
     RUN_TEST(test_an_answer_that_comes_back_is_not_answered);
     RUN_TEST(test_a_request_that_is_repeated_is_answered_each_time);

@@ -115,6 +115,23 @@ static void test_without_a_force_the_weight_counts(void)
     TEST_ASSERT_TRUE(fabsf(weightless.stiffness.k_xx_n_per_mm - a.k_xx_n_per_mm) > 2e-3f);
 }
 
+/* A board that nobody has configured answers too, and says that its limb is nobody's. */
+static void test_without_parameters_the_answer_is_uncalibrated(void)
+{
+    bench_board();
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_start(&app, &fake.hal));
+    ticks(50);
+    brace_k_question_t question = {.where = BRACE_K_AT_POSTURE, .theta_rad = {0.0f, 1.0f, 1.4f}};
+    brace_k_answer_t found;
+    int32_t status = brace_app_ask_k(&app, BRACE_ASKER_PROGRAM, &question, &found);
+    for (int i = 0; i < 5 && status == BRACE_APP_LATER; i++) {
+        ticks(1);
+        status = brace_app_ask_k(&app, BRACE_ASKER_PROGRAM, &question, &found);
+    }
+    TEST_ASSERT_EQUAL(BRACE_OK, status);
+    TEST_ASSERT_BITS_HIGH(BRACE_FLAG_UNCALIBRATED, found.k.flags);
+}
+
 static void test_a_force_that_folds_the_limb_or_is_none_is_refused(void)
 {
     (void)ask_for_force(-300.0f, 0.0f);
@@ -369,6 +386,7 @@ int main(void)
     RUN_TEST(test_K_under_a_force_over_CAN_and_the_force_is_used_up);
     RUN_TEST(test_at_a_tip_the_posture_is_the_one_before_the_load_moves_it);
     RUN_TEST(test_without_a_force_the_weight_counts);
+    RUN_TEST(test_without_parameters_the_answer_is_uncalibrated);
     RUN_TEST(test_a_force_that_folds_the_limb_or_is_none_is_refused);
     RUN_TEST(test_K_under_a_force_over_the_line_and_over_TCP);
     RUN_TEST(test_four_ports_that_ask_at_once_are_answered_within_eight_ticks);

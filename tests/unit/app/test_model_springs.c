@@ -72,6 +72,29 @@ static void test_without_a_load_and_beyond_any_a_spring_is_as_at_rest(void)
     }
 }
 
+/* A rigid joint stays rigid, however it would harden. And no spring is wound further than a joint turns: with so soft a
+ * one the load winds it up to 8 rad, either way. */
+static void test_rigid_and_endlessly_soft_springs(void)
+{
+    const float unknown[] = {NAN, NAN, NAN};
+    brace_loaded_joint_t springs[BRACE_LINK_COUNT];
+    parameters.limb.joint[BRACE_FEMUR].compliance_rad_per_n_mm = 0.0f;
+    parameters.limb.joint[BRACE_TIBIA].compliance_rad_per_n_mm = 1.0f;
+    parameters.drive[BRACE_TIBIA].hardening_n_mm_per_rad3 = 1e-3f;
+    model_configure(&model, &parameters, false);
+    for (int way = -1; way <= 1; way += 2) {
+        const float load_n_mm[] = {1000.0f, 1000.0f, (float)way * 1e6f};
+        for (int i = 0; i < 10; i++) {
+            model_springs(&model, &parameters, load_n_mm, unknown, springs);
+        }
+        TEST_ASSERT_EQUAL_FLOAT(0.0f, springs[BRACE_FEMUR].slope_rad_per_n_mm);
+        TEST_ASSERT_EQUAL_FLOAT(0.0f, springs[BRACE_FEMUR].yields_by_rad_per_n_mm);
+        TEST_ASSERT_EQUAL_FLOAT((float)way * 8.0f, model.deflection_rad[BRACE_TIBIA]);
+        TEST_ASSERT_FLOAT_WITHIN(1e-6f, 1.0f / (1.0f + 1e-3f * 64.0f), springs[BRACE_TIBIA].yields_by_rad_per_n_mm);
+        TEST_ASSERT_FLOAT_WITHIN(1e-6f, 1.0f / (1.0f + 3e-3f * 64.0f), springs[BRACE_TIBIA].slope_rad_per_n_mm);
+    }
+}
+
 /* K takes the hip's spring at the hip and the knee's at the knee: as the path for springs that never change does. */
 static void test_k_takes_each_spring_at_its_joint(void)
 {
@@ -100,6 +123,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_each_joint_yields_at_its_own_load);
     RUN_TEST(test_without_a_load_and_beyond_any_a_spring_is_as_at_rest);
+    RUN_TEST(test_rigid_and_endlessly_soft_springs);
     RUN_TEST(test_k_takes_each_spring_at_its_joint);
     return UNITY_END();
 }

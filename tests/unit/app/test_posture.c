@@ -67,6 +67,11 @@ static void test_where_the_levers_do_not_allow_it_no_force_is_told(void)
     TEST_ASSERT_TRUE(x_n != x_n && z_n != z_n);
     stand(1.0f, 1.4f);
     TEST_ASSERT_FALSE(isnan(posture_force_across_n(&posture, &parameters, down, 100.0f, false, &outwards_n)));
+    posture.has_levers = false;
+    TEST_ASSERT_TRUE(isnan(posture_force_across_n(&posture, &parameters, down, 100.0f, false, &outwards_n)));
+    posture_force_of_loads(&posture, &parameters, down, 100.0f, 50.0f, &x_n, &z_n);
+    TEST_ASSERT_TRUE(isnan(x_n) && isnan(z_n));
+    posture.has_levers = true;
     posture.pose.tip.x_mm = -parameters.limb.coxa_mm; /* the tip is on the coxa joint's axis */
     TEST_ASSERT_TRUE(isnan(posture_force_across_n(&posture, &parameters, down, 100.0f, false, &outwards_n)));
     posture.has_levers = false;

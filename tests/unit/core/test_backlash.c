@@ -430,6 +430,69 @@ static void the_tip_shifts_by_gap_times_lever(void)
     TEST_ASSERT_EQUAL_INT(BRACE_E_RANGE, brace_backlash_tip_shift(&at, one, 0.6f, &shift));
 }
 
+/* A command stops at its reach, either way, whatever a tick's step would add. */
+static void a_take_up_that_meets_nothing_ends_at_its_reach(void)
+{
+    for (int flank = -1; flank <= 1; flank += 2) {
+        brace_backlash_params_t params = sound_params();
+        params.takeup.reach_max_rad = 0.02f;
+        params.takeup.rate_rad_per_s = 7.0f; /* 7 mrad in a tick: three steps pass the reach */
+        params.torque_noise_n_mm = 0.0f;
+        noise_n_mm = 0.0;
+        TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_backlash_init(&joint, &params));
+        stand(0.0, 0.0, 5);
+        TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_takeup_request(&joint, flank));
+        float furthest_rad = 0.0f;
+        for (int i = 0; i < 20; i++) {
+            tick(0.0, 0.0);
+            furthest_rad = fabsf(out.command_rad) > furthest_rad ? fabsf(out.command_rad) : furthest_rad;
+        }
+        TEST_ASSERT_EQUAL_FLOAT(0.02f, furthest_rad);
+        TEST_ASSERT_EQUAL_INT(BRACE_TAKEUP_E_REACH, out.takeup);
+        TEST_ASSERT_EQUAL_INT(BRACE_TAKEUP_IDLE, out.phase);
+        TEST_ASSERT_EQUAL_FLOAT(0.0f, out.command_rad);
+    }
+}
+
+/* A flank that is none, and a joint that is asked twice. */
+static void what_is_no_take_up_is_refused(void)
+{
+    static const int none[] = {0, 2, -2};
+    stand(0.0, 0.0, 5);
+    for (int i = 0; i < 3; i++) {
+        TEST_ASSERT_NOT_EQUAL(BRACE_OK, brace_takeup_request(&joint, none[i]));
+    }
+    TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_takeup_request(&joint, 1));
+    TEST_ASSERT_NOT_EQUAL(BRACE_OK, brace_takeup_request(&joint, 1));
+    tick(0.0, 0.0);
+    TEST_ASSERT_EQUAL_INT(BRACE_TAKEUP_APPROACH, out.phase);
+    TEST_ASSERT_NOT_EQUAL(BRACE_OK, brace_takeup_request(&joint, -1));
+}
+
+/* The time in which a lost load shows is bounded whatever the noise and the tick. */
+static void detection_takes_a_bounded_time(void)
+{
+    static const uint32_t tick_us[] = {100, 1000, 5000};
+    static const float noise_n_mm_of[] = {0.0f, 40.0f, 400.0f};
+    for (int i = 0; i < 3; i++) {
+        uint32_t last_us = UINT32_MAX;
+        for (int j = 0; j < 3; j++) { /* the more noise, the sooner a load drowns in it */
+            brace_backlash_params_t params = sound_params();
+            params.tick_us = tick_us[i];
+            params.torque_noise_n_mm = noise_n_mm_of[j];
+            TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_backlash_init(&joint, &params));
+            const uint32_t detection_us = brace_backlash_detection_us(&joint);
+            TEST_ASSERT_TRUE(detection_us <= last_us && detection_us >= 5000u && detection_us <= 120000u);
+            /* 5 ms and the ticks until the fast filter has fallen from the full range to a thousandth and a sigma */
+            const double gain = (double)tick_us[i] / (10000.0 + (double)tick_us[i]);
+            const double quiet = (double)noise_n_mm_of[j] * sqrt(gain / (2.0 - gain)) + 8.0;
+            const double count = ceil(log(quiet / 8000.0) / log(1.0 - gain));
+            ASSERT_CLOSE(5000.0 + count * (double)tick_us[i], detection_us, 1.0 * (double)tick_us[i]);
+            last_us = detection_us;
+        }
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -450,5 +513,8 @@ int main(void)
     RUN_TEST(a_takeup_that_has_not_begun_is_taken_back);
     RUN_TEST(parameters_out_of_range_are_refused);
     RUN_TEST(the_tip_shifts_by_gap_times_lever);
+    RUN_TEST(a_take_up_that_meets_nothing_ends_at_its_reach);
+    RUN_TEST(what_is_no_take_up_is_refused);
+    RUN_TEST(detection_takes_a_bounded_time);
     return UNITY_END();
 }

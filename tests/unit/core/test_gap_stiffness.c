@@ -142,6 +142,30 @@ static void a_tip_on_a_free_joints_axis_is_refused_and_touches_nothing(void)
     TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_gap_stiffness_known(&k, &at_axis, BRACE_GAP_TIBIA, &gap));
 }
 
+/* An axis has no direction: it is told as the half with x >= 0, and upwards where x is 0. A joint that is free and at the
+ * tip itself carries nothing that a lever could tell. */
+static void the_axis_of_a_free_joint_is_told_one_way(void)
+{
+    static const brace_point_t lever[] = {{0.0f, 200.0f}, {0.0f, -200.0f}, {200.0f, 0.0f}, {-200.0f, 0.0f}};
+    static const double axis_rad[] = {0.0, 0.0, 1.5707963, 1.5707963};
+    const brace_stiffness_t round = {.k_xx_n_per_mm = 2.0f, .k_zz_n_per_mm = 2.0f, .lambda_min_n_per_mm = 2.0f,
+                                     .lambda_max_n_per_mm = 2.0f};
+    for (int i = 0; i < 4; i++) {
+        brace_pose_t pose = {.lever_femur = lever[i], .lever_tibia = {0.0f, 0.0f}};
+        brace_gap_stiffness_t gap;
+        TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_gap_stiffness_known(&round, &pose, BRACE_GAP_FEMUR, &gap));
+        ASSERT_CLOSE(axis_rad[i], gap.now.stiff_axis_rad, 1e-6);
+        ASSERT_CLOSE(2.0, gap.now.lambda_max_n_per_mm, 1e-6);
+        TEST_ASSERT_EQUAL_INT(BRACE_E_SINGULAR, brace_gap_stiffness_known(&round, &pose, BRACE_GAP_TIBIA, &gap));
+        pose.lever_tibia = lever[i];
+        pose.lever_femur = (brace_point_t){0.0f, 0.0f};
+        TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_gap_stiffness_known(&round, &pose, BRACE_GAP_TIBIA, &gap));
+        TEST_ASSERT_EQUAL_INT(BRACE_E_SINGULAR, brace_gap_stiffness_known(&round, &pose, BRACE_GAP_FEMUR, &gap));
+        TEST_ASSERT_EQUAL_INT(BRACE_E_SINGULAR,
+                              brace_gap_stiffness_known(&round, &pose, BRACE_GAP_FEMUR | BRACE_GAP_TIBIA, &gap));
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -150,5 +174,6 @@ int main(void)
     RUN_TEST(it_is_the_limit_of_a_soft_joint);
     RUN_TEST(both_free_carry_nothing_and_none_free_changes_nothing);
     RUN_TEST(a_tip_on_a_free_joints_axis_is_refused_and_touches_nothing);
+    RUN_TEST(the_axis_of_a_free_joint_is_told_one_way);
     return UNITY_END();
 }

@@ -40,9 +40,42 @@ static void test_rows_are_the_single_function_s(void)
     }
 }
 
+/* A row near its buckling, and one whose tip has moved by more than a tenth of the limb, say so; the rest do not. */
+static void test_rows_are_flagged_as_the_controller_does(void)
+{
+    const brace_gravity_t weightless = {.femur_n = 0.0f};
+    brace_limb_t limb = sample_limb[SAMPLE_PAPER];
+    limb.joint[BRACE_FEMUR].compliance_rad_per_n_mm = limb.joint[BRACE_TIBIA].compliance_rad_per_n_mm = 1e-5f;
+    brace_loaded_t loaded;
+    brace_loaded_collapse(&limb, &weightless, &loaded);
+    brace_load_t load = {.down = {0.0f, -1.0f}, .hip = {1e-5f, 1e-5f}, .knee = {1e-5f, 1e-5f}};
+    enum { FORCES = 60 };
+    brace_loaded_stiffness_t rows[FORCES], single;
+    float one_rad[FORCES], two_rad[FORCES], along_n[FORCES], up_n[FORCES];
+    uint32_t flagged = 0, plain = 0;
+    for (int i = 0; i < FORCES; i++) {
+        one_rad[i] = 0.3f, two_rad[i] = 0.6f;
+        along_n[i] = -4.0f * (float)(i % 30);
+        up_n[i] = i < 30 ? 0.0f : 0.5f * (float)(i % 30);
+    }
+    (void)brace_loaded_batch(&loaded, &load, FORCES, one_rad, two_rad, along_n, up_n, rows);
+    for (int i = 0; i < FORCES; i++) {
+        load.tip = (brace_force_t){along_n[i], up_n[i]};
+        if (brace_loaded_stiffness(&loaded, one_rad[i], two_rad[i], &load, &single) == BRACE_OK) {
+            const float x_mm = single.displacement.x_mm, z_mm = single.displacement.z_mm;
+            const uint32_t wanted = single.stiffness.flags |
+                                    brace_loaded_flags(single.buckling_factor, x_mm * x_mm + z_mm * z_mm, 185.0f + 313.5f);
+            TEST_ASSERT_EQUAL_HEX32(wanted, rows[i].stiffness.flags);
+            flagged += wanted != 0u, plain += wanted == 0u;
+        }
+    }
+    TEST_ASSERT_TRUE(flagged > 2u && plain > 2u);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_rows_are_the_single_function_s);
+    RUN_TEST(test_rows_are_flagged_as_the_controller_does);
     return UNITY_END();
 }

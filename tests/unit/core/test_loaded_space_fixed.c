@@ -387,6 +387,10 @@ static brace_status_t rigid_limb(float yaw_rad_per_n_mm, float hip_rad_per_n_mm,
 
 static void test_limbs_that_do_not_yield_are_refused(void)
 {
+    brace_space_result_t result;
+    TEST_ASSERT_EQUAL(BRACE_OK, rigid_limb(1e-5f, 1e-5f, 1e-5f));
+    load.yaw.slope_rad_per_n_mm = load.hip.slope_rad_per_n_mm = load.knee.slope_rad_per_n_mm = 0.0f; /* fully wound up */
+    TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, told_at(1.0f, 1.4f, &result));
     TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, rigid_limb(0.0f, 0.0f, 0.0f));
     load.tip_n.x = 1e4f;
     TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, rigid_limb(1e-24f, 1e-24f, 1e-24f)); /* moves by less than a word holds */

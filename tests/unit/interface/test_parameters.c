@@ -198,6 +198,7 @@ static void test_refusals_each_have_their_status(void)
     seal();
     TEST_ASSERT_EQUAL(BRACE_E_SCHEMA, unpacked(NULL));
     TEST_ASSERT_EQUAL(BRACE_OK, brace_block_header(block, sizeof block, &header));
+    TEST_ASSERT_EQUAL(BRACE_BLOCK_FORMAT, header.format);
     TEST_ASSERT_EQUAL_HEX32(~BRACE_SCHEMA_HASH, header.schema_hash); /* both can be shown */
     put_word(12, 4 * BRACE_PARAMETER_COUNT - 4); /* another dictionary has another length */
     put_word(BRACE_BLOCK_BYTES - 8, crc_of(block, BRACE_BLOCK_BYTES - 8));

@@ -351,6 +351,57 @@ static void test_a_memory_that_does_not_keep(void)
     expect_after_start(BRACE_PARAMETERS_SLOT_A, 3);
 }
 
+/* A set that is not the one that was named is not stored; the refusal says so, and of no entry. */
+static void test_a_set_that_is_not_the_one_named(void)
+{
+    const brace_parameters_t set = set_of(3);
+    update(1);
+    update(2);
+    const uint32_t erases = store.erases;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_store_begin(&store, &set, NULL));
+    brace_store_expect(&store, brace_parameters_crc(&set) ^ 1u);
+    TEST_ASSERT_EQUAL(BRACE_STORE_FAILED, finish());
+    TEST_ASSERT_EQUAL(BRACE_STORE_E_REFUSED, status_now().failure);
+    TEST_ASSERT_EQUAL(BRACE_E_CHECKSUM, status_now().refusal);
+    TEST_ASSERT_EQUAL(BRACE_PARAMETER_COUNT, status_now().wrong_index);
+    TEST_ASSERT_EQUAL(erases, store.erases);
+    expect_after_start(BRACE_PARAMETERS_SLOT_B, 2);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_store_begin(&store, &set, NULL));
+    brace_store_expect(&store, brace_parameters_crc(&set));
+    TEST_ASSERT_EQUAL(BRACE_STORE_DONE, finish());
+    expect_after_start(BRACE_PARAMETERS_SLOT_A, 3);
+}
+
+/* Erases are counted, up to the greatest number. */
+static void test_erases_are_counted(void)
+{
+    update(1);
+    const uint32_t before = store.erases;
+    update(2);
+    TEST_ASSERT_EQUAL(before + 1u, store.erases);
+    store.erases = UINT32_MAX;
+    update(3);
+    TEST_ASSERT_EQUAL_HEX32(UINT32_MAX, store.erases);
+}
+
+/* A mark that is not kept takes a place each time. When no place is left, an update goes on without: the old set counts as
+ * long as the memory keeps nothing, and the new one when it does. */
+static void test_marks_that_are_not_kept_use_up_their_places(void)
+{
+    update(1);
+    update(2);
+    expect_after_start(BRACE_PARAMETERS_SLOT_B, 2); /* each start keeps its set with a mark */
+    memory.write_lost = true;
+    for (uint32_t i = 0; i < 3u * BRACE_STORE_MARK_COUNT; i++) {
+        expect_failure(update(3), BRACE_STORE_E_READ_BACK);
+    }
+    memory.write_lost = false;
+    TEST_ASSERT_EQUAL(BRACE_STORE_DONE, update(4));
+    expect_after_start(status_now().in_force, 4);
+    TEST_ASSERT_EQUAL(BRACE_STORE_DONE, update(5));
+    expect_after_start(status_now().in_force, 5);
+}
+
 /* Wherever a write is refused, power staying on, the old set stays in force and the next start has it too. */
 static void test_each_write_refused_in_turn(void)
 {
@@ -580,6 +631,9 @@ int main(void)
     RUN_TEST(test_a_value_out_of_range_is_named);
     RUN_TEST(test_marks_never_run_out);
     RUN_TEST(test_a_memory_that_does_not_keep);
+    RUN_TEST(test_a_set_that_is_not_the_one_named);
+    RUN_TEST(test_erases_are_counted);
+    RUN_TEST(test_marks_that_are_not_kept_use_up_their_places);
     RUN_TEST(test_each_write_refused_in_turn);
     RUN_TEST(test_each_read_refused_in_turn);
     RUN_TEST(test_each_read_of_a_start_refused_in_turn);

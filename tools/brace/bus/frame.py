@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 NODE_MASK = 0x7F
 BROADEST_BYTES = 8
 
 
-@dataclass(frozen=True, slots=True)
-class Frame:
+class Frame(NamedTuple):
     """Eleven-bit identifier, up to eight bytes; with more it is one of CAN FD."""
 
     time_s: float  # since 1970, on this computer's clock
@@ -36,6 +34,9 @@ class Bus(Protocol):
 
     def receive(self, timeout_s: float) -> Frame | None:
         """The next frame; None when none came in time. EndOfLog after a log's last."""
+
+    def receive_all(self) -> list[Frame]:
+        """Those that have come, without waiting; of a log, some. EndOfLog after a log's last."""
 
     def send(self, identifier: int, data: bytes) -> None:
         """One frame; NoDeviceError when the bus does not take it."""

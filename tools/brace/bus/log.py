@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import islice
 from pathlib import Path
 from typing import BinaryIO, Protocol
 
@@ -11,6 +12,7 @@ from brace.bus.frame import EndOfLog, Frame
 from brace.errors import BadFileError, UsageError
 
 ENDINGS = (".log", ".mcap")
+_AT_ONCE_MOST = 500
 
 
 class Writer(Protocol):
@@ -83,7 +85,7 @@ class LogBus:
         self._frames = read(path)
         self._first = next(self._frames, None)  # a file that is no log is refused at once
 
-    def receive(self, timeout_s: float) -> Frame | None:
+    def receive(self, timeout_s: float) -> Frame:
         """The next; never waits."""
         if self._first is not None:
             frame, self._first = self._first, None
@@ -92,6 +94,10 @@ class LogBus:
             return next(self._frames)
         except StopIteration:
             raise EndOfLog from None
+
+    def receive_all(self) -> list[Frame]:
+        """The next few hundred."""
+        return [self.receive(0.0), *islice(self._frames, _AT_ONCE_MOST)]
 
     def send(self, identifier: int, data: bytes) -> None:
         """Nobody is there."""

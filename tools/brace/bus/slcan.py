@@ -7,7 +7,6 @@ tIIILDD...CR. python-can's own sleeps two seconds at each opening; this one does
 from __future__ import annotations
 
 import contextlib
-import re
 import time
 from binascii import Error as NotHex
 from binascii import unhexlify
@@ -25,10 +24,10 @@ ANSWER_S = 0.7
 SYNC_S = 0.4
 SEND_S = 1.0
 _LONGEST_LINE = 160
+_MUCH_BYTES = 2048  # of one read: more may be there
 _BYTES = (*range(9), 12, 16, 20, 24, 32, 48, 64)  # by a line's length code
 _HEX = frozenset(b"0123456789abcdefABCDEF")
 _NO_FRAME = (0, -1000)
-_END = re.compile(rb"([\r\a])")
 _ERROR_BITS = (
     "receive queue full",
     "send queue full",
@@ -104,6 +103,14 @@ class SlcanBus:
                 return None
         return self._frames.popleft()
 
+    def receive_all(self) -> list[Frame]:
+        """Those that have come."""
+        while self._take(0.0) > _MUCH_BYTES:
+            pass
+        frames = list(self._frames)
+        self._frames.clear()
+        return frames
+
     def send(self, identifier: int, data: bytes) -> None:
         """One frame. The adapter's word for it is not waited for: the answer, if one is wanted, tells more."""
         self._answers.clear()
@@ -157,22 +164,22 @@ class SlcanBus:
         self._frames.clear()
         self._answers.clear()
 
-    def _take(self, timeout_s: float) -> None:
+    def _take(self, timeout_s: float) -> int:
+        """How many bytes have come."""
         try:
             part = self._line.read(timeout_s)
         except OSError as error:
             raise self._gone(error) from None
-        if not part:
-            return
         now = time.time()
-        *texts, rest = _END.split(self._rest + part)  # each text, then what ended it
-        for text, end in zip(texts[::2], texts[1::2]):
-            frame = frame_of(text, now) if end == b"\r" else None
+        *texts, rest = (self._rest + part).replace(b"\a", b"\a\r").split(b"\r")
+        for text in texts:
+            frame = frame_of(text, now)
             if frame is not None:
                 self._frames.append(frame)
             else:
-                self._take_answer(text + end)
+                self._take_answer(text if text.endswith(b"\a") else text + b"\r")
         self._rest = rest[-_LONGEST_LINE:]
+        return len(part)
 
     def _take_answer(self, text: bytes) -> None:
         """Unless it is a frame that is none of ours, or broken."""

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from functools import partial
+from typing import NamedTuple
 
 from brace.bus.frame import NODE_MASK, Frame
 from brace.bus.load import Load, load_of
@@ -14,18 +16,17 @@ from brace.wire.layout import Layout, Value
 # Halves with one number that lie further apart are of two rounds of the 8-bit counter: the shortest round is 256 ticks
 # of 250 us, 0.064 s.
 PAIR_S = 0.040
-_LAYOUT_OF = {layout.identifier: layout for layout in MESSAGES.values()}
+_STIFFNESS_A, _STIFFNESS_B = MESSAGES["stiffness_a"], MESSAGES["stiffness_b"]
+_EIGENVALUES, _POSTURE = MESSAGES["eigenvalues"], MESSAGES["posture"]
 _WHOLE = FD_MESSAGES["snapshot_fd"]
 _SPACE_FD = FD_MESSAGES["space_fd"]
 _SPACE = MULTIPLEXED["space"]  # its parts
 _LOAD_FD = FD_MESSAGES["load_fd"]
 _LOAD = MULTIPLEXED["load"]
 _ACROSS = MULTIPLEXED["load_across"]
-_PARTS = ("stiffness_a", "stiffness_b", "eigenvalues", "posture")
 
 
-@dataclass(frozen=True)
-class Snapshot:
+class Snapshot(NamedTuple):
     """K of one tick; None: not known. Eigenvalues and posture come with every few snapshots only."""
 
     node: int
@@ -122,18 +123,12 @@ class _Parts:
     parts: set[int] = field(default_factory=set)
 
 
-@dataclass
-class _Half:
-    time_s: float
-    values: Mapping[str, Value]
-
-
 class Joiner:
     """Snapshots from frames of any number of nodes."""
 
     def __init__(self) -> None:
-        self._stiffness_a: dict[int, _Half] = {}
-        self._eigenvalues: dict[int, _Half] = {}
+        self._stiffness_a: dict[int, Frame] = {}
+        self._eigenvalues: dict[int, Frame] = {}
         self._parts: dict[tuple[str, int], _Parts] = {}  # by message and node
         self._newest: dict[int, Snapshot] = {}
         self._seen: set[int] = set()
@@ -141,51 +136,26 @@ class Joiner:
         self._sends_across: set[int] = set()  # the load across the plane, too
         self._whole_alone: dict[int, int] = {}  # of CAN FD: how many have come since K in space did
         self.unmatched = 0  # snapshots some of whose frames never came
+        takers: list[tuple[Layout, Callable[[Frame], Snapshot | None]]] = [
+            (_STIFFNESS_A, self._take_stiffness_a),
+            (_STIFFNESS_B, self._join_stiffness),
+            (_EIGENVALUES, self._take_eigenvalues),
+            (_POSTURE, self._join_posture),
+            *((MULTIPLEXED[name][0], partial(self._take_part, name)) for name in ("space", "load", "load_across")),
+            (_WHOLE, self._take_whole),
+            (_SPACE_FD, self._take_space_fd),
+            (_LOAD_FD, self._take_load_fd),
+        ]
+        self._takers = {layout.identifier: (layout.size, take) for layout, take in takers}
 
     def add(self, frame: Frame) -> Snapshot | None:
         """The snapshot that this frame completes or adds to: first with K alone, then, where they are sent, with K in
         space, with its load, and with eigenvalues and posture. Over CAN FD one frame has all of it but K in space and
         the load."""
-        identifier = frame.identifier & ~NODE_MASK
-        node = frame.identifier & NODE_MASK
-        if node == 0:
+        taker = self._takers.get(frame.identifier & ~NODE_MASK)
+        if taker is None or len(frame.data) != taker[0] or frame.node == 0:
             return None
-        if identifier == _WHOLE.identifier and len(frame.data) == _WHOLE.size:
-            self._whole_alone[node] = self._whole_alone.get(node, 0) + 1
-            self._newest[node] = _whole(frame)
-            return self._newest[node]
-        if identifier == _SPACE_FD.identifier and len(frame.data) == _SPACE_FD.size:
-            values = _SPACE_FD.decode(frame.data)
-            self._sends_space.add(node)
-            self._whole_alone[node] = 0
-            return self._add_space(node, frame.time_s, int(values["sequence"] or 0) & 0xFF, values)
-        if identifier == _LOAD_FD.identifier and len(frame.data) == _LOAD_FD.size:
-            values = _LOAD_FD.decode(frame.data)
-            return self._add_load(node, frame.time_s, int(values["sequence"] or 0) & 0xFF, values, "load")
-        if len(frame.data) != 8:
-            return None
-        if identifier == _SPACE[0].identifier:
-            return self._take_part(frame, "space")
-        if identifier == _LOAD[0].identifier:
-            return self._take_part(frame, "load")
-        if identifier == _ACROSS[0].identifier:
-            return self._take_part(frame, "load_across")
-        layout = _LAYOUT_OF.get(identifier)
-        if layout is None or layout.name not in _PARTS:
-            return None
-        values = layout.decode(frame.data)
-        if layout.name == "stiffness_a":
-            self._seen.add(node)
-            if node in self._stiffness_a:
-                self.unmatched += 1
-            self._stiffness_a[node] = _Half(frame.time_s, values)
-        elif layout.name == "eigenvalues":
-            self._eigenvalues[node] = _Half(frame.time_s, values)
-        elif layout.name == "stiffness_b":
-            return self._join_stiffness(frame, layout, values)
-        else:
-            return self._join_posture(frame, layout, values)
-        return None
+        return taker[1](frame)
 
     def is_complete(self, snapshot: Snapshot) -> bool:
         """Has all of it come that this node sends? Over CAN FD, K in space comes behind the rest."""
@@ -194,50 +164,76 @@ class Joiner:
         may_follow = self._whole_alone.get(snapshot.node, 0) == 1
         return snapshot.node not in self._sends_space and not may_follow
 
-    def _join_stiffness(self, frame: Frame, layout: Layout, b: Mapping[str, Value]) -> Snapshot | None:
-        a = self._stiffness_a.pop(frame.node, None)
-        if not _fit(a, frame, b) or a is None:
-            self.unmatched += frame.node in self._seen  # we may have come between the two
+    def _take_stiffness_a(self, frame: Frame) -> None:
+        self._seen.add(frame.node)
+        self.unmatched += frame.node in self._stiffness_a
+        self._stiffness_a[frame.node] = frame
+
+    def _take_eigenvalues(self, frame: Frame) -> None:
+        self._eigenvalues[frame.node] = frame
+
+    def _take_whole(self, frame: Frame) -> Snapshot:
+        self._whole_alone[frame.node] = self._whole_alone.get(frame.node, 0) + 1
+        self._newest[frame.node] = _whole(frame)
+        return self._newest[frame.node]
+
+    def _take_space_fd(self, frame: Frame) -> Snapshot | None:
+        values = _SPACE_FD.decode(frame.data)
+        self._sends_space.add(frame.node)
+        self._whole_alone[frame.node] = 0
+        return self._add_space(frame.node, frame.time_s, int(values["sequence"] or 0) & 0xFF, values)
+
+    def _take_load_fd(self, frame: Frame) -> Snapshot | None:
+        values = _LOAD_FD.decode(frame.data)
+        return self._add_load(frame.node, frame.time_s, int(values["sequence"] or 0) & 0xFF, values, "load")
+
+    def _join_stiffness(self, frame: Frame) -> Snapshot | None:
+        node = frame.node
+        first = self._stiffness_a.pop(node, None)
+        if first is None or not _fit(first, frame):
+            self.unmatched += node in self._seen  # we may have come between the two
             return None
-        self._newest[frame.node] = Snapshot(
-            node=frame.node,
+        a, b = _STIFFNESS_A.decode(first.data), _STIFFNESS_B.decode(frame.data)
+        self._newest[node] = Snapshot(
+            node=node,
             time_s=frame.time_s,
-            sequence=int(b["sequence"] or 0),
-            k_xx=a.values["k_xx"],
-            k_xz=a.values["k_xz"],
+            sequence=frame.data[0],
+            k_xx=a["k_xx"],
+            k_xz=a["k_xz"],
             k_zz=b["k_zz"],
-            flags=bit_names(MESSAGES["stiffness_a"], "flags", a.values),
+            flags=bit_names(_STIFFNESS_A, "flags", a),
             age_ms=b["age"],
-            play=(name_of(layout, "play_femur", b), name_of(layout, "play_tibia", b)),
+            play=(name_of(_STIFFNESS_B, "play_femur", b), name_of(_STIFFNESS_B, "play_tibia", b)),
             parameter_tag=b["parameter_tag"],
         )
         # they came before: their identifiers are the lower ones
-        self._join_load(frame.node, adds="stiffness")
-        space = self._parts.get(("space", frame.node))
+        self._join_load(node, adds="stiffness")
+        space = self._parts.get(("space", node))
         if space is not None and len(space.parts) == len(_SPACE):
-            self._add_space(frame.node, space.time_s, space.sequence, space.values)
-        return self._newest[frame.node]
+            self._add_space(node, space.time_s, space.sequence, space.values)
+        return self._newest[node]
 
-    def _join_posture(self, frame: Frame, layout: Layout, posture: Mapping[str, Value]) -> Snapshot | None:
-        eigenvalues = self._eigenvalues.pop(frame.node, None)
-        newest = self._of_newest(frame.node, frame.time_s, posture["sequence"])
-        if newest is None or newest.has_posture or eigenvalues is None or not _fit(eigenvalues, frame, posture):
+    def _join_posture(self, frame: Frame) -> Snapshot | None:
+        node = frame.node
+        first = self._eigenvalues.pop(node, None)
+        newest = self._of_newest(node, frame.time_s, frame.data[0])
+        if newest is None or newest.has_posture or first is None or not _fit(first, frame):
             return None
-        self._newest[frame.node] = replace(
-            newest,
+        eigenvalues, posture = _EIGENVALUES.decode(first.data), _POSTURE.decode(frame.data)
+        self._newest[node] = newest._replace(
             adds="posture",
             has_posture=True,
-            lambda_min=eigenvalues.values["lambda_min"],
-            lambda_max=eigenvalues.values["lambda_max"],
-            stiff_axis=eigenvalues.values["stiff_axis"],
+            lambda_min=eigenvalues["lambda_min"],
+            lambda_max=eigenvalues["lambda_max"],
+            stiff_axis=eigenvalues["stiff_axis"],
             theta1=posture["theta1"],
             theta2=posture["theta2"],
-            mode=name_of(layout, "mode", posture),
-            faults=bit_names(layout, "faults", posture),
+            mode=name_of(_POSTURE, "mode", posture),
+            faults=bit_names(_POSTURE, "faults", posture),
         )
-        return self._newest[frame.node]
+        return self._newest[node]
 
-    def _take_part(self, frame: Frame, message: str) -> Snapshot | None:
+    def _take_part(self, message: str, frame: Frame) -> Snapshot | None:
         """One of the frames that carry K in space, the load, or the load across, together."""
         layouts = MULTIPLEXED[message]
         part = frame.data[layouts[0].part_at // 8]
@@ -293,14 +289,14 @@ class Joiner:
         newest = self._of_newest(node, time_s, sequence)
         if newest is None or newest.load is not None:
             return None
-        self._newest[node] = replace(newest, adds=adds, load=load_of(values))
+        self._newest[node] = newest._replace(adds=adds, load=load_of(values))
         return self._newest[node]
 
     def _add_space(self, node: int, time_s: float, sequence: Value, values: Mapping[str, Value]) -> Snapshot | None:
         newest = self._of_newest(node, time_s, sequence)
         if newest is None or newest.space is not None:
             return None
-        self._newest[node] = replace(newest, adds="space", space=space_snapshot(values))
+        self._newest[node] = newest._replace(adds="space", space=space_snapshot(values))
         return self._newest[node]
 
     def _of_newest(self, node: int, time_s: float, sequence: Value) -> Snapshot | None:
@@ -335,12 +331,9 @@ def _whole(frame: Frame) -> Snapshot:
     )
 
 
-def _fit(half: _Half | None, frame: Frame, values: Mapping[str, Value]) -> bool:
-    return (
-        half is not None
-        and half.values["sequence"] == values["sequence"]
-        and abs(frame.time_s - half.time_s) <= PAIR_S
-    )
+def _fit(first: Frame, second: Frame) -> bool:
+    """Are they of one snapshot? Its number is their first byte."""
+    return first.data[0] == second.data[0] and abs(second.time_s - first.time_s) <= PAIR_S
 
 
 def heartbeat_of(frame: Frame) -> Heartbeat | None:

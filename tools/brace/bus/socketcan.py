@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import socket
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -51,6 +52,10 @@ class SocketCanBus:
         if message.is_extended_id or message.is_remote_frame:
             return None
         return Frame(message.timestamp, message.arbitration_id, bytes(message.data))
+
+    def receive_all(self) -> list[Frame]:
+        """Those that have come."""
+        return list(iter(partial(self.receive, 0.0), None))
 
     def send(self, identifier: int, data: bytes) -> None:
         """One frame."""

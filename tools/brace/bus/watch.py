@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections import deque
+from collections import Counter, deque
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from brace.bus.controller import check_dictionary
@@ -11,7 +12,7 @@ from brace.bus.snapshot import Emergency, Heartbeat, Joiner, Snapshot, emergency
 from brace.wire.frames import FD_MESSAGES, MESSAGES
 
 RATE_S = 2.0
-_HEARTBEAT, _EMERGENCY = MESSAGES["heartbeat"].identifier, MESSAGES["emergency"].identifier
+_READ = {MESSAGES["heartbeat"].identifier: heartbeat_of, MESSAGES["emergency"].identifier: emergency_of}
 _ENDS_K = (MESSAGES["stiffness_b"].identifier, FD_MESSAGES["snapshot_fd"].identifier)
 
 Event = Snapshot | Heartbeat | Emergency
@@ -32,14 +33,23 @@ class NodeState:
     in_space: int = 0  # snapshots with K in space
     frames: int = 0
     last_s: float = 0.0
-    times_s: deque[float] = field(default_factory=deque)
+    marks: deque[tuple[float, int]] = field(default_factory=deque)  # when, and how many snapshots there were then
 
     @property
     def rate_hz(self) -> float:
         """Snapshots a second, over the last two."""
-        if len(self.times_s) < 2 or self.times_s[-1] <= self.times_s[0]:
+        if len(self.marks) < 2:
             return 0.0
-        return (len(self.times_s) - 1) / (self.times_s[-1] - self.times_s[0])
+        (first_s, first), (last_s, last) = self.marks[0], self.marks[-1]
+        return (last - first) / (last_s - first_s)
+
+    def mark(self, time_s: float) -> None:
+        """Counts the snapshots up to now; what an adapter hands over together, or out of order, has one time."""
+        if self.marks and time_s <= self.marks[-1][0]:
+            time_s = self.marks.pop()[0]
+        self.marks.append((time_s, self.snapshots))
+        while time_s - self.marks[0][0] > RATE_S:
+            self.marks.popleft()
 
 
 class Watch:
@@ -58,14 +68,7 @@ class Watch:
         node = frame.node
         if node == 0 or (self._only is not None and node != self._only):
             return None
-        message = frame.identifier & ~NODE_MASK
-        event: Event | None
-        if message == _HEARTBEAT:
-            event = heartbeat_of(frame)
-        elif message == _EMERGENCY:
-            event = emergency_of(frame)
-        else:
-            event = self.joiner.add(frame)
+        event: Event | None = _READ.get(frame.identifier & ~NODE_MASK, self.joiner.add)(frame)
         state = self.nodes.get(node)
         if state is None:
             if event is None:
@@ -74,26 +77,27 @@ class Watch:
         self.first_s = self.first_s or frame.time_s
         state.last_s = self.last_s = frame.time_s
         state.frames += 1
-        if isinstance(event, Heartbeat):
+        if isinstance(event, Snapshot):
+            self.take(state, event)
+        elif isinstance(event, Heartbeat):
             if not self._any_dictionary:
                 check_dictionary(event.dictionary_hash, f"{self._where}, node {node}")
             state.heartbeat = event
-        elif isinstance(event, Snapshot):
-            self.take(state, event)
         elif isinstance(event, Emergency):
             state.drift_cause = event.drift_cause
         return event
 
-    def count(self, frame: Frame) -> None:
-        """A frame whose content nobody needs: it counts for how often K comes."""
-        state = self.nodes.get(frame.node)  # `add` has let it in
-        if state is None:
-            return
-        state.last_s = self.last_s = frame.time_s
-        state.frames += 1
-        if frame.identifier & ~NODE_MASK in _ENDS_K:
-            state.snapshots += 1
-            _at(state.times_s, frame.time_s)
+    def count(self, frames: Sequence[Frame]) -> None:
+        """Frames whose content nobody needs, in their order: they count for how often K comes."""
+        times_s = {frame.identifier: frame.time_s for frame in frames}  # of the newest
+        for identifier, number in Counter(frame.identifier for frame in frames).items():
+            state = self.nodes.get(identifier & NODE_MASK)
+            if state is None:  # `add` has not let it in
+                continue
+            state.last_s = self.last_s = max(state.last_s, times_s[identifier])
+            state.frames += number
+            if identifier & ~NODE_MASK in _ENDS_K:
+                state.snapshots += number  # for the rate, too, from the next snapshot on that `add` is given
 
     def take(self, state: NodeState, snapshot: Snapshot) -> None:
         """A snapshot, or more of the newest one; each counts once."""
@@ -111,13 +115,7 @@ class Watch:
             return
         state.snapshots += 1
         state.valid += snapshot.is_valid
-        _at(state.times_s, snapshot.time_s)
-
-
-def _at(times_s: deque[float], time_s: float) -> None:
-    times_s.append(time_s)
-    while times_s[-1] - times_s[0] > RATE_S:
-        times_s.popleft()
+        state.mark(snapshot.time_s)
 
 
 def as_json(event: Event) -> dict[str, object]:

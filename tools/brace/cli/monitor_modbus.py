@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import json
 import time
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from brace.cli import common
@@ -33,7 +32,7 @@ def monitor_modbus(arguments: argparse.Namespace, url: BusUrl) -> int:
     try:
         with ended_by_signal() as ended:
             while not ended.is_set() and time.monotonic() < until:
-                snapshot = replace(device.live(), load=device.load())
+                snapshot = device.live()._replace(load=device.load())
                 state.last_s = snapshot.time_s
                 watch.take(state, snapshot)
                 if arguments.json:

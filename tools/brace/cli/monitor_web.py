@@ -31,7 +31,6 @@ def monitor_web(arguments: argparse.Namespace, url: BusUrl) -> int:
         ) from None
     feed = Feed(url, arguments.bit_rate, arguments.node, models(arguments.model))
     until = time.monotonic() + (arguments.seconds if arguments.seconds is not None else float("inf"))
-    feed.start()
     try:
         with ended_by_signal() as ended:
             server = Server(feed, arguments.web)
@@ -43,8 +42,6 @@ def monitor_web(arguments: argparse.Namespace, url: BusUrl) -> int:
             why=error.strerror or str(error),
             next_step="--web 0 takes any free port, and prints which",
         ) from None
-    finally:
-        feed.stop()
     return EXIT_OK
 
 

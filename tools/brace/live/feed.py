@@ -1,14 +1,13 @@
-"""What comes from a bus, kept as the newest of every limb, by a thread of its own."""
+"""What comes from a bus, kept as the newest of every limb."""
 
 from __future__ import annotations
 
+import asyncio
 import json
 import math
-import threading
 import time
 from collections.abc import Callable
-from contextlib import suppress
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import partial
 
 from brace.bus.can_controller import CanController
@@ -27,16 +26,13 @@ from brace.live.thinning import thinned
 from brace.model import LimbModel
 
 _AS_TEXT = json.JSONEncoder(allow_nan=False, separators=(",", ":")).encode
-_POLL_S = 0.1
-_PERIOD_S = 1.0 / 30.0  # a page's own, and shorter than the time within which a snapshot's frames are put together
-_AT_ONCE_MOST = 500
 _MODBUS_S = 0.033
 _AGAIN_S = 2.0  # after a bus that went away, or a controller that did not answer
 
 
 @dataclass
 class Feed:
-    """One bus, followed until `stop`. Errors are told on the page, not raised: the bus may come back."""
+    """One bus, by `follow` and `step`. Errors are told on the page, not raised: the bus may come back."""
 
     url: BusUrl
     bit_rate: int
@@ -49,109 +45,107 @@ class Feed:
         self.watch = Watch(self.url.text, self.node)
         self.cards: dict[int, Card] = {}
         self._ask_at_s: dict[int, float] = {}  # who was asked for a card and did not answer is asked again then
-        self._lock = threading.Lock()
         self._held: list[Frame] = []  # of snapshots that have begun and may go on
-        self._stopped = threading.Event()
-        self._thread = threading.Thread(target=self._run, name="brace bus", daemon=True)
-
-    def start(self) -> None:
-        """Begins to listen."""
-        self._thread.start()
-
-    def stop(self) -> None:
-        """Ends within a second or two."""
-        self._stopped.set()
-        self._thread.join(timeout=5.0)
+        self._lent: tuple[Bus, asyncio.Future[int]] | None = None  # to `step`, which gives it back with a node to ask
 
     def as_json(self) -> str:
         """All limbs, for the page."""
         now_s = time.time() if self.url.kind != "log" else self.watch.last_s
-        with self._lock:
-            limbs = [
-                limb_view(node, state, self.cards.get(node, Card()), now_s)
-                for node, state in sorted(self.watch.nodes.items())
-            ]
+        limbs = [
+            limb_view(node, state, self.cards[node], now_s) for node, state in sorted(self.watch.nodes.items())
+        ]
         message = {"bus": self.url.text, "trouble": self.trouble, "ended": self.ended, "limbs": limbs}
         return _AS_TEXT(message)
 
-    # ---------------------------------------------------------------------------------------- in the thread
+    def step(self) -> None:
+        """Takes what has come since the last step, without waiting. Called by who serves the page, once for each
+        update: the fewer wakeups, the less a page costs."""
+        if self._lent is None:
+            return
+        bus, given_back = self._lent
+        try:
+            self._take_frames(bus)
+            asked = self._whom_to_ask()
+            if asked is None:
+                return
+            given_back.set_result(asked)
+        except BraceError as error:
+            given_back.set_exception(error)
+        self._lent = None
 
-    def _run(self) -> None:
-        follow: Callable[[], None] = self._follow_modbus if self.url.is_modbus else self._follow_can
-        while not self._stopped.is_set():
+    async def follow(self) -> None:
+        """Opens the bus and asks what has to be asked, for as long as it is not cancelled. Whatever may take long is
+        done in a thread."""
+        while True:
             try:
-                follow()
+                await (self._follow_modbus() if self.url.is_modbus else self._follow_can())
             except EndOfLog:
                 self.ended = "the log has ended; this is its last picture"
                 return
             except BraceError as error:
                 self.trouble = error.render()
-                self._stopped.wait(_AGAIN_S)
+                await asyncio.sleep(_AGAIN_S)
 
-    def _follow_can(self) -> None:
-        bus = open_bus(self.url, self.bit_rate)
+    async def _follow_can(self) -> None:
+        bus = await asyncio.to_thread(open_bus, self.url, self.bit_rate)
         try:
             self.trouble = ""
-            is_log = isinstance(bus, LogBus)
-            while not self._stopped.wait(0.0 if is_log else _PERIOD_S):
+            while isinstance(bus, LogBus):
                 self._take_frames(bus)
+                await asyncio.sleep(0.0)
+            while True:
+                self._lent = bus, asyncio.get_running_loop().create_future()
+                node = await self._lent[1]
+                await asyncio.to_thread(self._ask, node, partial(_controller_on, bus, node))
         finally:
+            self._lent = None
             bus.close()
 
     def _take_frames(self, bus: Bus) -> None:
-        """Those of one period together: the fewer wakeups, the less a page costs."""
-        new, is_log = _waiting(bus), isinstance(bus, LogBus)
+        new, is_log = bus.receive_all(), isinstance(bus, LogBus)
         thin = thinned([*self._held, *new], may_hold=bool(new) and not is_log)
         self._held = thin.held
-        with self._lock:
-            for frame, is_needed in thin.frames:
-                if is_needed:
-                    self.watch.add(frame)
-                else:
-                    self.watch.count(frame)
-        for node in list(self.watch.nodes):
-            if time.monotonic() >= self._ask_at_s.get(node, 0.0):
-                self._learn(node, partial(_controller_on, bus, node), is_log)
+        for frame in thin.needed:
+            self.watch.add(frame)
+        self.watch.count(thin.counted)
+        for node in self.watch.nodes.keys() - self.cards.keys():
+            self._look_up(node)
 
-    def _follow_modbus(self) -> None:
-        device = ModbusController(self.url)
+    async def _follow_modbus(self) -> None:
+        device = await asyncio.to_thread(ModbusController, self.url)
         try:
-            self._learn(device.node, lambda: device, False)
+            self._look_up(device.node)
+            if self._whom_to_ask() is not None:
+                await asyncio.to_thread(self._ask, device.node, lambda: device)
             state = self.watch.nodes.setdefault(device.node, NodeState())
             self.trouble = ""
-            while not self._stopped.wait(_MODBUS_S):
-                snapshot = replace(device.live(), load=device.load())
-                with self._lock:
-                    state.last_s = self.watch.last_s = snapshot.time_s
-                    self.watch.take(state, snapshot)
+            while True:
+                snapshot = await asyncio.to_thread(lambda: device.live()._replace(load=device.load()))
+                state.last_s = self.watch.last_s = snapshot.time_s
+                self.watch.take(state, snapshot)
+                await asyncio.sleep(_MODBUS_S)
         finally:
             device.close()
 
-    def _learn(self, node: int, controller: Callable[[], Controller], is_log: bool) -> None:
-        """The limb's card: from a file, else from the controller."""
+    def _look_up(self, node: int) -> None:
+        """A limb's card, from a file; where there is none, the controller will be asked."""
         model = self.models.get(node, self.models.get(0))
         if model is not None:
             self.cards[node] = card_of(model)
-        elif is_log:
+        elif self.url.kind == "log":
             self.cards[node] = Card(why_not="a log answers no questions: give --model LIMB.toml")
         else:
-            self.cards[node] = card_from(lambda: controller().download(lambda words: None).model)
+            self.cards[node] = Card()
+            self._ask_at_s[node] = 0.0
+
+    def _whom_to_ask(self) -> int | None:
+        return next((node for node, at_s in self._ask_at_s.items() if at_s <= time.monotonic()), None)
+
+    def _ask(self, node: int, controller: Callable[[], Controller]) -> None:
+        """The controller for its limb's card."""
+        self.cards[node] = card_from(lambda: controller().download(lambda words: None).model)
         is_known = self.cards[node].lengths_mm is not None
-        self._ask_at_s[node] = math.inf if is_known or is_log else time.monotonic() + _AGAIN_S
-
-
-def _waiting(bus: Bus) -> list[Frame]:
-    """All frames that are there; where none is, the next one within a while. EndOfLog once there is none before it."""
-    frames: list[Frame] = []
-    wait_s = _POLL_S
-    with suppress(EndOfLog):
-        while len(frames) < _AT_ONCE_MOST and (frame := bus.receive(wait_s)) is not None:
-            frames.append(frame)
-            wait_s = 0.0
-        return frames
-    if not frames:
-        raise EndOfLog
-    return frames
+        self._ask_at_s[node] = math.inf if is_known else time.monotonic() + _AGAIN_S
 
 
 def _controller_on(bus: Bus, node: int) -> Controller:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
 from functools import lru_cache
 from typing import TypedDict
 
@@ -17,7 +16,6 @@ from brace.wire.layout import Value
 SILENT_S = 2.0  # a heartbeat comes each second
 LOAD_LATE_S = 2.0  # it may come more seldom than K
 _KNOWN_MOST = 64  # states hardly change, and the page gets their words thirty times a second: the last words are kept
-_SHORT = "%.6g"  # as many digits as a frame carries: a page is sent thirty times a second
 
 _NO_LOAD_SENT = "not sent: controller.load_hz is 0"
 _NO_LOAD_COUNTED = "no load is counted: K is the one without load"
@@ -105,17 +103,17 @@ def limb_view(node: int, state: NodeState, card: Card, now_s: float) -> LimbView
         "rate_hz": round(state.rate_hz, 1),
         "age_ms": k.age_ms if k is not None else None,
         "is_valid": k is not None and k.is_valid,
-        "k_n_per_mm": _short((k.k_xx, k.k_xz, k.k_zz) if k is not None else (None, None, None)),
-        "lambda_n_per_mm": _short((k.lambda_min, k.lambda_max) if k is not None else (None, None)),
+        "k_n_per_mm": [k.k_xx, k.k_xz, k.k_zz] if k is not None else [None, None, None],
+        "lambda_n_per_mm": [k.lambda_min, k.lambda_max] if k is not None else [None, None],
         "stiff_axis_rad": k.stiff_axis if k is not None else None,
         "relative_sigma": None if sigmas is None else [round(sigma, 4) for sigma in sigmas],
-        "theta_rad": _short((space.theta0 if space is not None else None, theta1, theta2)),
+        "theta_rad": [space.theta0 if space is not None else None, theta1, theta2],
         "lengths_mm": None if card.lengths_mm is None else list(card.lengths_mm),
-        "knee_mm": None if places is None else _short(places[0]),
-        "tip_mm": None if places is None else _short(places[1]),
+        "knee_mm": None if places is None else list(places[0]),
+        "tip_mm": None if places is None else list(places[1]),
         "lengths_why": card.why_not,
-        "k_space_n_per_mm": None if space is None else _short(space.k),
-        "lambda_space_n_per_mm": None if space is None else _short(space.eigenvalues),
+        "k_space_n_per_mm": None if space is None else list(space.k),
+        "lambda_space_n_per_mm": None if space is None else list(space.eigenvalues),
         "load": _load_view(load),
         "load_why": _NO_LOAD_SENT if load is None else "" if load.is_counted else _NO_LOAD_COUNTED,
         "play": _play("" if space is None else space.play_coxa, () if k is None else k.play, card.tight_joints),
@@ -138,9 +136,9 @@ def _load_view(load: Load | None) -> LoadView | None:
     v = load.values
     factor = v["buckling_factor"]
     return {
-        "force_n": _short((v["counted_force_x"], v["counted_force_z"])),
-        "moved_mm": _short((v["moved_x"], v["moved_z"])),
-        "unloaded_k_n_per_mm": _short((v["unloaded_k_xx"], v["unloaded_k_xz"], v["unloaded_k_zz"])),
+        "force_n": [v["counted_force_x"], v["counted_force_z"]],
+        "moved_mm": [v["moved_x"], v["moved_z"]],
+        "unloaded_k_n_per_mm": [v["unloaded_k_xx"], v["unloaded_k_xz"], v["unloaded_k_zz"]],
         "buckling_factor": None if factor is None or math.isinf(factor) else factor,
     }
 
@@ -168,7 +166,3 @@ def _flags(names: tuple[str, ...]) -> list[Said]:
 
 def _text(table: CodeTable, name: str) -> str:
     return table.texts.get(name, "")
-
-
-def _short(values: Iterable[Value]) -> list[Value]:
-    return [value if value is None or not math.isfinite(value) else float(_SHORT % value) for value in values]

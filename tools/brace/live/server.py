@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from brace.live.feed import Feed
 
 HOST = "127.0.0.1"
-UPDATES_PER_S = 30.0
+UPDATES_PER_S = 30.0  # the time between two is shorter than that within which a snapshot's frames are put together
 _WAITING_BYTES_MOST = 20_000  # of a reader: below the mark at which sending would wait for it
 _PAGE = {
     "/": ("index.html", "text/html"),
@@ -52,12 +52,16 @@ class Server:
             await site.start()
             self._port = runner.addresses[0][1]
             tell(f"http://{HOST}:{self._port}/")
+            following = asyncio.create_task(self._feed.follow())
             due_s = asyncio.get_running_loop().time()
             while not is_over():
                 now_s = asyncio.get_running_loop().time()
                 due_s = max(due_s + 1.0 / UPDATES_PER_S, now_s)  # after a pause nothing is caught up with
                 await asyncio.sleep(due_s - now_s)
+                self._feed.step()
                 await self._update()
+                if following.done():
+                    following.result()  # raises what nobody has thought of
         finally:
             for reader in list(self._readers):
                 await reader.close()

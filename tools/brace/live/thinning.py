@@ -11,7 +11,9 @@ from brace.wire.frames import FD_MESSAGES, MESSAGES, MULTIPLEXED
 
 _FIRST, _POSTURE = MESSAGES["stiffness_a"].identifier, MESSAGES["posture"].identifier  # of a snapshot in several frames
 _K = frozenset((_FIRST, MESSAGES["stiffness_b"].identifier))
-_WITH_POSTURE = frozenset((_POSTURE, FD_MESSAGES["snapshot_fd"].identifier))
+_WHOLE = FD_MESSAGES["snapshot_fd"].identifier
+_HAS_K = _K | {_WHOLE}
+_WITH_POSTURE = frozenset((_POSTURE, _WHOLE))
 _OF_SNAPSHOT = frozenset(
     (
         *_K,
@@ -22,40 +24,39 @@ _OF_SNAPSHOT = frozenset(
 )  # in all of them the first byte counts the snapshots
 _ALWAYS = frozenset((MESSAGES["heartbeat"].identifier, MESSAGES["emergency"].identifier))
 
+_Key = tuple[int, bytes]  # identifier, first byte
+
 
 @dataclass
 class Thinned:
-    """The frames of one period."""
+    """The frames of one period, each kind in its order."""
 
-    frames: list[tuple[Frame, bool]] = field(default_factory=list)  # in their order; is the content needed?
+    needed: list[Frame] = field(default_factory=list)
+    counted: list[Frame] = field(default_factory=list)  # their content is not needed
     held: list[Frame] = field(default_factory=list)  # for the next period: more of their snapshot may come
 
 
 def thinned(frames: Sequence[Frame], may_hold: bool) -> Thinned:
     """A page shows K with its posture; K alone only of a limb that sends no posture. A snapshot that has begun, and may
     get its posture in the next period, is held until then."""
-    last = {frame.identifier: frame.data[:1] for frame in frames}
-    with_posture = {identifier & NODE_MASK for identifier in last if identifier & ~NODE_MASK in _WITH_POSTURE}
-    wanted: dict[int, set[bytes]] = {}  # by node
-    for identifier, number in last.items():
-        message, node = identifier & ~NODE_MASK, identifier & NODE_MASK
-        if message in _OF_SNAPSHOT and (message not in _K or node not in with_posture):
-            wanted.setdefault(node, set()).add(number)
-    begun = {
-        identifier & NODE_MASK: number
-        for identifier, number in last.items()
-        if may_hold and identifier & ~NODE_MASK == _FIRST and last.get(_POSTURE | identifier & NODE_MASK) != number
-    }
-    of_snapshot = {identifier for identifier in last if identifier & ~NODE_MASK in _OF_SNAPSHOT}
+    keys = [(frame.identifier, frame.data[:1]) for frame in frames]
+    last = dict(keys)
+    by_node: dict[int, list[int]] = {}
+    for identifier in last:
+        by_node.setdefault(identifier & NODE_MASK, []).append(identifier & ~NODE_MASK)
+    needed, held = set[_Key](), set[_Key]()
+    for node, messages in by_node.items():
+        parts = _OF_SNAPSHOT.intersection(messages)
+        shown = _WITH_POSTURE & parts or _K & parts
+        for message in parts - _K | shown:
+            its = parts if message in shown else (message, *_HAS_K)  # K's parts are what it is joined to
+            needed |= {(part | node, last[message | node]) for part in its}
+        for always in _ALWAYS.intersection(messages):
+            needed |= {key for key in keys if key[0] == always | node}
+        begun = last.get(_FIRST | node)
+        if may_hold and begun is not None and last.get(_POSTURE | node) != begun:
+            held |= {(part | node, begun) for part in parts}
     out = Thinned()
-    for frame in frames:
-        identifier = frame.identifier
-        if identifier not in of_snapshot:
-            out.frames.append((frame, identifier & ~NODE_MASK in _ALWAYS))
-            continue
-        node, number = identifier & NODE_MASK, frame.data[:1]
-        if begun.get(node) == number:
-            out.held.append(frame)
-        else:
-            out.frames.append((frame, number in wanted[node]))
+    for frame, key in zip(frames, keys, strict=True):
+        (out.held if key in held else out.needed if key in needed else out.counted).append(frame)
     return out

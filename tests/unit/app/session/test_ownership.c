@@ -120,6 +120,22 @@ static void test_the_program_needs_no_signs_of_life(void)
     TEST_ASSERT_TRUE(ownership_is_idle(&ownership));
 }
 
+/* What a wire begins after the program needs signs of life again. */
+static void test_after_the_program_a_wire_s_owner_needs_them(void)
+{
+    ownership.is_by_wire = false;
+    ownership_begin(&ownership);
+    TEST_ASSERT_EQUAL(OWNERSHIP_GOES_ON, moves(0));
+    asks(we);
+    lives(we);
+    ownership_step_t last = OWNERSHIP_GOES_ON;
+    for (uint32_t us = 0; us <= SESSION_LIFE_US; us += TICK_US) {
+        last = moves(0);
+    }
+    TEST_ASSERT_EQUAL(OWNERSHIP_STOPS, last);
+    TEST_ASSERT_TRUE(ownership.is_held && ownership.fell_silent);
+}
+
 static void test_one_master_writes_until_it_has_gone(void)
 {
     const ownership_inputs_t configures = {.configures = true, .since_us = TICK_US}, rests = {.since_us = TICK_US};
@@ -144,6 +160,87 @@ static void test_storing_is_no_silence(void)
     TEST_ASSERT_TRUE(ownership.session.is_open);
 }
 
+/* What was held is held on when what was asked for afterwards is forgotten, however often it was asked for. */
+static void test_what_was_held_stays_held_when_the_next_motion_is_forgotten(void)
+{
+    asks(we);
+    lives(we);
+    (void)moves(0);
+    TEST_ASSERT_FALSE(ownership_stop(&ownership));
+    session_end(&ownership.session);
+    asks(we);
+    asks(we);
+    TEST_ASSERT_TRUE(ownership.waits_for_life && ownership.is_held);
+    ownership_step_t last = OWNERSHIP_GOES_ON;
+    for (uint32_t us = 0; us <= SESSION_LIFE_US && last == OWNERSHIP_GOES_ON; us += TICK_US) {
+        last = moves(0);
+    }
+    TEST_ASSERT_EQUAL(OWNERSHIP_FORGETS, last);
+    TEST_ASSERT_TRUE(ownership.is_held);
+    TEST_ASSERT_FALSE(ownership.waits_for_life);
+}
+
+/* What stands already is not stopped: a loading test that is over, a take-up that holds. It is held, and not counted. */
+static void test_an_owner_that_goes_while_nothing_moves_is_no_silence(void)
+{
+    const ownership_inputs_t holds = {.runs = true, .since_us = SESSION_LIFE_US + TICK_US};
+    asks(we);
+    lives(we);
+    (void)moves(0);
+    TEST_ASSERT_EQUAL(OWNERSHIP_GOES_ON, ownership_step(&ownership, &holds));
+    TEST_ASSERT_TRUE(ownership.is_held);
+    TEST_ASSERT_EQUAL(0, ownership.session.counts.silences);
+}
+
+/* Counters stop at their greatest number; a limb may be held for longer than a word counts. */
+static void test_nothing_is_counted_beyond_a_word(void)
+{
+    ownership.session.counts.silences = UINT32_MAX;
+    asks(we);
+    lives(we);
+    for (uint32_t us = 0; us <= SESSION_LIFE_US; us += TICK_US) {
+        (void)moves(0);
+    }
+    TEST_ASSERT_TRUE(ownership.is_held);
+    TEST_ASSERT_EQUAL_HEX32(UINT32_MAX, ownership.session.counts.silences);
+    const uint32_t most_us = 3000000u;
+    ownership.held_us = UINT32_MAX / 2u;
+    TEST_ASSERT_EQUAL(OWNERSHIP_LETS_GO, moves(most_us));
+    for (int i = 0; i < 3; i++) {
+        (void)moves(0);
+    }
+    TEST_ASSERT_EQUAL_HEX32(UINT32_MAX / 2u, ownership.held_us);
+    ownership.session.counts.strangers = UINT32_MAX;
+    TEST_ASSERT_EQUAL(BRACE_OK, ownership_may_write(&ownership, they, false));
+    TEST_ASSERT_EQUAL(BRACE_REFUSED_OWNED, ownership_may_write(&ownership, others, false));
+    TEST_ASSERT_EQUAL_HEX32(UINT32_MAX, ownership.session.counts.strangers);
+}
+
+static void test_idle_is_who_has_nothing_to_mind(void)
+{
+    TEST_ASSERT_TRUE(ownership_is_idle(&ownership));
+    lives(we); /* heard, and about to ask */
+    TEST_ASSERT_FALSE(ownership_is_idle(&ownership));
+    setUp();
+    asks(we);
+    TEST_ASSERT_FALSE(ownership_is_idle(&ownership));
+    setUp();
+    (void)ownership_stop(&ownership); /* held */
+    TEST_ASSERT_FALSE(ownership_is_idle(&ownership));
+    setUp();
+    ownership.program_moves = true;
+    TEST_ASSERT_FALSE(ownership_is_idle(&ownership));
+    setUp();
+    TEST_ASSERT_EQUAL(BRACE_OK, ownership_may_write(&ownership, they, false));
+    TEST_ASSERT_FALSE(ownership_is_idle(&ownership));
+    static const uint8_t key[SIPHASH_KEY_BYTES] = {1};
+    setUp();
+    session_start(&ownership.session, false, key);
+    TEST_ASSERT_FALSE(ownership_is_idle(&ownership)); /* the next session's challenge is not there yet */
+    session_challenge(&ownership.session, 1);
+    TEST_ASSERT_TRUE(ownership_is_idle(&ownership));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -153,7 +250,12 @@ int main(void)
     RUN_TEST(test_what_somebody_has_stopped_is_not_let_go);
     RUN_TEST(test_stop_takes_back_what_waits);
     RUN_TEST(test_the_program_needs_no_signs_of_life);
+    RUN_TEST(test_after_the_program_a_wire_s_owner_needs_them);
     RUN_TEST(test_one_master_writes_until_it_has_gone);
     RUN_TEST(test_storing_is_no_silence);
+    RUN_TEST(test_what_was_held_stays_held_when_the_next_motion_is_forgotten);
+    RUN_TEST(test_an_owner_that_goes_while_nothing_moves_is_no_silence);
+    RUN_TEST(test_nothing_is_counted_beyond_a_word);
+    RUN_TEST(test_idle_is_who_has_nothing_to_mind);
     return UNITY_END();
 }

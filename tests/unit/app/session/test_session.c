@@ -90,6 +90,48 @@ static void test_counters_only_rise(void)
     TEST_ASSERT_EQUAL(BRACE_OK, life(we, 6));
 }
 
+/* At the end of its numbers a session ends too: none comes round. */
+static void test_the_last_number_has_no_next_one(void)
+{
+    TEST_ASSERT_EQUAL(BRACE_OK, life(we, 0));
+    session.counter = UINT32_MAX - 1u;
+    TEST_ASSERT_EQUAL(BRACE_OK, command(we, UINT32_MAX));
+    TEST_ASSERT_EQUAL(BRACE_REFUSED_REPLAY, command(we, 0));
+    TEST_ASSERT_EQUAL(BRACE_REFUSED_REPLAY, command(we, 1));
+    brace_seal_t low = seal_of(2);
+    low.counter_bits = 8;
+    TEST_ASSERT_EQUAL(BRACE_REFUSED_REPLAY, session_command(&session, we, &low, order, 8));
+}
+
+/* A challenge that nobody has answered stays good; one that a session was opened with does not. */
+static void test_each_session_has_its_own_challenge(void)
+{
+    session_end(&session);
+    TEST_ASSERT_TRUE(session.has_challenge);
+    TEST_ASSERT_EQUAL(BRACE_OK, life(we, 0));
+    session_end(&session);
+    TEST_ASSERT_FALSE(session.has_challenge);
+    session_end(&session);
+    TEST_ASSERT_FALSE(session.has_challenge);
+}
+
+/* On a bench, who falls silent in what it began but lives still may begin the next thing; on a guarded board, not. */
+static void test_who_lives_on_may_begin_the_next_thing_on_a_bench(void)
+{
+    session_start(&session, true, NULL);
+    TEST_ASSERT_EQUAL(BRACE_OK, session_command(&session, we, NULL, order, 8));
+    TEST_ASSERT_EQUAL(BRACE_OK, session_life(&session, we, NULL));
+    TEST_ASSERT_TRUE(session_tick(&session, 1000, 0)); /* what it began has ended */
+    TEST_ASSERT_FALSE(session.is_open);
+    TEST_ASSERT_EQUAL(BRACE_OK, session_command(&session, we, NULL, order, 8));
+    TEST_ASSERT_TRUE(session_may_move(&session));
+    setUp();
+    TEST_ASSERT_EQUAL(BRACE_OK, life(we, 0));
+    TEST_ASSERT_TRUE(session_tick(&session, 1000, 0));
+    TEST_ASSERT_FALSE(session.has_heard);
+    TEST_ASSERT_EQUAL(BRACE_REFUSED_STRANGER, command(we, 1));
+}
+
 static void test_low_bits_stand_for_the_next_number_that_has_them(void)
 {
     TEST_ASSERT_EQUAL(BRACE_OK, life(we, 0));
@@ -250,6 +292,9 @@ int main(void)
     RUN_TEST(test_a_session_opens_with_the_check_of_its_challenge);
     RUN_TEST(test_without_the_key_nothing_opens);
     RUN_TEST(test_counters_only_rise);
+    RUN_TEST(test_the_last_number_has_no_next_one);
+    RUN_TEST(test_each_session_has_its_own_challenge);
+    RUN_TEST(test_who_lives_on_may_begin_the_next_thing_on_a_bench);
     RUN_TEST(test_low_bits_stand_for_the_next_number_that_has_them);
     RUN_TEST(test_the_check_is_over_counter_kind_and_command);
     RUN_TEST(test_there_is_one_owner_at_a_time);

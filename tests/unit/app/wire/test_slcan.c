@@ -7,6 +7,7 @@
 static uint8_t to_node[512], from_node[2048];
 static uint32_t to_count, to_read, from_count;
 static uint32_t takes_most; /* bytes that the port takes in a call */
+static int32_t refuses_with; /* what a port that fails answers; 0: it does not */
 static slcan_t slcan;
 
 static int32_t port_setup(void *context, brace_serial_port_t port, uint32_t baud, brace_parity_t parity)
@@ -21,6 +22,9 @@ static int32_t port_read(void *context, brace_serial_port_t port, uint8_t *bytes
 {
     (void)context;
     (void)port;
+    if (refuses_with != 0) {
+        return refuses_with;
+    }
     const uint32_t left = to_count - to_read, count = left < room ? left : room;
     memcpy(bytes, to_node + to_read, count);
     to_read += count;
@@ -31,6 +35,9 @@ static int32_t port_write(void *context, brace_serial_port_t port, const uint8_t
 {
     (void)context;
     (void)port;
+    if (refuses_with != 0) {
+        return refuses_with;
+    }
     const uint32_t taken = count < takes_most ? count : takes_most;
     TEST_ASSERT_TRUE(from_count + taken <= sizeof from_node);
     memcpy(from_node + from_count, bytes, taken);
@@ -43,6 +50,7 @@ static const brace_hal_t hal = {.serial_setup = port_setup, .serial_read = port_
 void setUp(void)
 {
     to_count = to_read = from_count = 0;
+    refuses_with = 0;
     takes_most = sizeof from_node;
     slcan_start(&slcan, &hal);
     TEST_ASSERT_TRUE(slcan.is_fitted);
@@ -63,7 +71,7 @@ static bool say(const char *text, const char *answer, brace_can_frame_t *frame)
         slcan_flush(&slcan, &hal);
     }
     TEST_ASSERT_EQUAL(strlen(answer), from_count);
-    TEST_ASSERT_EQUAL_MEMORY(answer, from_node, from_count);
+    TEST_ASSERT_EQUAL(0, memcmp(answer, from_node, from_count));
     return came;
 }
 
@@ -165,13 +173,95 @@ static void test_a_frame_of_can_fd_has_no_text(void)
     TEST_ASSERT_EQUAL(0, slcan.out_count);
 }
 
+static int32_t setup_fails(void *context, brace_serial_port_t port, uint32_t baud, brace_parity_t parity)
+{
+    (void)context;
+    (void)port;
+    (void)baud;
+    (void)parity;
+    return BRACE_HAL_E_DEVICE;
+}
+
 static void test_without_the_port_nothing_comes(void)
 {
     brace_can_frame_t frame;
-    const brace_hal_t none = {0};
-    slcan_start(&slcan, &none);
-    TEST_ASSERT_FALSE(slcan.is_fitted);
-    TEST_ASSERT_FALSE(slcan_receive(&slcan, &none, &frame));
+    for (int part = 0; part < 4; part++) {
+        brace_hal_t none = hal;
+        switch (part) {
+        case 0: none.serial_setup = NULL; break;
+        case 1: none.serial_read = NULL; break;
+        case 2: none.serial_write = NULL; break;
+        default: none.serial_setup = setup_fails; break;
+        }
+        slcan_start(&slcan, &none);
+        TEST_ASSERT_FALSE(slcan.is_fitted);
+        TEST_ASSERT_FALSE(slcan_receive(&slcan, &none, &frame));
+    }
+}
+
+/* A port that fails, or that says it has moved more bytes than there are: nothing is lost, and nothing made up. */
+static void test_a_port_that_fails_loses_nothing(void)
+{
+    static const int32_t answers[] = {BRACE_HAL_E_DEVICE, BRACE_HAL_AGAIN, 1000000};
+    const brace_can_frame_t sent = {.id = 0x123, .length = 1, .data = {0xab}};
+    brace_can_frame_t frame;
+    (void)say("O\r", "\r", &frame);
+    from_count = 0;
+    TEST_ASSERT_TRUE(slcan_send(&slcan, &sent));
+    for (int i = 0; i < 3; i++) {
+        refuses_with = answers[i];
+        slcan_flush(&slcan, &hal);
+        TEST_ASSERT_FALSE(slcan_receive(&slcan, &hal, &frame));
+    }
+    refuses_with = 0;
+    slcan_flush(&slcan, &hal);
+    slcan_flush(&slcan, &hal);
+    TEST_ASSERT_EQUAL(8, from_count);
+    TEST_ASSERT_EQUAL_MEMORY("t1231AB\r", from_node, 8);
+    TEST_ASSERT_TRUE(say("t7ff10c\r", "z\r", &frame));
+    TEST_ASSERT_EQUAL_HEX8(0x0c, frame.data[0]);
+}
+
+/* A line that comes in pieces, and one so long that it fills the room more than once. */
+static void test_lines_come_in_pieces(void)
+{
+    brace_can_frame_t frame;
+    (void)say("O\r", "\r", &frame);
+    TEST_ASSERT_FALSE(say("t7ff2", "", &frame));
+    TEST_ASSERT_TRUE(say("0c0d\r", "z\r", &frame));
+    TEST_ASSERT_EQUAL(2, frame.length);
+    TEST_ASSERT_EQUAL_HEX8(0x0d, frame.data[1]);
+    static const char digits[] = "0123456789012345678901234567890123456789"
+                                 "0123456789012345678901234567890123456789";
+    TEST_ASSERT_FALSE(say(digits, "", &frame));
+    TEST_ASSERT_FALSE(say("0123456789", "", &frame));
+    TEST_ASSERT_TRUE(say("t1230\rt1230\r", "\az\r", &frame));
+}
+
+/* What waits fills the room to its last byte; a reply that finds none is lost whole, and frames go on afterwards. */
+static void test_replies_that_find_no_room_are_lost_whole(void)
+{
+    brace_can_frame_t ignored;
+    const brace_can_frame_t sent = {.id = 0x7ff, .length = 8};
+    (void)say("O\r", "\r", &ignored);
+    takes_most = 0;
+    uint32_t wait = 0;
+    while (slcan_send(&slcan, &sent)) {
+        wait += 22u;
+    }
+    TEST_ASSERT_EQUAL(SLCAN_OUT_BYTES / 22u * 22u, wait);
+    while (wait < (uint32_t)SLCAN_OUT_BYTES) { /* one byte at a time, to the last */
+        (void)say("Q\r", "", &ignored);
+        wait++;
+    }
+    (void)say("V\r", "", &ignored); /* no room for its six bytes, nor for one */
+    TEST_ASSERT_EQUAL(SLCAN_OUT_BYTES, slcan.out_count);
+    takes_most = sizeof from_node;
+    from_count = 0;
+    slcan_flush(&slcan, &hal);
+    TEST_ASSERT_EQUAL(wait, from_count);
+    TEST_ASSERT_EQUAL(0, slcan.out_count);
+    (void)say("V\r", "V1013\r", &ignored);
 }
 
 int main(void)
@@ -184,5 +274,8 @@ int main(void)
     RUN_TEST(test_a_slow_line_gets_every_frame_that_found_room);
     RUN_TEST(test_a_frame_of_can_fd_has_no_text);
     RUN_TEST(test_without_the_port_nothing_comes);
+    RUN_TEST(test_a_port_that_fails_loses_nothing);
+    RUN_TEST(test_lines_come_in_pieces);
+    RUN_TEST(test_replies_that_find_no_room_are_lost_whole);
     return UNITY_END();
 }

@@ -1,0 +1,181 @@
+/* What each drive is told: take-up and loading test together, within the torque of both and within the board's ceiling;
+ * and whether a drive refuses. */
+#include "command/drives.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "unity.h"
+
+enum { TICK_US = 1000 };
+
+static drives_t drives;
+static joints_t joints;
+static flank_t flank;
+static drives_test_t test;
+static brace_hal_t hal;
+static brace_hal_joint_command_t told[BRACE_LINK_COUNT];
+static uint32_t calls[BRACE_LINK_COUNT], failed;
+static int32_t answer;
+
+static int32_t command(void *context, int32_t joint_index, const brace_hal_joint_command_t *wanted)
+{
+    (void)context;
+    told[joint_index] = *wanted;
+    calls[joint_index]++;
+    return joint_index == BRACE_TIBIA ? answer : BRACE_HAL_OK;
+}
+
+void setUp(void)
+{
+    memset(&joints, 0, sizeof joints);
+    memset(&flank, 0, sizeof flank);
+    memset(&test, 0, sizeof test);
+    memset(calls, 0, sizeof calls);
+    hal = (brace_hal_t){.joint_command = command};
+    joints.joint[BRACE_FEMUR].fitted = joints.joint[BRACE_TIBIA].fitted = true;
+    failed = 0;
+    answer = BRACE_HAL_OK;
+    drives_start(&drives);
+}
+
+void tearDown(void) {}
+
+static void tick(bool takes_up)
+{
+    drives_command(&drives, &hal, &joints, &flank, takes_up, &test, TICK_US, &failed);
+}
+
+static void test_nothing_is_told_until_something_moves_and_all_is_taken_back(void)
+{
+    tick(false);
+    TEST_ASSERT_EQUAL(0, calls[BRACE_FEMUR]);
+    flank.joint[BRACE_FEMUR].out.command_rad = 0.01f;
+    tick(true);
+    TEST_ASSERT_EQUAL(1, calls[BRACE_FEMUR]);
+    TEST_ASSERT_EQUAL(1, calls[BRACE_TIBIA]);
+    TEST_ASSERT_EQUAL(0, calls[BRACE_COXA]); /* not fitted */
+    TEST_ASSERT_EQUAL_FLOAT(0.01f, told[BRACE_FEMUR].offset_rad);
+    TEST_ASSERT_EQUAL_FLOAT(0.01f, drives.told_rad[BRACE_FEMUR]);
+    TEST_ASSERT_TRUE(isinf(told[BRACE_FEMUR].torque_limit_n_mm) && isinf(drives.limit_n_mm[BRACE_FEMUR]));
+    flank.joint[BRACE_FEMUR].out.command_rad = 0.0f;
+    tick(false); /* once more */
+    TEST_ASSERT_EQUAL(2, calls[BRACE_FEMUR]);
+    TEST_ASSERT_EQUAL_FLOAT(0.0f, told[BRACE_FEMUR].offset_rad);
+    tick(false);
+    TEST_ASSERT_EQUAL(2, calls[BRACE_FEMUR]);
+}
+
+static void test_a_take_up_and_a_test_add_up_within_the_smaller_torque(void)
+{
+    flank_joint_t *femur = &flank.joint[BRACE_FEMUR];
+    femur->out.command_rad = 0.01f;
+    test.offset_rad[BRACE_FEMUR] = 0.002f;
+    test.torque_limit_n_mm[BRACE_FEMUR] = 3000.0f;
+    tick(true); /* the test does not run */
+    TEST_ASSERT_EQUAL_FLOAT(0.01f, told[BRACE_FEMUR].offset_rad);
+    test.runs = true;
+    tick(false);
+    TEST_ASSERT_EQUAL_FLOAT(0.012f, told[BRACE_FEMUR].offset_rad);
+    TEST_ASSERT_EQUAL_FLOAT(3000.0f, told[BRACE_FEMUR].torque_limit_n_mm);
+    TEST_ASSERT_EQUAL_FLOAT(3000.0f, drives.limit_n_mm[BRACE_FEMUR]);
+    femur->machine.params.takeup.torque_max_n_mm = 2000.0f;
+    femur->out.limit_torque = true; /* but nobody watches the play: the limit is none */
+    tick(true);
+    TEST_ASSERT_EQUAL_FLOAT(3000.0f, told[BRACE_FEMUR].torque_limit_n_mm);
+    femur->watched = true;
+    tick(true);
+    TEST_ASSERT_EQUAL_FLOAT(2000.0f, told[BRACE_FEMUR].torque_limit_n_mm);
+    femur->machine.params.takeup.torque_max_n_mm = 4000.0f;
+    tick(true);
+    TEST_ASSERT_EQUAL_FLOAT(3000.0f, told[BRACE_FEMUR].torque_limit_n_mm);
+    femur->out.limit_torque = false;
+    test.runs = false;
+    tick(true);
+    TEST_ASSERT_TRUE(isinf(told[BRACE_FEMUR].torque_limit_n_mm));
+}
+
+static void test_the_board_s_ceiling_bounds_speed_and_torque_both_ways(void)
+{
+    brace_hal_ceiling_t ceiling[BRACE_LINK_COUNT];
+    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
+        ceiling[i] = (brace_hal_ceiling_t){.torque_most_n_mm = 5000.0f, .speed_most_rad_per_s = 2.0f};
+    }
+    hal.ceiling = ceiling;
+    test.runs = true;
+    test.torque_limit_n_mm[BRACE_FEMUR] = 9000.0f;
+    test.torque_limit_n_mm[BRACE_TIBIA] = 1000.0f;
+    for (int way = 1; way >= -1; way -= 2) {
+        test.offset_rad[BRACE_FEMUR] = (float)way * 0.005f;
+        test.offset_rad[BRACE_TIBIA] = (float)way * 0.001f;
+        for (int i = 1; i <= 4; i++) { /* 2 rad/s: 2 mrad in a tick */
+            tick(false);
+            const float way_rad = 0.002f * (float)i;
+            TEST_ASSERT_FLOAT_WITHIN(1e-6f, (float)way * (way_rad < 0.005f ? way_rad : 0.005f),
+                                     told[BRACE_FEMUR].offset_rad);
+            TEST_ASSERT_EQUAL_FLOAT((float)way * 0.001f, told[BRACE_TIBIA].offset_rad);
+        }
+        TEST_ASSERT_EQUAL_FLOAT(5000.0f, told[BRACE_FEMUR].torque_limit_n_mm);
+        TEST_ASSERT_EQUAL_FLOAT(1000.0f, told[BRACE_TIBIA].torque_limit_n_mm);
+        for (int i = 0; i < 4; i++) {
+            test.offset_rad[BRACE_FEMUR] = test.offset_rad[BRACE_TIBIA] = 0.0f;
+            tick(false);
+        }
+        TEST_ASSERT_EQUAL_FLOAT(0.0f, told[BRACE_FEMUR].offset_rad);
+    }
+    /* what is taken back is taken back at once: nothing moves the limb then but its own drive */
+    test.offset_rad[BRACE_FEMUR] = 0.002f;
+    tick(false);
+    test.runs = false;
+    tick(false);
+    TEST_ASSERT_EQUAL_FLOAT(0.0f, told[BRACE_FEMUR].offset_rad);
+    TEST_ASSERT_TRUE(isinf(told[BRACE_FEMUR].torque_limit_n_mm));
+}
+
+static void test_a_drive_that_refuses_for_50_ms_is_told(void)
+{
+    test.runs = true;
+    answer = BRACE_HAL_E_DEVICE;
+    for (int i = 0; i < 49; i++) {
+        tick(false);
+    }
+    TEST_ASSERT_FALSE(drives_refuse(&drives));
+    TEST_ASSERT_EQUAL(49, failed);
+    tick(false);
+    TEST_ASSERT_TRUE(drives_refuse(&drives));
+    answer = BRACE_HAL_OK;
+    tick(false);
+    TEST_ASSERT_FALSE(drives_refuse(&drives)); /* one that takes a command has come back */
+    answer = BRACE_HAL_AGAIN;
+    for (int i = 0; i < 60; i++) {
+        tick(false);
+    }
+    TEST_ASSERT_TRUE(drives_refuse(&drives));
+    test.runs = false;
+    tick(false); /* the last command is refused too */
+    TEST_ASSERT_TRUE(drives_refuse(&drives));
+    tick(false);
+    TEST_ASSERT_FALSE(drives_refuse(&drives)); /* nothing is told any more */
+}
+
+static void test_a_board_without_commands_is_told_nothing(void)
+{
+    hal.joint_command = NULL;
+    test.runs = true;
+    for (int i = 0; i < 100; i++) {
+        tick(true);
+    }
+    TEST_ASSERT_FALSE(drives_refuse(&drives));
+    TEST_ASSERT_EQUAL(0, failed);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_nothing_is_told_until_something_moves_and_all_is_taken_back);
+    RUN_TEST(test_a_take_up_and_a_test_add_up_within_the_smaller_torque);
+    RUN_TEST(test_the_board_s_ceiling_bounds_speed_and_torque_both_ways);
+    RUN_TEST(test_a_drive_that_refuses_for_50_ms_is_told);
+    RUN_TEST(test_a_board_without_commands_is_told_nothing);
+    return UNITY_END();
+}

@@ -1,0 +1,113 @@
+/* How one mode follows another: from every mode, with sound joints and without, with and without faults. */
+#include "mode/mode.h"
+
+#include "unity.h"
+
+enum { TICK_US = 1000 };
+
+static mode_state_t mode;
+static mode_inputs_t inputs;
+
+void setUp(void)
+{
+    inputs = (mode_inputs_t){.joints_are_sound = true, .tick_us = TICK_US};
+    mode_start(&mode);
+}
+
+void tearDown(void) {}
+
+static bool update_from(brace_mode_t from)
+{
+    mode.now = from;
+    return mode_update(&mode, &inputs);
+}
+
+static void test_a_start_waits_for_sound_joints_for_100_ms(void)
+{
+    TEST_ASSERT_EQUAL(BRACE_MODE_START, mode.now);
+    inputs.joints_are_sound = false;
+    for (int i = 1; i < 100; i++) {
+        TEST_ASSERT_FALSE(mode_update(&mode, &inputs));
+        TEST_ASSERT_EQUAL(BRACE_MODE_START, mode.now);
+    }
+    TEST_ASSERT_FALSE(mode_update(&mode, &inputs));
+    TEST_ASSERT_EQUAL(BRACE_MODE_FAULT, mode.now);
+    mode_start(&mode);
+    inputs.joints_are_sound = true;
+    TEST_ASSERT_FALSE(mode_update(&mode, &inputs));
+    TEST_ASSERT_EQUAL(BRACE_MODE_MONITOR, mode.now);
+    mode_start(&mode);
+    inputs.faults = BRACE_FAULT_ENCODER_STUCK; /* brought along */
+    TEST_ASSERT_FALSE(mode_update(&mode, &inputs));
+    TEST_ASSERT_EQUAL(BRACE_MODE_START, mode.now);
+}
+
+static void test_what_moves_the_limb_names_the_mode(void)
+{
+    static const brace_mode_t working[] = {BRACE_MODE_MONITOR, BRACE_MODE_TAKING_UP, BRACE_MODE_LOADING_TEST,
+                                           BRACE_MODE_FAULT};
+    for (int i = 0; i < 4; i++) {
+        for (uint32_t moves = 0; moves < 4u; moves++) {
+            inputs.tests = (moves & 1u) != 0u, inputs.takes_up = (moves & 2u) != 0u;
+            TEST_ASSERT_FALSE(update_from(working[i]));
+            TEST_ASSERT_EQUAL(inputs.tests      ? BRACE_MODE_LOADING_TEST
+                              : inputs.takes_up ? BRACE_MODE_TAKING_UP
+                                                : BRACE_MODE_MONITOR, mode.now);
+        }
+    }
+}
+
+static void test_without_K_whatever_moves_ends(void)
+{
+    static const brace_mode_t working[] = {BRACE_MODE_MONITOR, BRACE_MODE_TAKING_UP, BRACE_MODE_LOADING_TEST};
+    inputs.tests = true;
+    for (int i = 0; i < 3; i++) {
+        inputs.faults = BRACE_FAULT_SENSOR_FEMUR;
+        TEST_ASSERT_TRUE(update_from(working[i]));
+        TEST_ASSERT_EQUAL(BRACE_MODE_FAULT, mode.now);
+        inputs.faults = BRACE_FAULT_DRIVE_REFUSES; /* K is told, and nothing may move */
+        TEST_ASSERT_TRUE(update_from(working[i]));
+        TEST_ASSERT_EQUAL(BRACE_MODE_LOADING_TEST, mode.now);
+        inputs.faults = BRACE_FAULT_MODEL_DRIFT; /* no reason to stop */
+        TEST_ASSERT_FALSE(update_from(working[i]));
+        TEST_ASSERT_EQUAL(BRACE_MODE_LOADING_TEST, mode.now);
+    }
+    inputs.faults = BRACE_FAULT_SENSOR_FEMUR;
+    TEST_ASSERT_FALSE(update_from(BRACE_MODE_FAULT)); /* it has ended already */
+    TEST_ASSERT_EQUAL(BRACE_MODE_FAULT, mode.now);
+    inputs.faults = 0;
+    inputs.joints_are_sound = false;
+    TEST_ASSERT_FALSE(update_from(BRACE_MODE_FAULT));
+    TEST_ASSERT_EQUAL(BRACE_MODE_FAULT, mode.now);
+}
+
+static void test_configuration_ends_by_hand(void)
+{
+    inputs.tests = inputs.takes_up = true;
+    for (int i = 0; i < 2; i++) {
+        inputs.faults = i == 0 ? 0u : (uint32_t)BRACE_FAULT_SENSOR_FEMUR;
+        TEST_ASSERT_FALSE(update_from(BRACE_MODE_CONFIGURATION));
+        TEST_ASSERT_EQUAL(BRACE_MODE_CONFIGURATION, mode.now);
+    }
+}
+
+static void test_in_which_modes_k_is_told(void)
+{
+    TEST_ASSERT_TRUE(mode_tells_k(BRACE_MODE_MONITOR));
+    TEST_ASSERT_TRUE(mode_tells_k(BRACE_MODE_TAKING_UP));
+    TEST_ASSERT_TRUE(mode_tells_k(BRACE_MODE_LOADING_TEST));
+    TEST_ASSERT_FALSE(mode_tells_k(BRACE_MODE_START));
+    TEST_ASSERT_FALSE(mode_tells_k(BRACE_MODE_CONFIGURATION));
+    TEST_ASSERT_FALSE(mode_tells_k(BRACE_MODE_FAULT));
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_a_start_waits_for_sound_joints_for_100_ms);
+    RUN_TEST(test_what_moves_the_limb_names_the_mode);
+    RUN_TEST(test_without_K_whatever_moves_ends);
+    RUN_TEST(test_configuration_ends_by_hand);
+    RUN_TEST(test_in_which_modes_k_is_told);
+    return UNITY_END();
+}

@@ -1,0 +1,195 @@
+/* Samples of the joints alone: which are refused, how the torque's mean begins and follows, and how old a sample is. */
+#include "sense/joints.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "unity.h"
+
+enum { TICK_US = 1000 };
+
+static joints_t joints;
+static brace_parameters_t parameters;
+static brace_hal_joint_t sample;
+static int32_t answer;
+static uint32_t now_us, bad;
+
+static int32_t joint_read(void *context, int32_t joint_index, brace_hal_joint_t *told)
+{
+    (void)context;
+    if (joint_index == BRACE_COXA) {
+        return BRACE_HAL_E_UNSUPPORTED;
+    }
+    *told = sample;
+    return answer;
+}
+
+static const brace_hal_t hal = {.joint_read = joint_read};
+
+void setUp(void)
+{
+    memset(&parameters, 0, sizeof parameters);
+    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
+        parameters.drive[i] = (brace_drive_t){.torque_range_n_mm = 10000.0f, .motor_inertia_n_mm_s2_per_rad = 20.0f};
+    }
+    parameters.controller.tick_us = TICK_US;
+    parameters.controller.age_limit_us = 20000;
+    sample = (brace_hal_joint_t){.motor_rad = 1.0f, .link_rad = NAN, .torque_n_mm = 100.0f, .temp_degc = 30.0f};
+    answer = BRACE_HAL_OK;
+    now_us = 5000u;
+    bad = 0;
+    joints_start(&joints, &hal);
+}
+
+void tearDown(void) {}
+
+static const joint_t *read_at(float motor_rad, float link_rad, float torque_n_mm)
+{
+    now_us += TICK_US;
+    sample.motor_rad = motor_rad;
+    sample.link_rad = link_rad;
+    sample.torque_n_mm = torque_n_mm;
+    sample.taken_us = now_us;
+    joints_read(&joints, &hal, &parameters, now_us, &bad);
+    return &joints.joint[BRACE_FEMUR];
+}
+
+static void test_the_mean_begins_as_the_median_of_three(void)
+{
+    static const float first[][3] = {{100.0f, 5000.0f, 120.0f}, {5000.0f, 100.0f, 120.0f}, {100.0f, 120.0f, 5000.0f}};
+    for (int i = 0; i < 3; i++) {
+        setUp();
+        (void)read_at(1.0f, NAN, first[i][0]);
+        (void)read_at(1.0f, NAN, first[i][1]);
+        const joint_t *joint = read_at(1.0f, NAN, first[i][2]);
+        TEST_ASSERT_EQUAL_FLOAT(120.0f, joint->torque_n_mm);
+        TEST_ASSERT_EQUAL(3, joint->samples_seen);
+    }
+}
+
+/* From then on it follows what two samples agree on, a share of 1 ms in 21 ms at a time. */
+static void test_the_mean_follows_what_two_samples_agree_on(void)
+{
+    const joint_t *joint = &joints.joint[BRACE_FEMUR];
+    for (int i = 0; i < 4; i++) {
+        joint = read_at(1.0f, NAN, 100.0f);
+    }
+    joint = read_at(1.0f, NAN, 2100.0f); /* one wild sample moves nothing */
+    TEST_ASSERT_EQUAL_FLOAT(100.0f, joint->torque_n_mm);
+    joint = read_at(1.0f, NAN, 100.0f);
+    TEST_ASSERT_EQUAL_FLOAT(100.0f, joint->torque_n_mm);
+    (void)read_at(1.0f, NAN, 2100.0f);
+    joint = read_at(1.0f, NAN, 2200.0f); /* two do: by the smaller change */
+    TEST_ASSERT_FLOAT_WITHIN(25.0f, 100.0f + 2000.0f / 21.0f, joint->torque_n_mm);
+    for (int i = 0; i < 200; i++) {
+        joint = read_at(1.0f, NAN, 2100.0f);
+    }
+    TEST_ASSERT_FLOAT_WITHIN(1.0f, 2100.0f, joint->torque_n_mm);
+}
+
+static void test_an_angle_that_no_joint_could_have_reached_is_refused_once(void)
+{
+    (void)read_at(1.0f, NAN, 100.0f);
+    TEST_ASSERT_EQUAL_FLOAT(1.05f, read_at(1.05f, NAN, 100.0f)->sample.motor_rad); /* 50 rad/s */
+    TEST_ASSERT_EQUAL(0, bad);
+    const joint_t *joint = read_at(1.12f, NAN, 100.0f); /* 70 rad/s */
+    TEST_ASSERT_EQUAL_FLOAT(1.05f, joint->sample.motor_rad);
+    TEST_ASSERT_EQUAL(2, bad); /* both joints tell the same here */
+    TEST_ASSERT_TRUE(joint->has_wild);
+    joint = read_at(1.3f, NAN, 100.0f); /* another one: neither is believed */
+    TEST_ASSERT_EQUAL_FLOAT(1.05f, joint->sample.motor_rad);
+    joint = read_at(1.31f, NAN, 100.0f); /* agrees with it: there it is */
+    TEST_ASSERT_EQUAL_FLOAT(1.31f, joint->sample.motor_rad);
+    TEST_ASSERT_FALSE(joint->has_wild);
+    TEST_ASSERT_EQUAL(4, bad);
+}
+
+/* The link's angle is watched as the motor's is; one that is absurd, or not there, says nothing. */
+static void test_link_angles_are_watched_too(void)
+{
+    (void)read_at(1.0f, 1.0f, 100.0f);
+    (void)read_at(1.0f, 1.04f, 100.0f);
+    TEST_ASSERT_EQUAL(0, bad);
+    (void)read_at(1.0f, 1.2f, 100.0f);
+    TEST_ASSERT_EQUAL(2, bad);
+    (void)read_at(1.0f, 1.04f, 100.0f);
+    (void)read_at(1.0f, 1e6f, 100.0f);
+    (void)read_at(1.0f, NAN, 100.0f);
+    TEST_ASSERT_EQUAL(2, bad);
+    float link_rad[BRACE_LINK_COUNT];
+    (void)read_at(1.0f, 1e6f, 100.0f);
+    joints_link_angles(&joints, link_rad);
+    TEST_ASSERT_TRUE(isnan(link_rad[BRACE_FEMUR]) && isnan(link_rad[BRACE_COXA]));
+}
+
+static void test_absurd_samples_are_counted_and_grow_old(void)
+{
+    static const float motor_rad[] = {101.0f, NAN, 1.0f, 1.0f, 1.0f};
+    static const float torque_n_mm[] = {0.0f, 0.0f, 20001.0f, -20001.0f, NAN};
+    const joint_t *joint = read_at(1.0f, NAN, 100.0f);
+    TEST_ASSERT_TRUE(joint->sound && joint->is_new_enough_to_prove_a_flank);
+    for (uint32_t i = 0; i < 5u; i++) {
+        joint = read_at(motor_rad[i], NAN, torque_n_mm[i]);
+        TEST_ASSERT_EQUAL(2u * (i + 1u), bad);
+        TEST_ASSERT_EQUAL_FLOAT(1.0f, joint->sample.motor_rad);
+        TEST_ASSERT_EQUAL(i < 4u, joint->is_new_enough_to_prove_a_flank); /* four ticks */
+    }
+    TEST_ASSERT_TRUE(joint->sound);
+    for (int i = 6; i <= 20; i++) {
+        TEST_ASSERT_TRUE(read_at(NAN, NAN, 0.0f)->sound);
+    }
+    TEST_ASSERT_FALSE(read_at(NAN, NAN, 0.0f)->sound); /* after 20 ms */
+    TEST_ASSERT_FALSE(joints_plane_is_sound(&joints));
+    joints.joint[BRACE_TIBIA].sound = true;
+    TEST_ASSERT_FALSE(joints_plane_is_sound(&joints));
+    joints.joint[BRACE_TIBIA].sound = false, joints.joint[BRACE_FEMUR].sound = true;
+    TEST_ASSERT_FALSE(joints_plane_is_sound(&joints));
+    TEST_ASSERT_TRUE(read_at(1.5f, NAN, 0.0f)->sound); /* what comes then is believed */
+}
+
+static void test_a_drive_that_refuses_or_has_nothing_newer(void)
+{
+    (void)read_at(1.0f, NAN, 100.0f);
+    answer = BRACE_HAL_AGAIN;
+    (void)read_at(1.2f, NAN, 100.0f);
+    TEST_ASSERT_EQUAL(0, bad); /* nothing newer is no fault */
+    TEST_ASSERT_EQUAL_FLOAT(1.0f, joints.joint[BRACE_FEMUR].sample.motor_rad);
+    answer = BRACE_HAL_E_DEVICE;
+    (void)read_at(1.2f, NAN, 100.0f);
+    TEST_ASSERT_EQUAL(2, bad);
+    TEST_ASSERT_FALSE(joints.joint[BRACE_COXA].fitted);
+    TEST_ASSERT_TRUE(joints.joint[BRACE_FEMUR].fitted && joints.joint[BRACE_TIBIA].fitted);
+}
+
+static void test_temperatures_stand_in_for_one_another(void)
+{
+    float temp_degc[BRACE_LINK_COUNT];
+    (void)read_at(1.0f, NAN, 100.0f);
+    joints.joint[BRACE_FEMUR].sample.temp_degc = 40.0f;
+    joints.joint[BRACE_TIBIA].sample.temp_degc = NAN;
+    joints_temperatures(&joints, temp_degc);
+    TEST_ASSERT_EQUAL_FLOAT(40.0f, temp_degc[BRACE_FEMUR]);
+    TEST_ASSERT_EQUAL_FLOAT(40.0f, temp_degc[BRACE_TIBIA]);
+    TEST_ASSERT_EQUAL_FLOAT(40.0f, joints_warmest_degc(&joints));
+    joints.joint[BRACE_FEMUR].sample.temp_degc = NAN;
+    joints.joint[BRACE_TIBIA].sample.temp_degc = 35.0f;
+    joints_temperatures(&joints, temp_degc);
+    TEST_ASSERT_EQUAL_FLOAT(35.0f, temp_degc[BRACE_FEMUR]);
+    joints.joint[BRACE_FEMUR].sample.temp_degc = 30.0f;
+    TEST_ASSERT_EQUAL_FLOAT(35.0f, joints_warmest_degc(&joints));
+    joints.joint[BRACE_FEMUR].sample.temp_degc = 45.0f;
+    TEST_ASSERT_EQUAL_FLOAT(45.0f, joints_warmest_degc(&joints));
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_the_mean_begins_as_the_median_of_three);
+    RUN_TEST(test_the_mean_follows_what_two_samples_agree_on);
+    RUN_TEST(test_an_angle_that_no_joint_could_have_reached_is_refused_once);
+    RUN_TEST(test_link_angles_are_watched_too);
+    RUN_TEST(test_absurd_samples_are_counted_and_grow_old);
+    RUN_TEST(test_a_drive_that_refuses_or_has_nothing_newer);
+    RUN_TEST(test_temperatures_stand_in_for_one_another);
+    return UNITY_END();
+}

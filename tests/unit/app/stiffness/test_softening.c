@@ -1,0 +1,132 @@
+/* The search for a limb's buckling load in space, a step in three ticks: how old its result may be, and who goes first. */
+#include "stiffness/softening.h"
+
+#include "app_bench.h"
+
+static softening_t softening;
+static model_t model;
+static brace_parameters_t parameters;
+static const float unbent_rad[BRACE_LINK_COUNT] = {0.0f, 1.0f, 1.4f};
+
+void setUp(void)
+{
+    const float load_n_mm[BRACE_LINK_COUNT] = {0.0f, 0.0f, 0.0f}, temp_degc[BRACE_LINK_COUNT] = {25.0f, 25.0f, 25.0f};
+    brace_loaded_joint_t springs[BRACE_LINK_COUNT];
+    model_rest_t rest;
+    parameters = bench_parameters();
+    parameters.limb = sample_limb[SAMPLE_BEAM];
+    model_configure(&model, &parameters, true);
+    softening_start(&softening);
+    model_springs(&model, &parameters, load_n_mm, temp_degc, springs);
+    TEST_ASSERT_EQUAL(BRACE_OK, model_loaded(&model, &parameters.limb, unbent_rad, springs, (brace_vec3_t){-8.0f, 1.0f, 20.0f},
+                                             (brace_vec3_t){0.0f, 0.0f, -1.0f}, &softening.now, &rest));
+}
+
+void tearDown(void) {}
+
+static void step(bool is_counted, bool may_work)
+{
+    softening_step(&softening, &model, &parameters.limb, unbent_rad, is_counted, may_work);
+}
+
+/* Steps until a factor is told. returns how many */
+static int until_told(void)
+{
+    int count = 0;
+    for (; count < 500 && isnan(softening.factor); count++) {
+        step(true, true);
+    }
+    TEST_ASSERT_TRUE(count < 500);
+    return count;
+}
+
+static void test_a_search_ends_and_is_repeated(void)
+{
+    TEST_ASSERT_TRUE(isnan(softening.factor));
+    TEST_ASSERT_TRUE(isnan(softening.unloaded.k_xx_n_per_mm));
+    TEST_ASSERT_EQUAL_HEX32(0, softening_flags(&softening));
+    const int first = until_told();
+    TEST_ASSERT_TRUE(softening.factor > 1.0f);
+    TEST_ASSERT_FALSE(isnan(softening.unloaded.k_xx_n_per_mm) || isnan(softening.unloaded_across_n_per_mm));
+    const float factor = softening.factor;
+    softening.factor = 1.0f; /* what a next search finds replaces it */
+    int more = 0;
+    for (; more < 500 && softening.factor == 1.0f; more++) {
+        step(true, true);
+    }
+    TEST_ASSERT_EQUAL_FLOAT(factor, softening.factor);
+    TEST_ASSERT_TRUE(first <= 120 && more <= 120 && more >= first - 6);
+}
+
+/* A factor that nobody may renew is told for 240 ticks; K without load stays. Without a load there is none at once. */
+static void test_a_factor_grows_old(void)
+{
+    (void)until_told();
+    const float factor = softening.factor;
+    for (int i = 1; i < 240; i++) {
+        step(true, false);
+        TEST_ASSERT_EQUAL_FLOAT(factor, softening.factor);
+    }
+    step(true, false);
+    TEST_ASSERT_TRUE(isnan(softening.factor));
+    for (int i = 0; i < 300; i++) {
+        step(true, false);
+        TEST_ASSERT_TRUE(isnan(softening.factor));
+    }
+    (void)until_told();
+    step(false, true);
+    TEST_ASSERT_TRUE(isnan(softening.factor));
+    TEST_ASSERT_FALSE(softening.runs || softening.is_needed);
+}
+
+/* The search takes every sixth tick, K without load the one between; whoever asks goes first for nine more. */
+static void test_a_step_comes_every_third_tick(void)
+{
+    step(true, true); /* the first tick has it */
+    TEST_ASSERT_EQUAL(0, softening.ticks_since_step);
+    TEST_ASSERT_TRUE(softening.runs);
+    TEST_ASSERT_FALSE(softening.is_searchs_turn);
+    step(true, true);
+    TEST_ASSERT_FALSE(softening_may_search(&softening));
+    step(true, true);
+    TEST_ASSERT_TRUE(softening_may_search(&softening)); /* in the tick that comes */
+    step(true, true);
+    TEST_ASSERT_EQUAL(0, softening.ticks_since_step);
+    TEST_ASSERT_TRUE(softening.is_searchs_turn);
+    step(true, true);
+    step(true, true);
+    TEST_ASSERT_FALSE(softening_may_search(&softening)); /* it is the turn of K without load */
+    for (int i = 0; i < 8; i++) {
+        step(true, false);
+        TEST_ASSERT_FALSE(softening_is_overdue(&softening));
+    }
+    step(true, false);
+    TEST_ASSERT_TRUE(softening_is_overdue(&softening));
+    step(true, true);
+    TEST_ASSERT_EQUAL(0, softening.ticks_since_step);
+    for (int i = 0; i < 300; i++) {
+        step(true, false);
+    }
+    TEST_ASSERT_EQUAL(UINT8_MAX, softening.ticks_since_step);
+    TEST_ASSERT_TRUE(softening_is_overdue(&softening));
+    step(false, false);
+    TEST_ASSERT_FALSE(softening_is_overdue(&softening));
+}
+
+static void test_near_its_buckling_the_limb_is_flagged(void)
+{
+    softening.factor = 2.9f;
+    TEST_ASSERT_EQUAL_HEX32(BRACE_FLAG_SOFTENED, softening_flags(&softening));
+    softening.factor = 3.1f;
+    TEST_ASSERT_EQUAL_HEX32(0, softening_flags(&softening));
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_a_search_ends_and_is_repeated);
+    RUN_TEST(test_a_factor_grows_old);
+    RUN_TEST(test_a_step_comes_every_third_tick);
+    RUN_TEST(test_near_its_buckling_the_limb_is_flagged);
+    return UNITY_END();
+}

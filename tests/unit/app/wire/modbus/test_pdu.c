@@ -1,0 +1,138 @@
+/* What a Modbus PDU is made of: how long each request is at least, which exception stands for which refusal, what the
+ * server says of itself, and what it counts over TCP. */
+#include <stddef.h>
+
+#include "modbus_master.h"
+#include "wire/modbus/pdu.h"
+#include "wire/modbus/refusal.h"
+
+void setUp(void)
+{
+    start_unit();
+}
+
+void tearDown(void) {}
+
+static void test_how_long_each_request_is_at_least(void)
+{
+    static const struct {
+        uint8_t function;
+        uint32_t least;
+    } fixed[] = {{3, 5}, {4, 5}, {6, 5}, {8, 5}, {43, 4}, {17, 1}, {1, 1}, {99, 1}, {0, 1}};
+    for (uint32_t i = 0; i < sizeof fixed / sizeof *fixed; i++) {
+        const uint8_t pdu[8] = {fixed[i].function, 0xff, 0xff, 0xff, 0xff, 0xff};
+        TEST_ASSERT_EQUAL(fixed[i].least, modbus_pdu_least_length(pdu, sizeof pdu));
+        TEST_ASSERT_EQUAL(fixed[i].least, modbus_pdu_least_length(pdu, 1));
+    }
+    for (uint32_t bytes = 0; bytes < 250u; bytes += 4u) { /* a block tells its length in its sixth byte */
+        const uint8_t pdu[6] = {16, 0, 2, 0, (uint8_t)(bytes / 2u), (uint8_t)bytes};
+        TEST_ASSERT_EQUAL(6u + bytes, modbus_pdu_least_length(pdu, 6));
+        TEST_ASSERT_EQUAL(6u, modbus_pdu_least_length(pdu, 5));
+    }
+}
+
+static void test_which_exception_stands_for_which_refusal(void)
+{
+    static const struct {
+        int32_t status;
+        modbus_exception_t why;
+    } row[] = {{BRACE_OK, MODBUS_FINE}, {ANSWER_LATER, MODBUS_FINE}, {BRACE_E_MODE, MODBUS_E_FUNCTION},
+               {BRACE_E_CHECKSUM, MODBUS_E_VALUE}, {BRACE_E_RANGE, MODBUS_E_VALUE}, {BRACE_E_PARAMETER, MODBUS_E_VALUE},
+               {BRACE_E_NOT_FINITE, MODBUS_E_VALUE}, {BRACE_E_UNREACHABLE, MODBUS_E_VALUE},
+               {BRACE_REFUSED_CEILING, MODBUS_E_VALUE}, {BRACE_REFUSED_EARLY, MODBUS_E_BUSY},
+               {BRACE_REFUSED_BUSY, MODBUS_E_BUSY}, {BRACE_REFUSED_STRANGER, MODBUS_E_OWNER},
+               {BRACE_REFUSED_REPLAY, MODBUS_E_OWNER}, {BRACE_REFUSED_OWNED, MODBUS_E_OWNER},
+               {BRACE_REFUSED_NO_KEY, MODBUS_E_OWNER}, {BRACE_E_UNSUPPORTED, MODBUS_E_DEVICE},
+               {BRACE_E_SINGULAR, MODBUS_E_DEVICE}, {BRACE_REFUSED_ORDER, MODBUS_E_DEVICE}, {-12345, MODBUS_E_DEVICE}};
+    for (uint32_t i = 0; i < sizeof row / sizeof *row; i++) {
+        TEST_ASSERT_EQUAL(row[i].why, modbus_refusal_of(row[i].status));
+    }
+    TEST_ASSERT_EQUAL(MODBUS_E_FUNCTION, modbus_refusal_to_write(&app)); /* not in CONFIGURATION */
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_enter(&app));
+    TEST_ASSERT_EQUAL(MODBUS_FINE, modbus_refusal_to_write(&app));
+    brace_parameters_t p = *brace_app_parameters(&app);
+    p.limb.femur_mm = 190.0f;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_parameters_commit(&app, &p));
+    TEST_ASSERT_EQUAL(MODBUS_E_BUSY, modbus_refusal_to_write(&app));
+}
+
+/* Function 17: a number of ours, that it runs, and its name with version and dictionary as text. */
+static void test_the_server_says_who_it_is(void)
+{
+    const uint8_t pdu[] = {17}, odd[] = {17, 0};
+    const reply_t reply = line_asks(UNIT, pdu, sizeof pdu);
+    TEST_ASSERT_GREATER_THAN(20, reply.count);
+    TEST_ASSERT_EQUAL_HEX8(17, reply.byte[0]);
+    TEST_ASSERT_EQUAL(reply.count - 2u, reply.byte[1]);
+    TEST_ASSERT_EQUAL_HEX8(0xb2, reply.byte[2]);
+    TEST_ASSERT_EQUAL_HEX8(0xff, reply.byte[3]);
+    char text[64] = {0}, hash[9] = {0};
+    memcpy(text, reply.byte + 4, reply.count - 4u < 63u ? reply.count - 4u : 63u);
+    static const char digits[] = "0123456789abcdef";
+    for (uint32_t i = 0; i < 8u; i++) {
+        hash[i] = digits[(uint32_t)BRACE_DICTIONARY_HASH >> (28u - 4u * i) & 15u];
+    }
+    TEST_ASSERT_NOT_NULL(strstr(text, " dictionary "));
+    TEST_ASSERT_EQUAL_STRING(hash, strstr(text, " dictionary ") + 12);
+    TEST_ASSERT_EQUAL_HEX8(0x91, line_asks(UNIT, odd, sizeof odd).byte[0]);
+}
+
+static uint32_t told_by(uint32_t byte_of_member)
+{
+    const reply_t reply = read_asks(3, BRACE_REGISTER_COMMANDS + byte_of_member / 2u, 2);
+    return value_at(&reply, 0);
+}
+
+/* Commands read what has come of them. */
+static void test_what_a_command_s_register_reads(void)
+{
+    TEST_ASSERT_EQUAL(BRACE_MODE_MONITOR, told_by(offsetof(brace_commands_t, set_mode)));
+    TEST_ASSERT_EQUAL(0, told_by(offsetof(brace_commands_t, clear_faults)));
+    TEST_ASSERT_EQUAL(0, told_by(offsetof(brace_commands_t, commit)));
+    TEST_ASSERT_EQUAL(0, told_by(offsetof(brace_commands_t, let_go)));
+    TEST_ASSERT_EQUAL(0, told_by(offsetof(brace_commands_t, stop)));
+    TEST_ASSERT_EQUAL(0, told_by(offsetof(brace_commands_t, life_counter)));
+    TEST_ASSERT_EQUAL(0, told_by(offsetof(brace_commands_t, seal_mac)));
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_enter(&app));
+    ticks(1);
+    TEST_ASSERT_EQUAL(BRACE_MODE_CONFIGURATION, told_by(offsetof(brace_commands_t, set_mode)));
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_leave(&app));
+    ticks(20);
+    fake.joint[BRACE_FEMUR].not_newer = true;
+    ticks(60);
+    TEST_ASSERT_EQUAL_HEX32(now()->faults, told_by(offsetof(brace_commands_t, clear_faults)));
+    TEST_ASSERT_NOT_EQUAL(0, now()->faults);
+}
+
+static uint32_t counted_over_tcp(uint8_t code)
+{
+    const uint8_t pdu[] = {8, 0, code, 0, 0};
+    const reply_t reply = tcp_asks(UNIT, pdu, sizeof pdu);
+    TEST_ASSERT_EQUAL(5, reply.count);
+    return (uint32_t)reply.byte[3] << 8 | reply.byte[4];
+}
+
+static void test_what_comes_over_tcp_is_counted_once(void)
+{
+    const uint8_t k[] = {4, 0, 0, 0, 2}, unknown[] = {99};
+    const uint32_t messages = counted_over_tcp(0x0b), served = counted_over_tcp(0x0e);
+    TEST_ASSERT_EQUAL(6, tcp_asks(UNIT, k, sizeof k).count);
+    TEST_ASSERT_EQUAL(6, tcp_asks(0, k, sizeof k).count);   /* the device itself, */
+    TEST_ASSERT_EQUAL(6, tcp_asks(255, k, sizeof k).count); /* either way */
+    TEST_ASSERT_EQUAL(2, tcp_asks(UNIT + 1, k, sizeof k).count);
+    TEST_ASSERT_EQUAL(2, tcp_asks(UNIT, unknown, sizeof unknown).count);
+    /* five, and the two that asked */
+    TEST_ASSERT_EQUAL(messages + 7u, counted_over_tcp(0x0b));
+    TEST_ASSERT_EQUAL(served + 7u - 1u, counted_over_tcp(0x0e)); /* but that for another unit */
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_how_long_each_request_is_at_least);
+    RUN_TEST(test_which_exception_stands_for_which_refusal);
+    RUN_TEST(test_the_server_says_who_it_is);
+    RUN_TEST(test_what_a_command_s_register_reads);
+    RUN_TEST(test_what_comes_over_tcp_is_counted_once);
+    return UNITY_END();
+}

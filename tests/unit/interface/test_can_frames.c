@@ -1,0 +1,208 @@
+/* Every frame of CAN and CAN FD: what is packed comes back, each member has its own bits, and what a frame cannot carry
+ * is counted. */
+#include <stdbool.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "brace/answering.h"
+#include "brace/can_frames.h"
+#include "unity.h"
+
+enum { TRIES = 100, MOST_WORDS = 32, MOST_BYTES = 64 };
+
+/* A message's members have 32 bits each. */
+typedef struct {
+    const char *name;
+    uint32_t bytes, words;
+    void (*unpack)(const uint8_t *data, uint32_t *words);
+    uint32_t (*pack)(const uint32_t *words, uint8_t *data);
+} frame_t;
+
+#define BOTH(name, bytes)                                                \
+    static void unpack_##name(const uint8_t *data, uint32_t *words)      \
+    {                                                                    \
+        brace_can_##name##_t message;                                    \
+        brace_can_unpack_##name(data, &message);                         \
+        memcpy(words, &message, sizeof message);                         \
+    }                                                                    \
+    static uint32_t pack_##name(const uint32_t *words, uint8_t *data)    \
+    {                                                                    \
+        brace_can_##name##_t message;                                    \
+        memcpy(&message, words, sizeof message);                         \
+        return brace_can_pack_##name(&message, data);                    \
+    }
+BRACE_CAN_FRAMES(BOTH)
+#undef BOTH
+
+#define ROW(name, bytes) {#name, bytes, sizeof(brace_can_##name##_t) / 4u, unpack_##name, pack_##name},
+static const frame_t frames[] = {BRACE_CAN_FRAMES(ROW)};
+#undef ROW
+enum { FRAMES = sizeof frames / sizeof *frames };
+
+static uint32_t seed;
+
+void setUp(void)
+{
+    seed = 1u;
+}
+
+void tearDown(void) {}
+
+static void any_bytes(uint8_t *data, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        seed = seed * 1664525u + 1013904223u;
+        data[i] = (uint8_t)(seed >> 24);
+    }
+}
+
+/* Bytes and members as a sender of this frame has them: what any bytes say, said by it. At 24 bits a float rounds by up
+ * to a step, so that others are tried until the same step comes back. */
+static void any_message(const frame_t *frame, uint32_t *words, uint8_t *data)
+{
+    for (int i = 0; i < 1000; i++) {
+        uint32_t back[MOST_WORDS];
+        any_bytes(data, frame->bytes);
+        frame->unpack(data, words);
+        (void)frame->pack(words, data);
+        frame->unpack(data, back);
+        if (memcmp(words, back, 4u * frame->words) == 0) {
+            return;
+        }
+    }
+    TEST_FAIL_MESSAGE(frame->name);
+}
+
+static void test_what_is_packed_comes_back(void)
+{
+    for (uint32_t f = 0; f < FRAMES; f++) {
+        const frame_t *frame = &frames[f];
+        TEST_ASSERT_TRUE_MESSAGE(frame->words <= MOST_WORDS && frame->bytes <= MOST_BYTES, frame->name);
+        for (uint32_t i = 0; i < TRIES; i++) {
+            uint32_t words[MOST_WORDS], back[MOST_WORDS];
+            uint8_t data[MOST_BYTES + 1], again[MOST_BYTES + 1];
+            any_message(frame, words, data);
+            memset(again, 0x5a, sizeof again);
+            TEST_ASSERT_EQUAL_MESSAGE(0, frame->pack(words, again), frame->name); /* nothing was limited */
+            TEST_ASSERT_EQUAL_HEX8_ARRAY_MESSAGE(data, again, frame->bytes, frame->name);
+            TEST_ASSERT_EQUAL_HEX8_MESSAGE(0x5a, again[frame->bytes], frame->name);
+            memset(back, 0x5a, sizeof back);
+            frame->unpack(again, back);
+            TEST_ASSERT_EQUAL_HEX32_ARRAY_MESSAGE(words, back, frame->words, frame->name);
+        }
+    }
+}
+
+/* A bit changes one member or none, and every member has bits. */
+static void test_each_member_has_its_own_bits(void)
+{
+    for (uint32_t f = 0; f < FRAMES; f++) {
+        const frame_t *frame = &frames[f];
+        uint32_t words[MOST_WORDS], bits[MOST_WORDS] = {0};
+        uint8_t data[MOST_BYTES];
+        any_message(frame, words, data);
+        for (uint32_t bit = 0; bit < 8u * frame->bytes; bit++) {
+            uint32_t changed[MOST_WORDS], count = 0;
+            data[bit / 8u] ^= (uint8_t)(1u << bit % 8u);
+            frame->unpack(data, changed);
+            data[bit / 8u] ^= (uint8_t)(1u << bit % 8u);
+            for (uint32_t word = 0; word < frame->words; word++) {
+                count += changed[word] != words[word];
+                bits[word] += changed[word] != words[word];
+            }
+            TEST_ASSERT_TRUE_MESSAGE(count <= 1u, frame->name);
+        }
+        for (uint32_t word = 0; word < frame->words; word++) {
+            TEST_ASSERT_TRUE_MESSAGE(bits[word] > 0u && bits[word] <= 32u, frame->name);
+        }
+    }
+}
+
+/* A member far beyond its range, either way: counted where it does not come back, and the others stay as they are. */
+static void test_what_a_frame_cannot_carry_is_counted(void)
+{
+    static const uint32_t far[] = {0x7149f2cau, 0xf149f2cau}; /* 1e30 and -1e30, or numbers as great */
+    for (uint32_t f = 0; f < FRAMES; f++) {
+        const frame_t *frame = &frames[f];
+        const bool has_token = strstr(frame->name, "_request") != NULL || strstr(frame->name, "_answer_") != NULL ||
+                               strcmp(frame->name, "refusal") == 0; /* of which the low bits are sent */
+        for (uint32_t word = has_token ? 2u : 0u; word < 2u * frame->words; word++) {
+            uint32_t words[MOST_WORDS], back[MOST_WORDS];
+            uint8_t data[MOST_BYTES];
+            any_message(frame, words, data);
+            words[word / 2u] = far[word % 2u];
+            const uint32_t limited = frame->pack(words, data);
+            frame->unpack(data, back);
+            const uint32_t lost = back[word / 2u] != words[word / 2u];
+            TEST_ASSERT_EQUAL_MESSAGE(lost, limited, frame->name);
+            back[word / 2u] = words[word / 2u];
+            TEST_ASSERT_EQUAL_HEX32_ARRAY_MESSAGE(words, back, frame->words, frame->name);
+        }
+    }
+}
+
+/* The byte of a frame that is told without a member: of a request its code, of an answer its code and its part, of a
+ * message in parts its part. Zeros are sent as zeros beside it. */
+static const frame_t *frame_named(const char *name)
+{
+    for (uint32_t f = 0; f < FRAMES; f++) {
+        if (strcmp(frames[f].name, name) == 0) {
+            return &frames[f];
+        }
+    }
+    return NULL;
+}
+
+static void sends_zeros(const frame_t *frame, uint32_t first, uint32_t second)
+{
+    uint32_t words[MOST_WORDS] = {0};
+    uint8_t data[MOST_BYTES];
+    TEST_ASSERT_EQUAL_MESSAGE(0, frame->pack(words, data), frame->name);
+    TEST_ASSERT_EQUAL_HEX8_MESSAGE(first, data[0], frame->name);
+    TEST_ASSERT_EQUAL_HEX8_MESSAGE(second, data[1], frame->name);
+    for (uint32_t i = 2; i < frame->bytes; i++) {
+        TEST_ASSERT_EQUAL_HEX8_MESSAGE(0, data[i], frame->name);
+    }
+}
+
+static void test_zeros_are_sent_behind_code_and_part(void)
+{
+    uint32_t requests = 0, parts = 0;
+    char name[80];
+#define CODE(code, request)                                                               \
+    if (frame_named(#request "_request") != NULL) {                                       \
+        sends_zeros(frame_named(#request "_request"), (uint32_t)(code), 0);               \
+        requests++;                                                                       \
+    }                                                                                     \
+    for (uint32_t part = 0; part < brace_can_answer_parts[code]; part++) {                \
+        (void)snprintf(name, sizeof name, #request "_answer_%u", (unsigned)part);         \
+        sends_zeros(frame_named(name), (uint32_t)(code) + 32u * part, 0);                 \
+        parts++;                                                                          \
+    }
+    BRACE_REQUESTS(CODE)
+#undef CODE
+    TEST_ASSERT_TRUE(requests > 20u && parts > 40u);
+    for (uint32_t part = 0; part < 7u; part++) {
+        (void)snprintf(name, sizeof name, "space_%u", (unsigned)part);
+        sends_zeros(frame_named(name), 0, part);
+    }
+    for (uint32_t part = 0; part < 5u; part++) {
+        (void)snprintf(name, sizeof name, "load_%u", (unsigned)part);
+        sends_zeros(frame_named(name), 0, part);
+    }
+    static const char *const whole[] = {"stiffness_a", "stiffness_b", "eigenvalues", "posture",
+                                        "snapshot_fd", "space_fd",    "load_fd",     "emergency"};
+    for (uint32_t i = 0; i < 8u; i++) {
+        sends_zeros(frame_named(whole[i]), 0, 0);
+    }
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_what_is_packed_comes_back);
+    RUN_TEST(test_each_member_has_its_own_bits);
+    RUN_TEST(test_what_a_frame_cannot_carry_is_counted);
+    RUN_TEST(test_zeros_are_sent_behind_code_and_part);
+    return UNITY_END();
+}
