@@ -105,7 +105,8 @@ def _joined_by_rows(
 ) -> Fitted:
     """Weighted readings tell best what the joint does where it slips. Readings that count alike tell best what it does
     under high load, where it stays longest. A term that all judges ask for among readings that count alike joins too.
-    The record's own terms are asked as the effects are: else friction would be named for what viscosity does."""
+    Where an effect does, the record's own terms compete with it: else friction would be named for what viscosity
+    does."""
     by_rows = fitter.by_rows()
     while best.terms:
         current = by_rows.fit(best.terms, best)
@@ -119,7 +120,7 @@ def _joined_by_rows(
         sound = [
             one for one in joined if not strained(fitter, one) and _needed(by_rows, current, one, random)
         ]
-        if not sound:
+        if all(one.terms[-1].role == "record" for one in sound):
             break
         chosen = min(sound, key=lambda one: one.rss)
         have = {term.name for term in chosen.terms}
