@@ -85,7 +85,7 @@ def choose(
             break
         best = max(sound, key=worth)
     best = _kept(fitter, best, random)
-    best = _joined_by_rows(fitter, best, sets, effects, random, trying)
+    best = _joined_by_rows(fitter, best, sets, (*effects, *own), random, trying)
     listed = [one for one in sets if not strained(fitter, one)]
     return Choice(base, tuple(sets), tuple(shaped), best, count, _candidates(listed, worth))
 
@@ -99,19 +99,20 @@ def _joined_by_rows(
     fitter: Fitter,
     best: Fitted,
     sets: Sequence[Fitted],
-    effects: Sequence[Term],
+    terms: Sequence[Term],
     random: np.random.Generator,
     trying: Trying,
 ) -> Fitted:
     """Weighted readings tell best what the joint does where it slips. Readings that count alike tell best what it does
-    under high load, where it stays longest. An effect that all judges ask for among readings that count alike joins
-    too."""
+    under high load, where it stays longest. A term that all judges ask for among readings that count alike joins too.
+    Where an effect does, the record's own terms compete with it: else friction would be named for what viscosity
+    does."""
     by_rows = fitter.by_rows()
     while best.terms:
         current = by_rows.fit(best.terms, best)
         have = {term.name for term in best.terms}
         joined = []
-        for term in effects:
+        for term in terms:
             if term.name not in have:
                 trying(term.label)
                 joined.append(by_rows.fit((*best.terms, term), current, term))
@@ -119,7 +120,7 @@ def _joined_by_rows(
         sound = [
             one for one in joined if not strained(fitter, one) and _needed(by_rows, current, one, random)
         ]
-        if not sound:
+        if all(one.terms[-1].role == "record" for one in sound):
             break
         chosen = min(sound, key=lambda one: one.rss)
         have = {term.name for term in chosen.terms}
