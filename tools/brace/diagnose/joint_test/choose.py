@@ -105,8 +105,8 @@ def _joined_by_rows(
 ) -> Fitted:
     """Weighted readings tell best what the joint does where it slips. Readings that count alike tell best what it does
     under high load, where it stays longest. A term that all judges ask for among readings that count alike joins too.
-    Where an effect does, the record's own terms compete with it: else friction would be named for what viscosity
-    does."""
+    Where an effect does, the record's own terms compete with it, and go first where they do about as well: else friction
+    or creep would be named for what viscosity does."""
     by_rows = fitter.by_rows()
     while best.terms:
         current = by_rows.fit(best.terms, best)
@@ -123,10 +123,18 @@ def _joined_by_rows(
         if all(one.terms[-1].role == "record" for one in sound):
             break
         chosen = min(sound, key=lambda one: one.rss)
+        own = min((one for one in sound if one.terms[-1].role == "record"), key=lambda one: one.rss, default=chosen)
+        chosen = chosen if _is_ahead(fitter.record, own, chosen) else own
         have = {term.name for term in chosen.terms}
         known = [one for one in sets if {term.name for term in one.terms} == have]
         best = min([fitter.fit(chosen.terms, chosen), *known], key=lambda one: one.rss)
     return best
+
+
+def _is_ahead(record: JointRecord, other: Fitted, fitted: Fitted) -> bool:
+    """Whether the fit is likelier than the other by as much as a further term must gain."""
+    count = record.independent(fitted.off_n_mm)
+    return gain(record, other, fitted, count) - (_paid(fitted, count) - _paid(other, count)) >= LEAST_GAIN
 
 
 def _grown(fitter: Fitter, base: Fitted, effects: Sequence[Term], most: int, trying: Trying) -> list[Fitted]:
