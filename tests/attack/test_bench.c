@@ -296,6 +296,19 @@ static void test_a_closed_connection_stops_the_limb(void)
 }
 
 /* By hand each write has a connection of its own: the next one goes on for the one that has closed, and for no other. */
+/* Connections are those of Modbus TCP: of a master on CAN none can close. */
+static void test_a_closed_connection_is_nothing_to_a_master_on_can(void)
+{
+    begin_to_move();
+    fake.open_from = 1000; /* every connection of Modbus TCP has been closed */
+    pass(300);
+    TEST_ASSERT_EQUAL(0, silences());
+    TEST_ASSERT_TRUE(now()->play[BRACE_FEMUR].phase != BRACE_TAKEUP_IDLE);
+    brace_session_report_t report;
+    brace_app_session(&app, &report);
+    TEST_ASSERT_EQUAL(BRACE_OWNER_CAN, report.owner);
+}
+
 static void test_connections_by_hand_follow_one_another(void)
 {
     uint8_t life[14] = {16, 0x40, 0x48, 0, 4, 8}, asks[10] = {16, 0x40, 0x08, 0, 2, 4, 0, 0, 1, 1};
@@ -488,6 +501,7 @@ int main(void)
     RUN_TEST(test_a_master_that_dies_in_a_loading_test);
     RUN_TEST(test_bus_off_stops_the_limb);
     RUN_TEST(test_a_closed_connection_stops_the_limb);
+    RUN_TEST(test_a_closed_connection_is_nothing_to_a_master_on_can);
     RUN_TEST(test_connections_by_hand_follow_one_another);
     RUN_TEST(test_letting_go_afterwards_is_a_parameter);
     RUN_TEST(test_a_stranger_s_value_does_not_go_in_with_the_operator_s_commit);

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import signal
 import struct
 import time
@@ -311,6 +312,8 @@ def test_a_loading_test_becomes_a_dataset(brace: Callable[..., Outcome], limb: P
         outcome = brace("record", "--bus", url, *given, "--out", tmp_path / "test", "--json")
         assert outcome.code == 0, outcome.err
         assert json.loads(outcome.out)["rows"] == 13
+        said = re.search(r"1 run, 13 readings: about (\d+) s .* at most (\d+) s", outcome.err)
+        assert said is not None, outcome.err
         live = json.loads(brace("query", "--bus", url, "--json").out)
         refused = brace("record", "--bus", url, "--loading-test", "--step-mm", 70, "--out", tmp_path / "no")
         assert refused.code == 2 and not (tmp_path / "no").exists()
@@ -321,6 +324,8 @@ def test_a_loading_test_becomes_a_dataset(brace: Callable[..., Outcome], limb: P
     dataset = load_dataset(tmp_path / "test")
     dataset.require_sound()
     assert dataset["step"].tolist() == list(range(13)) and set(dataset["run"].tolist()) == {1}
+    lasted_s = dataset["t_s"][-1] - dataset["t_s"][0]
+    assert 0.5 * float(said[1]) < lasted_s < 1.5 * float(said[1]) < float(said[2])
     k = physics_k(live["theta1_rad"], live["theta2_rad"])
     for column, expected in (("fx_n", k[0, 0]), ("fz_n", k[1, 0])):
         slope = np.polyfit(dataset["dx_mm"], dataset[column], 1)[0]

@@ -1,6 +1,7 @@
 """Every `brace` command that a page prints is one that the command line takes. Those of docs/bus.md also run, in its
 order, on a simulated limb; of README.md and docs/your-limb.md those that take seconds run, in a folder of their own.
-ONLY_PARSED says of all others where they run, or why they do not."""
+ONLY_PARSED says of all others where they run, or why they do not; OTHER_PROGRAMS says it of the commands of other
+programs."""
 
 from __future__ import annotations
 
@@ -100,25 +101,22 @@ def test_the_page_of_the_bus_runs(
 
 
 RUN = {  # page: how the commands begin that run here, in the page's order
-    "README.md": (("k",), ("simulate",)),
+    "README.md": (("k",), ("map",), ("plan",), ("simulate",), ("diagnose",)),
     "your-limb.md": (("new", "--out", "limb.toml", "--femur"), ("export",)),
 }
 ONLY_PARSED = {  # page, and how the commands begin: why
     ("README.md", "sim"): "runs until it is ended; tests/socketcan/test_readme_lines.py",
     ("README.md", "query"): "tests/socketcan/test_readme_lines.py",
     ("README.md", "monitor"): "tests/socketcan/test_readme_lines.py",
-    ("README.md", "map"): "half a minute on a busy machine; test_map_and_process.py maps less",
-    ("README.md", "plan"): "seconds of search; test_plan.py",
-    ("README.md", "diagnose"): "a minute on a busy machine; tests/tools/diagnose",
     ("README.md", "flash"): "needs the firmware's images; test_flash.py",
-    ("calibrate.md", ""): "minutes of fits; test_identify.py and test_plays.py run such commands on small records",
-    ("datasets.md", "import"): "files of the reader's; tests/tools/importing",
+    ("calibrate.md", ""): "test_pages_commands.py",
+    ("datasets.md", "import"): "test_pages_commands.py",
     ("diagnose.md", ""): "the first two are the README's; a controller's record and fleets: tests/tools/diagnose",
-    ("joint-tests.md", "diagnose"): "a record of the reader's; tests/tools/diagnose",
-    ("joints.md", "sim"): "needs servos; tests/servo",
-    ("plan.md", "plan"): "as the README's; test_plan.py",
+    ("joint-tests.md", "diagnose"): "test_pages_commands.py",
+    ("joints.md", "sim"): "test_pages_commands.py; the one with servos on /dev/ttyUSB0 needs them: tests/servo",
+    ("plan.md", "plan"): "test_pages_commands.py",
     ("porting.md", ""): "needs a board; test_doctor.py and test_flash.py",
-    ("your-limb.md", "new --out limb.toml --urdf"): "a URDF of the reader's; tests/tools/new",
+    ("your-limb.md", "new --out limb.toml --urdf"): "test_pages_commands.py",
     ("bus.md", ""): "below",
 }
 
@@ -155,4 +153,101 @@ def test_a_page_runs_in_its_order(
             outcome = brace(*words)
             assert outcome.code == 0, f"brace {' '.join(words)}: {outcome.out[-1500:]}{outcome.err}"
             ran |= {begin for begin in RUN[name] if tuple(words[: len(begin)]) == begin}
+            answer = next(line for line in lines_of_code(PROJECT / "docs" / "diagnose.md") if line.startswith("Missing: "))
+            assert words[0] != "diagnose" or answer in outcome.out, outcome.out
     assert ran == set(RUN[name])
+
+
+PROGRAM = re.compile(
+    r"(?:\w+=\S+ |\(|while [^;]*; do |cd tools && )*"
+    r"((?:\.\./)?\.venv/bin/(?!brace )\S+|\./dev|python3?|pip|cmake|sudo|sed|umask|mbpoll|cantools|qemu-system-arm|cp|cansend"
+    r"|ros2|ip|ctest|build/\S+)(?= |$)(.*)"
+)
+INLINE = re.compile(r"`([^`\n]+)`")
+OTHER_PROGRAMS = {  # how a command begins, without .venv/bin/: where it runs, or why it does not
+    "./dev": "minutes to hours; its verb is there (below)",
+    "python -m pytest": "a test itself; its file is there (below)",
+    "python tests/": "a measurement of minutes, or what a release keeps; its file is there (below)",
+    "python tools/release/two_files.py": "test_pages_commands.py",
+    "python examples/python_can/ask_k.py socketcan": "needs CAN in the kernel; over slcan: test_bus_query.py",
+    "python examples/python_can/ask_k.py slcan": "test_bus_query.py",
+    "python -m interface": "writes into the project; test_adding.py runs it in a copy",
+    "python -m brace.effects": "writes into the project; test_effects_page.py compares what it writes",
+    "python -m brace.sim.servos": "test_pages_commands.py",
+    "pip install ./brace": "needs the files of ./dev release; test_release.py tries its parts",
+    "pip install": "needs the network; tools/pyproject.toml has these packages",
+    "sudo apt install": "needs root, and the files of ./dev release",
+    "ip link": "needs root, and CAN in the kernel; tests/socketcan/with_vcan does it with vcan0",
+    "sed": "runs with the commands beside it, above",
+    "umask": "test_pages_commands.py",
+    "cansend": "test_pages_commands.py sends these frames; tests/socketcan runs cansend itself",
+    "mbpoll -m tcp -p 1502 -a 1 -0 -t": "tests/socketcan/test_readme_lines.py",
+    "mbpoll -m tcp -p 1502 -a 1 -0 -1": "test_pages_commands.py compares its register; mbpoll itself: tests/socketcan",
+    "cantools monitor": "tests/socketcan/test_readme_lines.py",
+    "cmake -S firmware/core": "test_cmake_packages.py",
+    "cmake -S tools/client": "tests/client/test_package.py",
+    "cmake --build build/client": "tests/client/test_package.py",
+    "cmake --install build/client": "tests/client/test_package.py",
+    "build/client/print_k": "tests/client",
+    "build/host/tests/faults/bit_flips": "an hour; ./dev test plays each 61st bit",
+    "build/host/tests/soak/soak": "as long as the reader wants; ./dev test plays fewer ticks",
+    "qemu-system-arm": "until it is ended; tests/emulated starts the images so",
+    "cp -r": "<yours> is the reader's; tests/mutants and the build take the blank board as it is",
+    "ros2 run": "needs ROS 2; tests/client/test_ros_bridge.py runs what it starts",
+}
+
+
+def fenced(page: Path) -> Iterator[str]:
+    """The lines of blocks between ``` that have no language."""
+    is_code = False
+    for line in page.read_text().splitlines():
+        if line.startswith("```"):
+            is_code = not is_code and line == "```"
+        elif is_code:
+            yield line
+
+
+def other_programs() -> Iterator[tuple[Path, str]]:
+    """Page, and command without .venv/bin/."""
+    for page in PAGES:
+        inline = [text for line in page.read_text().splitlines() for text in INLINE.findall(line) if " " in text]
+        for line in [*lines_of_code(page), *fenced(page), *inline]:
+            if match := PROGRAM.match(line):
+                program = match[1].removeprefix("../").removeprefix(".venv/bin/").replace("python3", "python")
+                yield page, (program + match[2]).strip()
+
+
+OTHERS = sorted(set(other_programs()))
+
+
+def test_each_other_program_has_its_place() -> None:
+    used = set()
+    for page, command in OTHERS:
+        reasons = [begin for begin in OTHER_PROGRAMS if f"{command} ".startswith(begin)]
+        assert reasons, f"{page.name}: {command}: run it, or say why not"
+        used.add(max(reasons, key=len))
+    assert used == set(OTHER_PROGRAMS), f"a reason for what no page prints: {set(OTHER_PROGRAMS) - used}"
+    assert {page.name for page, _ in OTHERS} >= {"README.md", "adding.md", "client.md", "security.md", "trust.md"}
+
+
+def test_a_remark_beside_a_command_is_one() -> None:
+    """A shell would take its words for the command's."""
+    for page in PAGES:
+        for line in lines_of_code(page):
+            if START.search(line) or PROGRAM.match(line):
+                assert not re.search(r"\S {2,}(?![# ])", line.partition("#")[0].rstrip()), f"{page.name}: {line}"
+
+
+def test_what_others_begin_is_there() -> None:
+    """Verbs of ./dev, files that Python runs, names that -k chooses."""
+    verbs = set(re.findall(r"[a-z]+", re.search(r"^verbs='?\"?([^\n]*)", (PROJECT / "dev").read_text(), re.M)[1]))  # type: ignore[index]
+    for page, command in OTHERS:
+        words = shlex.split(command, comments=True)
+        where = f"{page.name}: {command}"
+        if words[0] == "./dev" and len(words) > 1:
+            assert words[1].rstrip(",") in verbs, where
+        for word in words:
+            if word.startswith(("tests/", "tools/", "examples/")) and ">" not in words[: words.index(word)]:
+                assert (PROJECT / word).exists(), where
+        if "-k" in words:
+            assert words[words.index("-k") + 1] in (PROJECT / words[words.index("-k") - 1]).read_text(), where

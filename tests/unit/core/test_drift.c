@@ -18,12 +18,13 @@ enum { POSTURES = sizeof postures / sizeof postures[0], RUN = 12 };
 static const brace_drift_setup_t setup = {NOISE_N, 0.0005f, 0.02f, 0.2f};
 static brace_drift_t drift;
 static brace_limb_t believed, real;
-static float warmer_degc;
+static float warmer_degc, noise_n;
 
 void setUp(void)
 {
     noise_state = 7;
     warmer_degc = 0.0f;
+    noise_n = NOISE_N;
     believed = sample_limb[SAMPLE_PAPER];
     real = believed;
     memset(&drift, 0x55, sizeof drift);
@@ -65,8 +66,8 @@ static int run(int posture, int along_z)
                     dz = along_z ? d : 0.0f;
         const brace_drift_reading_t reading = {
             postures[posture][0], postures[posture][1], 30.0f + dx, dz - 20.0f,
-            12.0f + k.k_xx_n_per_mm * dx + k.k_xz_n_per_mm * dz + NOISE_N * (float)noise_normal(),
-            -9.0f + k.k_xz_n_per_mm * dx + k.k_zz_n_per_mm * dz + NOISE_N * (float)noise_normal(), warmer_degc};
+            12.0f + k.k_xx_n_per_mm * dx + k.k_xz_n_per_mm * dz + noise_n * (float)noise_normal(),
+            -9.0f + k.k_xz_n_per_mm * dx + k.k_zz_n_per_mm * dz + noise_n * (float)noise_normal(), warmer_degc};
         TEST_ASSERT_EQUAL(BRACE_OK, brace_drift_step(&drift, &believed, &model, &reading));
         readings += drift.state == BRACE_DRIFT_WATCHING;
     }
@@ -115,6 +116,63 @@ static void test_a_limb_within_its_calibration_is_learned_and_raises_no_alarm(vo
     ASSERT_CLOSE(0.04, drift.offset[BRACE_DRIFT_FEMUR], 0.02);
     ASSERT_CLOSE(-0.04, drift.offset[BRACE_DRIFT_FEMUR_JOINT_OR_BASE], 0.01);
     ASSERT_CLOSE(0.037, drift.offset[BRACE_DRIFT_TIBIA_OR_KNEE], 0.01); /* 0.137 of it the tibia's */
+}
+
+/* Learning begins with the calibration's own trust: the first readings move the estimates, by no more than it. */
+static void test_learning_begins_with_the_trust_of_the_calibration(void)
+{
+    for (int i = 0; i < 7; i++) {
+        TEST_ASSERT_EQUAL_FLOAT(0.0f, drift.offset[i]);
+    }
+    const brace_drift_report_t before = report();
+    TEST_ASSERT_EQUAL(BRACE_DRIFT_LEARNING, before.state);
+    TEST_ASSERT_EQUAL(0, before.steps);
+    const float trust = before.learned_sigma_ratio[0];
+    TEST_ASSERT_TRUE(trust > 0.5f * believed.uncertainty.compliance_rel && trust < 1.0f);
+    real.link[BRACE_FEMUR].bending_mm_per_n *= 1.0f + 0.5f * trust;
+    run(0, 0);
+    run(0, 1);
+    TEST_ASSERT_TRUE(drift.offset[BRACE_DRIFT_FEMUR] > 0.05f * trust && drift.offset[BRACE_DRIFT_FEMUR] < trust);
+    TEST_ASSERT_TRUE(report().learned_sigma_ratio[0] < trust);
+}
+
+/* What was no alarm while learning is no evidence when watching begins. */
+static void test_watching_begins_without_evidence(void)
+{
+    int i = 0;
+    for (; i < 400 && drift.state == BRACE_DRIFT_LEARNING; i++) {
+        real.link[BRACE_FEMUR].bending_mm_per_n = believed.link[BRACE_FEMUR].bending_mm_per_n * (i % 40 < 20 ? 1.0f : 1.2f);
+        const brace_limb_t limb = warmed();
+        const float *posture = postures[i / 2 % POSTURES];
+        const brace_stiffness_t model = stiffness_of(&believed, posture), k = stiffness_of(&limb, posture);
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_drift_run(&drift));
+        for (int j = 0; j < RUN && drift.state == BRACE_DRIFT_LEARNING; j++) {
+            const float d = 0.635f * (float)(j % 2 == 0 ? j / 2 : -(j / 2)), dx = i % 2 ? d : 0.0f, dz = i % 2 ? 0.0f : d;
+            const brace_drift_reading_t reading = {posture[0], posture[1], dx, dz,
+                                                   k.k_xx_n_per_mm * dx + k.k_xz_n_per_mm * dz,
+                                                   k.k_xz_n_per_mm * dx + k.k_zz_n_per_mm * dz, 0.0f};
+            TEST_ASSERT_EQUAL(BRACE_OK, brace_drift_step(&drift, &believed, &model, &reading));
+        }
+    }
+    TEST_ASSERT_EQUAL(BRACE_DRIFT_WATCHING, drift.state);
+    for (int cause = 0; cause <= BRACE_DRIFT_CAUSE_COUNT; cause++) {
+        TEST_ASSERT_EQUAL_FLOAT(0.0f, drift.evidence[cause]);
+        TEST_ASSERT_EQUAL(0, drift.since[cause]);
+    }
+}
+
+/* Readings that fit, within what the model itself may be off, are no evidence of anything. */
+static void test_readings_that_fit_are_no_evidence(void)
+{
+    const brace_drift_setup_t rough = {NOISE_N, 0.02f, 0.02f, 0.2f};
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_drift_learn(&drift, &believed, &rough));
+    noise_n = 0.0f;
+    rounds(20);
+    TEST_ASSERT_EQUAL(BRACE_DRIFT_WATCHING, drift.state);
+    for (int cause = 0; cause <= BRACE_DRIFT_CAUSE_COUNT; cause++) {
+        TEST_ASSERT_TRUE(drift.evidence[cause] < 0.25f * BRACE_DRIFT_ALARM);
+    }
+    TEST_ASSERT_TRUE(report().evidence < 0.25f * BRACE_DRIFT_ALARM);
 }
 
 static void check_loss(int link, brace_drift_cause_t cause)
@@ -340,6 +398,9 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_the_state_stays_small);
     RUN_TEST(test_a_limb_within_its_calibration_is_learned_and_raises_no_alarm);
+    RUN_TEST(test_learning_begins_with_the_trust_of_the_calibration);
+    RUN_TEST(test_watching_begins_without_evidence);
+    RUN_TEST(test_readings_that_fit_are_no_evidence);
     RUN_TEST(test_a_tenth_of_the_femurs_stiffness_lost_is_told);
     RUN_TEST(test_a_tenth_of_the_tibias_stiffness_lost_is_told);
     RUN_TEST(test_a_spring_that_goes_soft_is_not_taken_for_the_femur);

@@ -231,6 +231,41 @@ static void test_samples_under_loads(void)
     }
 }
 
+/* Pressed towards the hip and aside, with weights that hang askew: the two paths search for the buckling load in their
+ * own ways, each by parts of the bent limb, and agree. */
+static void test_samples_pressed_towards_their_buckling(void)
+{
+    static const int sample[] = {SAMPLE_PAPER, SAMPLE_BEAM, SAMPLE_TILTED, SAMPLE_ROUND};
+    int compared = 0, near = 0;
+    load.down = (brace_vec3_t){0.48f, 0.6f, -0.64f};
+    for (uint32_t s = 0; s < sizeof sample / sizeof *sample; s++) {
+        for (int i = 0; i < 60; i++) {
+            limb = sample_limb[sample[s]];
+            weights = (brace_gravity_t){.femur_n = 4.0f, .knee_n = 2.0f, .tibia_n = 6.0f};
+            const float theta1 = -1.2f + 0.6f * (float)(i % 5), theta2 = i % 2 == 0 ? 0.5f : -0.9f;
+            const float tibia_rad = theta1 - theta2, force_n = 15.0f * powf(1.35f, (float)(i / 5));
+            const float x = limb.femur_mm * cosf(theta1) + limb.tibia_mm * cosf(tibia_rad);
+            const float z = limb.femur_mm * sinf(theta1) + limb.tibia_mm * sinf(tibia_rad), long_mm = sqrtf(x * x + z * z);
+            load.tip_n = (brace_vec3_t){-force_n * x / long_mm, 0.15f * force_n, -force_n * z / long_mm};
+            brace_space_result_t is, want;
+            brace_space_rest_t float_rest;
+            if (status_at(theta1, theta2, &is) != BRACE_OK ||
+                brace_loaded_space_settle(&loaded, theta1, theta2, &load, &float_rest) != BRACE_OK ||
+                brace_loaded_space_stiffness(&loaded, &float_rest, &want) != BRACE_OK) {
+                continue;
+            }
+            const float factor = brace_loaded_space_buckling_factor(&loaded, &float_rest);
+            if (factor > 2.0f && factor < 10.0f) {
+                compared++;
+                near += fabsf(buckling_factor() / factor - 1.0f) < 0.01f;
+                TEST_ASSERT_DOUBLE_WITHIN(2e-4, 0.0, apart(&is.k, &want.k));
+            }
+        }
+    }
+    TEST_ASSERT_TRUE(compared > 80);
+    TEST_ASSERT_TRUE(4 * near > 3 * compared); /* links that are one part each: the rest bend far */
+}
+
 /* --- eigenvalues ---------------------------------------------------------------------------------------------- */
 
 /* K of known eigenvalues and axes, some of them close to one another, turned by a known yaw. */
@@ -637,6 +672,7 @@ int main(void)
     RUN_TEST(test_buckling_of_the_yaw);
     RUN_TEST(test_told_where_the_steps_do_not_settle);
     RUN_TEST(test_samples_under_loads);
+    RUN_TEST(test_samples_pressed_towards_their_buckling);
     RUN_TEST(test_turning_and_eigenvalues);
     RUN_TEST(test_what_is_refused);
     RUN_TEST(test_each_input_has_its_range);

@@ -19,6 +19,7 @@ POLL_S = 0.2
 BACK_POLL_S = 0.05
 BACK_S = 20.0  # far more than any way back
 SERVO_S = 3.0  # what the controller grants its servos at each step
+QUICK_SERVO_S = 0.4  # what simulated ones take of it
 COLUMNS = tuple(column.name for column in LOADING)[:15]
 RUNNING, DONE = 1, 2
 
@@ -31,6 +32,21 @@ class Plan:
     steps_per_side: int
     step_mm: float
     dwell_s: float
+
+    @property
+    def rows(self) -> int:
+        """From nothing to one side, over to the other, and back."""
+        return 4 * self.steps_per_side + 1
+
+    @property
+    def quick_s(self) -> float:
+        """How long it takes with servos that settle as quickly as the simulated ones."""
+        return self.rows * (self.dwell_s + QUICK_SERVO_S)
+
+    @property
+    def most_s(self) -> float:
+        """Past this time something is wrong."""
+        return self.rows * (2.0 * (self.dwell_s + 0.05) + SERVO_S) + 5.0
 
 
 def run(session: Session, plan: Plan, advance: Callable[[int], None]) -> None:
@@ -54,8 +70,8 @@ def _run(session: Session, plan: Plan, advance: Callable[[int], None]) -> int:
         "step": plan.step_mm,
         "dwell_ms": round(plan.dwell_s * 1000),
     }
-    rows = int(session.ask("loading_test_start", request, 0.5)["rows"] or 0)
-    limit_s = time.monotonic() + 2 * rows * (plan.dwell_s + 0.05) + rows * SERVO_S + 5.0
+    session.ask("loading_test_start", request, 0.5)
+    limit_s = time.monotonic() + plan.most_s
     try:
         while True:
             session.listen(POLL_S)
@@ -67,7 +83,7 @@ def _run(session: Session, plan: Plan, advance: Callable[[int], None]) -> int:
                 raise NoDeviceError(
                     "the loading test does not end",
                     where=session.where,
-                    why=f"{rows} rows are past their time",
+                    why=f"{plan.rows} rows are past their time",
                     next_step="brace monitor shows mode and faults",
                 )
     except BaseException:

@@ -46,10 +46,15 @@ def record_loading(arguments: argparse.Namespace) -> int:
         meta = _meta(arguments, device)
         if before is not None:
             _refuse_other_limb(arguments.out, before.meta.document.content, meta)
+        plans = [Plan(axis, arguments.steps, arguments.step_mm, arguments.dwell_s) for axis in axes]
+        common.say(
+            f"{_runs(axes)}, {sum(plan.rows for plan in plans)} readings: about {sum(plan.quick_s for plan in plans):.0f} s "
+            f"with servos that settle quickly, at most {sum(plan.most_s for plan in plans):.0f} s"
+        )
         with common.progress("loading test") as advance:
-            for axis in axes:
+            for plan in plans:
                 started.append(time.time())
-                run(opened, Plan(axis, arguments.steps, arguments.step_mm, arguments.dwell_s), advance)
+                run(opened, plan, advance)
         with common.progress("fetching its rows") as advance:
             columns = fetch(opened, len(axes), advance)
         with common.progress("reading its parameters") as advance:
@@ -80,10 +85,14 @@ def record_loading(arguments: argparse.Namespace) -> int:
     else:
         many = f" as configuration {config}; {total} in all" if arguments.add else ""
         common.say(
-            f"{arguments.out}: {len(axes)} run{'s' if len(axes) > 1 else ''}, {rows} rows{many}; brace "
+            f"{arguments.out}: {_runs(axes)}, {rows} rows{many}; brace "
             f"diagnose {arguments.out} --model LIMB.toml --out DIR"
         )
     return 0
+
+
+def _runs(axes: str) -> str:
+    return "1 run" if len(axes) == 1 else f"{len(axes)} runs"
 
 
 def _refuse_record(folder: Path) -> None:

@@ -58,9 +58,111 @@ static void test_requests_of_a_host_that_does_not_read_wait(void)
     TEST_ASSERT_EQUAL(sent, answered);
 }
 
+static void asks_who(uint32_t token)
+{
+    char line[32];
+    (void)snprintf(line, sizeof line, "t6058%02X%02X000000000000\r", (unsigned)BRACE_REQUEST_IDENTIFY, (unsigned)token);
+    say(line);
+}
+
+/* Who closes the channel and opens it again finds nothing of before: no answer, no news of a fault that was told to
+ * nobody; and whoever moved the limb by it is its owner no longer. */
+static void test_a_channel_that_is_opened_again_begins_anew(void)
+{
+    say("O\r");
+    ticks(2);
+    (void)heard();
+    asks_who(1);
+    say("C\r");
+    ticks(5);
+    (void)heard();
+    fake.joint[BRACE_FEMUR].not_newer = true;
+    ticks(60);
+    TEST_ASSERT_NOT_EQUAL(0, now()->faults);
+    say("O\r");
+    ticks(5);
+    const char *text = heard();
+    TEST_ASSERT_EQUAL_MEMORY("\r", text, 1);
+    TEST_ASSERT_NULL(strstr(text, "t585")); /* no answer */
+    TEST_ASSERT_NULL(strstr(text, "t085")); /* no emergency */
+    asks_who(2);
+    ticks(4);
+    text = heard();
+    TEST_ASSERT_NOT_NULL(strstr(text, "t5858"));
+    TEST_ASSERT_NULL(strstr(text, "t58581401"));
+    fake.joint[BRACE_FEMUR].not_newer = false;
+    bool is_told = false;
+    for (int i = 0; i < 200; i++) {
+        ticks(1);
+        is_told = strstr(heard(), "t085") != NULL || is_told;
+    }
+    TEST_ASSERT_TRUE(is_told); /* its end, now that somebody listens */
+}
+
+/* A commit is answered when it has ended, by the way it came. */
+static void test_a_commit_as_text_is_answered_as_text(void)
+{
+    char line[40];
+    uint8_t data[8];
+    say("O\r");
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_enter(&app));
+    ticks(2);
+    (void)heard();
+    const uint32_t longer = 0x433e0000u; /* 190.0f */
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_parameters_stage(&app, brace_parameter_number(BRACE_PARAMETER_GEOMETRY_FEMUR_MM),
+                                                           1, &longer));
+    brace_can_pack_commit_request(&(brace_can_commit_request_t){0x10, 0}, data);
+    uint32_t at = (uint32_t)snprintf(line, sizeof line, "t6058");
+    for (uint32_t i = 0; i < 8u; i++) {
+        at += (uint32_t)snprintf(line + at, sizeof line - at, "%02X", data[i]);
+    }
+    (void)snprintf(line + at, sizeof line - at, "\r");
+    say(line);
+    char part[16];
+    (void)snprintf(part, sizeof part, "t5858%02X10", (unsigned)BRACE_REQUEST_COMMIT);
+    bool is_answered = false;
+    for (int i = 0; i < 400; i++) {
+        ticks(1);
+        is_answered = strstr(heard(), part) != NULL || is_answered;
+    }
+    TEST_ASSERT_TRUE(is_answered);
+    TEST_ASSERT_EQUAL_FLOAT(190.0f, brace_app_parameters(&app)->limb.femur_mm);
+}
+
+static void test_who_closes_the_channel_owns_the_limb_no_longer(void)
+{
+    brace_session_report_t report;
+    brace_parameters_t p = bench_parameters();
+    p.limb.joint[BRACE_TIBIA].gap_rad = 0.005f;
+    bench_start(&p);
+    ticks(50);
+    say("O\r");
+    ticks(2);
+    (void)heard();
+    char line[40];
+    uint8_t data[8];
+    brace_can_pack_take_up_request(&(brace_can_take_up_request_t){0x10, BRACE_TIBIA, 1}, data);
+    uint32_t at = (uint32_t)snprintf(line, sizeof line, "t6058");
+    for (uint32_t i = 0; i < 8u; i++) {
+        at += (uint32_t)snprintf(line + at, sizeof line - at, "%02X", data[i]);
+    }
+    (void)snprintf(line + at, sizeof line - at, "\r");
+    say(line);
+    ticks(2);
+    brace_app_session(&app, &report);
+    TEST_ASSERT_EQUAL(BRACE_OWNER_SLCAN, report.owner);
+    say("C\r");
+    ticks(2);
+    brace_app_session(&app, &report);
+    TEST_ASSERT_EQUAL(BRACE_OWNER_NONE, report.owner);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_requests_of_a_host_that_does_not_read_wait);
+    RUN_TEST(test_a_channel_that_is_opened_again_begins_anew);
+    RUN_TEST(test_a_commit_as_text_is_answered_as_text);
+    RUN_TEST(test_who_closes_the_channel_owns_the_limb_no_longer);
     return UNITY_END();
 }

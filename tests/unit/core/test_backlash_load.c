@@ -1,0 +1,216 @@
+/* What a joint's motor shows about its load: filters, friction by the direction of motion, and an expected load. */
+#include "backlash/backlash_load.h"
+
+#include <math.h>
+
+#include "brace/backlash.h"
+#include "close.h"
+
+enum { TICK_US = 1000 };
+#define STEP_RAD 2e-5
+#define FRICTION_N_MM 200.0
+#define TOLERANCE 0.2
+#define BIAS_N_MM 80.0
+#define NOISE_N_MM 40.0
+
+static brace_backlash_t joint;
+static uint32_t now_us;
+
+void setUp(void)
+{
+    const brace_backlash_params_t params = {.tick_us = TICK_US, .gap_rad = 0.01f, .friction_n_mm = (float)FRICTION_N_MM,
+                                            .friction_tolerance_ratio = (float)TOLERANCE,
+                                            .inertia_n_mm_s2_per_rad = 20.0f, .torque_range_n_mm = 8000.0f,
+                                            .torque_noise_n_mm = (float)NOISE_N_MM, .torque_bias_n_mm = (float)BIAS_N_MM,
+                                            .angle_step_rad = (float)STEP_RAD,
+                                            .takeup = {.torque_max_n_mm = 4500.0f, .preload_n_mm = 800.0f,
+                                                       .travel_max_rad = 0.06f, .reach_max_rad = 0.15f,
+                                                       .rate_rad_per_s = 0.1f, .time_max_us = 3000000,
+                                                       .verify_us = 100000}};
+    TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_backlash_init(&joint, &params));
+    now_us = 0;
+}
+
+void tearDown(void) {}
+
+static brace_backlash_sample_t sample_of(double motor_rad, double torque_n_mm)
+{
+    return (brace_backlash_sample_t){.now_us = now_us, .motor_rad = (float)motor_rad, .torque_n_mm = (float)torque_n_mm};
+}
+
+static void begin(double motor_rad, double torque_n_mm)
+{
+    const brace_backlash_sample_t sample = sample_of(motor_rad, torque_n_mm);
+    backlash_load_start(&joint, &sample);
+}
+
+static void observe(double motor_rad, double torque_n_mm)
+{
+    now_us += TICK_US;
+    const brace_backlash_sample_t sample = sample_of(motor_rad, torque_n_mm);
+    backlash_load_observe(&joint, &sample);
+}
+
+static double proof_n_mm(void) /* six sigmas of the fast mean, and the bias */
+{
+    const double gain = 1.0 / 11.0;
+    return 6.0 * NOISE_N_MM * sqrt(gain / (2.0 - gain)) + BIAS_N_MM;
+}
+
+static void a_first_sample_is_the_load_and_proves_nothing(void)
+{
+    begin(0.3, 1500.0);
+    ASSERT_CLOSE(1500.0, joint.fast_n_mm, 0.0);
+    ASSERT_CLOSE(1500.0, joint.slow_n_mm, 0.0);
+    ASSERT_CLOSE(1500.0, joint.torque_n_mm, 0.0);
+    TEST_ASSERT_TRUE(backlash_load_off_n_mm(&joint) > 8000.0f); /* as wide as any torque */
+    TEST_ASSERT_EQUAL_INT(0, backlash_load_proven(&joint));
+    const brace_backlash_sample_t sample = sample_of(0.3, 1500.0);
+    TEST_ASSERT_EQUAL_INT(0, backlash_load_told(&joint, &sample, 0.7f));
+    observe(0.3, 1500.0);
+    TEST_ASSERT_TRUE(backlash_load_standing(&joint)); /* it has not been seen to move */
+}
+
+/* Of a motor that stands friction may have either sign; of one that turns it is known but for its tolerance. */
+static void friction_is_known_while_the_motor_turns(void)
+{
+    for (int way = -1; way <= 1; way += 2) {
+        setUp();
+        begin(0.0, 1000.0);
+        for (int i = 0; i < 400; i++) {
+            observe(0.0, 1000.0);
+        }
+        ASSERT_CLOSE(1000.0, joint.fast_n_mm, 0.01);
+        ASSERT_CLOSE(FRICTION_N_MM * (1.0 + TOLERANCE) + proof_n_mm(), backlash_load_off_n_mm(&joint), 0.5);
+        for (int i = 1; i <= 400; i++) {
+            observe(way * 1e-4 * i, 1000.0 + way * FRICTION_N_MM);
+        }
+        TEST_ASSERT_FALSE(backlash_load_standing(&joint));
+        ASSERT_CLOSE(1000.0, joint.fast_n_mm, 1.0);
+        ASSERT_CLOSE(1000.0, joint.slow_n_mm, 3.0);
+        ASSERT_CLOSE(FRICTION_N_MM * TOLERANCE + proof_n_mm(), backlash_load_off_n_mm(&joint), 1.0);
+    }
+}
+
+/* It counts as standing when it has not advanced for more than 8 ms, to the tick. */
+static void a_motor_stands_after_eight_ticks(void)
+{
+    begin(0.0, 0.0);
+    for (int i = 1; i <= 30; i++) {
+        observe(1e-4 * i, FRICTION_N_MM);
+    }
+    for (int i = 1; i <= 8; i++) {
+        observe(1e-4 * 30, FRICTION_N_MM);
+        TEST_ASSERT_FALSE(backlash_load_standing(&joint));
+    }
+    observe(1e-4 * 30, FRICTION_N_MM);
+    TEST_ASSERT_TRUE(backlash_load_standing(&joint));
+}
+
+/* The width that the fast mean goes to in a tick: its gain is one eleventh. */
+static double width_of_tick(double motor_rad)
+{
+    const double before = (double)joint.fast_width_n_mm;
+    observe(motor_rad, 0.0);
+    return before + 11.0 * ((double)joint.fast_width_n_mm - before);
+}
+
+/* A motor that begins, or that turns round, has friction of either sign until it has gone one way for 6 ms. One that
+ * steps less than its hysteresis has not moved. */
+static void a_direction_is_sure_after_six_ticks(void)
+{
+    const double unsure = FRICTION_N_MM * (1.0 + TOLERANCE), sure = FRICTION_N_MM * TOLERANCE;
+    joint.params.inertia_n_mm_s2_per_rad = 0.0f;
+    begin(0.0, 0.0);
+    for (int i = 0; i < 400; i++) {
+        observe(0.0, 0.0);
+    }
+    double motor_rad = 0.0;
+    for (int turn = 0; turn < 4; turn++) {
+        for (int i = 1; i <= 20; i++) {
+            motor_rad += turn % 2 == 0 ? 1e-4 : -1e-4;
+            ASSERT_CLOSE(i <= 6 ? unsure : sure, width_of_tick(motor_rad), 1.0);
+        }
+    }
+    for (int i = 0; i < 9; i++) {
+        (void)width_of_tick(motor_rad);
+    }
+    for (int i = 0; i < 50; i++) {
+        ASSERT_CLOSE(unsure, width_of_tick(motor_rad + (i % 2) * 1.4 * STEP_RAD), 1.0);
+        TEST_ASSERT_TRUE(backlash_load_standing(&joint));
+    }
+    for (int i = 1; i <= 20; i++) { /* once it has stood, the same way has to be shown anew */
+        motor_rad -= 1e-4;
+        ASSERT_CLOSE(i <= 6 ? unsure : sure, width_of_tick(motor_rad), 1.0);
+    }
+}
+
+/* The fast interval has to be clear of zero for 12 ms. */
+static void a_proof_takes_twelve_ticks(void)
+{
+    for (int flank = -1; flank <= 1; flank += 2) {
+        setUp();
+        begin(0.0, flank * 4000.0);
+        int clear = 0;
+        for (int i = 0; i < 400 && backlash_load_proven(&joint) == 0; i++) {
+            observe(0.0, flank * 4000.0);
+            clear += fabsf(joint.fast_n_mm) > backlash_load_off_n_mm(&joint);
+        }
+        TEST_ASSERT_EQUAL_INT(flank, backlash_load_proven(&joint));
+        TEST_ASSERT_EQUAL_INT(12, clear);
+        for (int i = 0; i < 400 && backlash_load_proven(&joint) != 0; i++) {
+            observe(0.0, 0.0);
+        }
+        TEST_ASSERT_EQUAL_INT(0, backlash_load_proven(&joint));
+    }
+}
+
+/* What the joint should carry narrows what the motor shows, from either side; where both exclude one another, the motor
+ * is believed. */
+static void an_expected_load_narrows_what_is_shown(void)
+{
+    begin(0.0, 0.0);
+    for (int i = 0; i < 600; i++) {
+        observe(0.0, 100.0); /* within friction: shows nothing */
+    }
+    static const struct {
+        float expected_n_mm, off_n_mm;
+        int flank;
+    } row[] = {{150.0f, 100.0f, 1}, {-150.0f, 100.0f, -1}, {0.0f, 100.0f, 0}, {90.0f, 100.0f, 0},
+               {-90.0f, 100.0f, 0}, {1e4f, 10.0f, 0},      {-1e4f, 10.0f, 0}};
+    for (uint32_t i = 0; i < sizeof row / sizeof *row; i++) {
+        brace_backlash_sample_t sample = sample_of(0.0, 100.0);
+        TEST_ASSERT_EQUAL_INT(0, backlash_load_told(&joint, &sample, 0.7f));
+        sample.load_is_expected = true;
+        sample.expected_n_mm = row[i].expected_n_mm;
+        sample.expected_off_n_mm = row[i].off_n_mm;
+        TEST_ASSERT_EQUAL_INT(row[i].flank, backlash_load_told(&joint, &sample, 0.7f));
+    }
+}
+
+/* A motor that accelerates carries its own inertia: the load behind it stays the same. */
+static void inertia_is_taken_off(void)
+{
+    begin(0.0, 1000.0);
+    double motor_rad = 0.0, speed_rad_per_s = 0.0;
+    for (int i = 0; i < 300; i++) {
+        speed_rad_per_s += 1e-3 * 5.0; /* 5 rad/s2: 100 N mm */
+        motor_rad += 1e-3 * speed_rad_per_s;
+        observe(motor_rad, 1000.0 + FRICTION_N_MM + 20.0 * 5.0);
+    }
+    ASSERT_CLOSE(1000.0, joint.fast_n_mm, 3.0);
+    ASSERT_CLOSE(1000.0 + FRICTION_N_MM + 100.0, joint.torque_n_mm, 1.0);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(a_first_sample_is_the_load_and_proves_nothing);
+    RUN_TEST(friction_is_known_while_the_motor_turns);
+    RUN_TEST(a_motor_stands_after_eight_ticks);
+    RUN_TEST(a_direction_is_sure_after_six_ticks);
+    RUN_TEST(a_proof_takes_twelve_ticks);
+    RUN_TEST(an_expected_load_narrows_what_is_shown);
+    RUN_TEST(inertia_is_taken_off);
+    return UNITY_END();
+}
