@@ -16,9 +16,14 @@ from brace.diagnose.joint_test.intake import spring_alone
 from brace.diagnose.joint_test.record import JointRecord
 from brace.diagnose.joint_test.terms import effects_of
 from brace.effects import JointTestBench
-from brace.identify.joint_test import usable
+from brace.effects.catalogue import FRICTION_TURN
+from brace.identify.joint_test import JointProblem, usable
+from brace.identify.parameters import ANGLE_ZERO, TORQUE_OFFSET
 from brace.identify.run import Options, identify
+from brace.model import load_limb
+from brace.predict import predict
 
+LIMB = Path(__file__).parents[3] / "tools/brace/data/paper-limb.toml"
 COMPLIANCE, GAP, FRICTION = 2e-6, 0.04, 1200.0
 FULL_N_MM = 4000.0
 GAP_KEY, RATIO_KEY = "joint.femur.gap_rad", "joint.femur.coulomb_per_load_ratio"
@@ -63,6 +68,31 @@ def test_without_a_model_limb_toml_has_play_and_friction_as_gears_do(tmp_path: P
     assert told is (found.model.number(GAP_KEY) > 0.0), found.notes
 
 
+def test_a_model_is_laid_against_the_right_side_of_its_gap(tmp_path: Path) -> None:
+    """A model that is not quite the joint's: the misfit has a valley on either side of the gap. A grid of zeros and of
+    angles over which friction turns finds the deeper one."""
+    random = np.random.default_rng(0)
+    bent = 0.01675 * triangle(400) - 0.005157
+    rubs = np.zeros(bent.size)
+    for i in range(1, bent.size):
+        rubs[i] = np.clip(rubs[i - 1] + 3580.0 * (bent[i] - bent[i - 1]) / 0.002755, -3580.0, 3580.0)
+    spring = np.sign(bent) * np.maximum(np.abs(bent) - 0.01097, 0.0) / 1.749e-6
+    torque = spring + rubs + 5.0 * random.standard_normal(bent.size)
+    numbers = {"compliance_rad_per_n_mm": 3e-6, "gap_rad": 0.03695, "coulomb_n_mm": 4258.0}
+    model = load_limb(LIMB).with_values({f"joint.femur.{leaf}": value for leaf, value in numbers.items()})
+    problem = JointProblem(load_dataset(recorded(tmp_path, [(bent + 0.3, torque)])))
+
+    def left(own: dict[str, float]) -> float:
+        return float(np.std(problem.torque_n_mm(model, own) - torque))
+
+    grid = min(
+        left({ANGLE_ZERO: zero, TORQUE_OFFSET: 0.0, FRICTION_TURN: turn})
+        for zero in np.linspace(-0.32, -0.28, 21)
+        for turn in (0.001, 0.002, 0.004, 0.008)
+    )
+    assert left(problem.aligned(model)) <= grid
+
+
 def test_a_friction_that_no_gear_has_needs_evidence_to_match(tmp_path: Path) -> None:
     """Of what a record does not tell, the fit says what gears have: a turn of the friction is told by few readings of
     a small test, and constant friction may stand in for one that grows with the load."""
@@ -103,6 +133,16 @@ def test_identify_and_diagnose_give_the_same_numbers(tmp_path: Path) -> None:
         if not key.endswith("per_load_ratio"):
             assert told[key].value == pytest.approx(held.value, rel=0.01), key
             assert told[key].low <= held.high and held.low <= told[key].high, key
+
+
+def test_a_record_without_noise_is_identified_and_predicted(tmp_path: Path) -> None:
+    """As somebody's own simulator writes it, and with a model that is far from it."""
+    record = load_dataset(recorded(tmp_path, [ramps(share * 0.02, 0.004, COMPLIANCE) for share in (0.5, 1.0, 0.52)]))
+    found = identify(record, spring_alone(record), Options()).fit.model
+    assert found.number(GAP_KEY) == pytest.approx(0.004, rel=0.02)
+    assert found.number("joint.femur.compliance_rad_per_n_mm") == pytest.approx(COMPLIANCE, rel=0.02)
+    torque = np.asarray(predict(record, load_limb(LIMB)).columns["torque_n_mm"])
+    assert np.all(np.isfinite(torque)) and np.std(torque - record["torque_n_mm"]) > 100.0
 
 
 def test_readings_where_the_drive_does_not_follow_tell_nothing() -> None:

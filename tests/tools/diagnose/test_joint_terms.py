@@ -68,6 +68,21 @@ def test_viscosity_is_no_creep(tmp_path: Path) -> None:
     assert any("viscous friction" in note for note in found.notes), found.notes
 
 
+def test_viscosity_below_the_encoders_rounding_is_no_friction(tmp_path: Path) -> None:
+    """Sines of six speeds; the spring alone leaves no more than rounding and noise, so that the search ends with it."""
+    random, step_rad, readings = np.random.default_rng(3), 2.0 * np.pi / 65536, 3000
+    tests = []
+    for size, times in ((1.0, 1.0), (0.5, 1.0), (1.0, 3.0), (0.5, 3.0), (0.75, 2.0), (0.9, 1.5)):
+        angle = 0.0235 * size * np.sin(np.linspace(0.0, 4.0 * np.pi, readings))
+        viscous = 1200.0 * times * np.gradient(angle) / STEP_S
+        torque = angle / 2.87e-6 + 2.64e8 * angle**3 + viscous + 24.0 * random.standard_normal(readings)
+        tests.append((np.round(angle / step_rad) * step_rad, torque))
+    found = found_in(tmp_path, tests)
+    assert names(found) == {"joint_hardening"}, found.sentence
+    assert found.model.number("joint.femur.coulomb_n_mm") == 0.0
+    assert any("viscous friction" in note for note in found.notes), found.notes
+
+
 def test_a_stop_on_one_side_is_no_hardening(tmp_path: Path) -> None:
     at = 0.55 * REACH_RAD
     found = bench(tmp_path, lambda angle: STIFFNESS * (angle + 2.0 * np.maximum(angle - at, 0.0)))

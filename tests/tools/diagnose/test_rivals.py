@@ -4,9 +4,11 @@ reads the same, and the diagnosis must say no more than the record shows."""
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any, cast
 
 import numpy as np
 import pytest
@@ -16,7 +18,8 @@ from handmade import loading_record
 from brace.dataset import load_dataset
 from brace.diagnose.diagnosis import Diagnosis
 from brace.diagnose.loading.fit import Fit
-from brace.diagnose.loading.rivals import TURNS, _implausible
+from brace.diagnose.loading import rivals
+from brace.diagnose.loading.rivals import TURNS, _implausible, _wider
 from brace.diagnose.loading.space import space_of, trust_of
 from brace.diagnose.options import Options
 from brace.diagnose.run import diagnose
@@ -179,6 +182,23 @@ def test_a_size_that_no_limb_has_needs_evidence(tmp_path: Path, limb: Path) -> N
         x = space.mean.copy()
         x[-1] = times * 0.002
         assert _implausible(Fit(space, x, nothing, nothing, nothing, 0.0)) == pytest.approx(nats)
+
+
+def test_a_cause_stands_for_as_many_effects_as_is_likeliest(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Leads of a cause in the place of a, of a and b, and so on: each effect that the cause makes needless saves its
+    price."""
+    leads = {"a": -2.0, "ab": 1.5, "ac": -1.0, "ad": 0.5, "abc": 3.0, "abd": 0.0, "abcd": 2.5}
+    chosen = SimpleNamespace(decision=SimpleNamespace(chosen=SimpleNamespace(labels=frozenset("abcd"))))
+    asked: list[str] = []
+
+    def in_place_of(_final: object, _cause: object, disputed: frozenset[str]) -> Iterator[tuple[object, ...]]:
+        asked.append("".join(sorted(disputed)))
+        yield leads[asked[-1]], disputed, None
+
+    monkeypatch.setattr(rivals, "_in_place_of", in_place_of)
+    lead, disputed, _ = _wider(cast(Any, chosen), RIVAL_CAUSES[0], cast(Any, (leads["a"], frozenset("a"), None)))
+    assert (lead, disputed) == (3.0, frozenset("abc"))
+    assert asked == ["ab", "ac", "ad", "abc", "abd", "abcd"]
 
 
 def test_every_rival_turns_the_numbers_of_the_limb(limb: Path) -> None:

@@ -197,6 +197,10 @@ static void test_refusals_each_have_their_status(void)
     put_word(8, ~BRACE_SCHEMA_HASH);
     seal();
     TEST_ASSERT_EQUAL(BRACE_E_SCHEMA, unpacked(NULL));
+    for (uint32_t length = 0; length < BRACE_BLOCK_HEADER_BYTES; length++) { /* cut off in its header */
+        TEST_ASSERT_EQUAL(BRACE_E_LENGTH, brace_block_header(block, length, &header));
+    }
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_block_header(block, BRACE_BLOCK_HEADER_BYTES, &header));
     TEST_ASSERT_EQUAL(BRACE_OK, brace_block_header(block, sizeof block, &header));
     TEST_ASSERT_EQUAL(BRACE_BLOCK_FORMAT, header.format);
     TEST_ASSERT_EQUAL_HEX32(~BRACE_SCHEMA_HASH, header.schema_hash); /* both can be shown */

@@ -531,6 +531,9 @@ static void test_a_memory_that_does_not_answer(void)
     memory.read_refused = false;
     hal.nvm_shape.slot_bytes = 2048;
     expect_after_start(BRACE_PARAMETERS_DEFAULT, 0);
+    TEST_ASSERT_TRUE(status_now().memory_fault);
+    TEST_ASSERT_EQUAL(BRACE_SLOT_UNREADABLE, status_now().slot[0].condition);
+    TEST_ASSERT_EQUAL(BRACE_SLOT_UNREADABLE, status_now().slot[1].condition);
     TEST_ASSERT_EQUAL(BRACE_STORE_FAILED, update(2));
     TEST_ASSERT_EQUAL(BRACE_STORE_E_SHAPE, status_now().failure);
     hal.nvm_shape.slot_bytes = 4096;

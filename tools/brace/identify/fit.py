@@ -14,7 +14,7 @@ from brace.model import LimbModel
 from brace.native.plant_batch import model_numbers
 
 RIDGE = 1e-3  # pull towards the start, per scale: decides only where neither data nor prior do
-REFUSED = 1e4  # whitened residual of a model that cannot be played
+REFUSED = 1e7  # whitened residual of a model that cannot be played; a record without noise has up to 1e6 of its own
 TOLERANCE = 1e-10
 STEP = 1e-4  # of a parameter's scale, for central differences
 

@@ -18,6 +18,7 @@ from brace.identify.fit import Fit, Nuisances, columns_of, fit
 from brace.effects.catalogue import FRICTION_TURN, MOST_GAP, USUAL_LOAD_RATIO
 from brace.identify.gear_positions import POSITION, apart, count
 from brace.identify.parameters import (
+    ANGLE_ZERO,
     LAG,
     SPREAD,
     TORQUE_OFFSET,
@@ -40,6 +41,8 @@ MOST_TURN = 0.5  # of the range of angles: friction that a small test does not o
 MOST_SPREAD = 0.7  # log of a ratio: what is twice as soft at one gear position is another joint
 START_GAPS = (0.0, 0.25, 0.5, 0.8)  # of the largest gap that the record allows
 START_FRICTION = (0.02, 0.1)  # of the range of torques
+START_ZEROS = (-0.2, -0.1, 0.0, 0.1, 0.2)  # of the range of angles, from its middle
+START_TURNS = (0.02, 0.1)  # of the range of angles
 START_HARDENING = (0.0, 4.0)  # cubic share of the torque at half the range of angles, over the linear one
 
 
@@ -231,8 +234,17 @@ class JointProblem:
         )
 
     def aligned(self, model: LimbModel) -> dict[str, float]:
-        """The record's own nuisances that fit best with the model's joint as it is."""
-        return fit(self, self.record_parameters(model)).nuisances
+        """The record's own nuisances that fit best with the model's joint as it is. With a gap the misfit has a valley
+        for each way to lay the readings against its sides."""
+        parameters = self.record_parameters(model)
+        own = np.array([key.startswith(ANGLE_ZERO) for key in parameters.keys])
+        span_rad = float(np.ptp(self.columns["angle_rad"]))
+        starts = []
+        for zero, turn in product(START_ZEROS, START_TURNS):
+            point = parameters.array("start") + zero * span_rad * own
+            point[parameters.keys.index(FRICTION_TURN)] = turn * span_rad
+            starts.append(point)
+        return fit(self, parameters, starts).nuisances
 
     def starts(self, parameters: ParameterSet) -> list[np.ndarray]:
         """Springs with less and more gap and friction: the misfit has several valleys."""

@@ -85,7 +85,7 @@ def choose(
             break
         best = max(sound, key=worth)
     best = _kept(fitter, best, random)
-    best = _joined_by_rows(fitter, best, sets, effects, random, trying)
+    best = _joined_by_rows(fitter, best, sets, (*effects, *own), random, trying)
     listed = [one for one in sets if not strained(fitter, one)]
     return Choice(base, tuple(sets), tuple(shaped), best, count, _candidates(listed, worth))
 
@@ -99,19 +99,20 @@ def _joined_by_rows(
     fitter: Fitter,
     best: Fitted,
     sets: Sequence[Fitted],
-    effects: Sequence[Term],
+    terms: Sequence[Term],
     random: np.random.Generator,
     trying: Trying,
 ) -> Fitted:
     """Weighted readings tell best what the joint does where it slips. Readings that count alike tell best what it does
-    under high load, where it stays longest. An effect that all judges ask for among readings that count alike joins
-    too."""
+    under high load, where it stays longest. A term that all judges ask for among readings that count alike joins too.
+    Where an effect does, the record's own terms compete with it, and go first where they do about as well: else friction
+    or creep would be named for what viscosity does."""
     by_rows = fitter.by_rows()
     while best.terms:
         current = by_rows.fit(best.terms, best)
         have = {term.name for term in best.terms}
         joined = []
-        for term in effects:
+        for term in terms:
             if term.name not in have:
                 trying(term.label)
                 joined.append(by_rows.fit((*best.terms, term), current, term))
@@ -119,13 +120,21 @@ def _joined_by_rows(
         sound = [
             one for one in joined if not strained(fitter, one) and _needed(by_rows, current, one, random)
         ]
-        if not sound:
+        if all(one.terms[-1].role == "record" for one in sound):
             break
         chosen = min(sound, key=lambda one: one.rss)
+        own = min((one for one in sound if one.terms[-1].role == "record"), key=lambda one: one.rss, default=chosen)
+        chosen = chosen if _is_ahead(fitter.record, own, chosen) else own
         have = {term.name for term in chosen.terms}
         known = [one for one in sets if {term.name for term in one.terms} == have]
         best = min([fitter.fit(chosen.terms, chosen), *known], key=lambda one: one.rss)
     return best
+
+
+def _is_ahead(record: JointRecord, other: Fitted, fitted: Fitted) -> bool:
+    """Whether the fit is likelier than the other by as much as a further term must gain."""
+    count = record.independent(fitted.off_n_mm)
+    return gain(record, other, fitted, count) - (_paid(fitted, count) - _paid(other, count)) >= LEAST_GAIN
 
 
 def _grown(fitter: Fitter, base: Fitted, effects: Sequence[Term], most: int, trying: Trying) -> list[Fitted]:

@@ -262,10 +262,12 @@ def _as_gears_are(by_rows: Fitter, search: _Found, exported: Fitted, have_names:
     lacking = [term for term in search.effects if term.name in usual and term.name not in have]
     # a gap is found best beside friction, a cube beside both
     for term in sorted(lacking, key=lambda one: ("coulomb_friction", "backlash", "joint_hardening").index(one.name)):
-        afresh = by_rows.fit(())  # a fit without the gap may stand far off the middle of it
+        # a fit without the gap may stand far off the middle of it, and one with a gap alone far off the friction
+        afresh, before = by_rows.fit(()), by_rows.fit((term,), by_rows.fit(()), term)
         for other in found.terms:
             afresh = by_rows.fit((*afresh.terms, other), afresh, other)
-        more = [by_rows.fit((*near.terms, term), near, term) for near in (found, afresh)]
+            before = by_rows.fit((*before.terms, other), before, other)
+        more = [before, *(by_rows.fit((*near.terms, term), near, term) for near in (found, afresh))]
         sound = [one for one in more if not strained(by_rows, one) and not _refused_gap(record, one)]
         better = [one for one in sound if one.rss < (1.0 - SHAPES_SHRINK) ** 2 * found.rss
                   and one.held_rss <= found.held_rss]  # fmt: skip

@@ -136,23 +136,40 @@ def _share_of_chosen(found: Contest) -> float:
 def _against(final: Pass, cause: RivalCause) -> Contest | None:
     """The strongest contest that one cause makes for a part of the chosen set."""
     chosen = final.decision.chosen
-    best: tuple[float, frozenset[str], Fit] | None = None
-    for disputed in cause.looks_like:
-        if not disputed <= chosen.labels:
-            continue
-        for way in cause.ways:
-            fitted = _fitted(final.record, final.trust, chosen.best.fit, cause, way, disputed)
-            lead = _score(final, fitted) - _score(final, chosen.best.fit) if fitted is not None else -np.inf
-            if fitted is not None and (best is None or lead > best[0]):
-                best = (lead, disputed, fitted)
-    if best is None:
+    tried = [one for disputed in cause.looks_like if disputed <= chosen.labels
+             for one in _in_place_of(final, cause, disputed)]  # fmt: skip
+    if not tried:
         return None
+    best = _wider(final, cause, max(tried, key=lambda one: one[0]))
     lead, disputed, fitted = best
     rival = chosen.posterior * float(np.exp(min(lead, 700.0)))
     space = fitted.space
     assert isinstance(space, RivalSpace)
     limb = fitted.model if cause.in_limb else space.limbs(fitted.x[None])[0]
     return _contest(final, cause, disputed, rival, Member((cause.label,), 0.0, fitted, limb, cause))
+
+
+def _in_place_of(final: Pass, cause: RivalCause, disputed: frozenset[str]) -> Iterator[tuple[float, frozenset[str], Fit]]:
+    """How far each way of the cause is ahead of the chosen set, and its fit."""
+    chosen = final.decision.chosen.best.fit
+    for way in cause.ways:
+        fitted = _fitted(final.record, final.trust, chosen, cause, way, disputed)
+        if fitted is not None:
+            yield _score(final, fitted) - _score(final, chosen), disputed, fitted
+
+
+def _wider(
+    final: Pass, cause: RivalCause, best: tuple[float, frozenset[str], Fit]
+) -> tuple[float, frozenset[str], Fit]:
+    """The same, with the cause in the place of further chosen effects while that is likelier. Several effects together
+    may have stood for one cause."""
+    while others := final.decision.chosen.labels - best[1]:
+        tried = [one for label in sorted(others) for one in _in_place_of(final, cause, best[1] | {label})]
+        likeliest = max(tried, key=lambda one: one[0], default=best)
+        if likeliest[0] <= best[0]:
+            break
+        best = likeliest
+    return best
 
 
 def _by_instruments(final: Pass, trouble: Trouble) -> Contest | None:
