@@ -267,17 +267,34 @@ static void test_a_block_of_another_dictionary(void)
     }
 }
 
-static void test_a_value_out_of_range_is_named(void)
+/* A set with a node number that no node has, kept. */
+static void put_refused_block(uint32_t slot, uint32_t sequence)
 {
-    put_block(0, 1, 7, true);
-    uint8_t *block = memory.bytes[0];
+    put_block(slot, 1, sequence, true);
+    uint8_t *block = memory.bytes[slot];
     block[20 + 4 * BRACE_PARAMETER_CONTROLLER_NODE_ID] = 200;
     const uint32_t crc = brace_crc32(0, block, BRACE_BLOCK_BYTES - 4);
     memcpy(block + BRACE_BLOCK_BYTES - 4, &crc, 4);
     memcpy(block + BRACE_STORE_MARKS_AT + 4, &crc, 4);
+}
+
+static void test_a_value_out_of_range_is_named(void)
+{
+    put_refused_block(0, 7);
     expect_after_start(BRACE_PARAMETERS_DEFAULT, 0);
     TEST_ASSERT_EQUAL(BRACE_SLOT_REFUSED, status_now().slot[0].condition);
     TEST_ASSERT_EQUAL(BRACE_PARAMETER_CONTROLLER_NODE_ID, status_now().slot[0].wrong_index);
+}
+
+/* Its mark says that it was kept; it is refused all the same, and nothing of it comes in force. */
+static void test_a_refused_set_leaves_the_other_in_force(void)
+{
+    for (uint32_t slot = 0; slot < 2u; slot++) {
+        put_block(1u - slot, 2, 7, true);
+        put_refused_block(slot, 8);
+        expect_after_start(slot == 0u ? BRACE_PARAMETERS_SLOT_B : BRACE_PARAMETERS_SLOT_A, 2);
+        TEST_ASSERT_EQUAL(BRACE_SLOT_REFUSED, status_now().slot[slot].condition);
+    }
 }
 
 /* Sixty sessions in a row are broken off after their first mark: there is always room for what matters. */
@@ -632,6 +649,7 @@ int main(void)
     RUN_TEST(test_a_block_without_its_mark_does_not_count);
     RUN_TEST(test_a_block_of_another_dictionary);
     RUN_TEST(test_a_value_out_of_range_is_named);
+    RUN_TEST(test_a_refused_set_leaves_the_other_in_force);
     RUN_TEST(test_marks_never_run_out);
     RUN_TEST(test_a_memory_that_does_not_keep);
     RUN_TEST(test_a_set_that_is_not_the_one_named);
