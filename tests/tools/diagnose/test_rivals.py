@@ -191,7 +191,7 @@ def compliance_with_a_knee_beside(knee_beside_mm: float, moment_transfer: float,
 
 @pytest.mark.parametrize("moment_transfer, most", [(0.0, 1e-5), (0.5, 0.008), (1.0, 0.008)])
 def test_a_knee_beside_the_line_is_played_as_it_yields(moment_transfer: float, most: float, limb: Path) -> None:
-    """20 mm beside the end of a femur of 200 mm. Turned back as a femur that is no beam, it would be off by 2 to 5 %."""
+    """20 mm beside the end of a femur of 200 mm. Turned back as one that is no beam, it would be off by 2 to 5 %."""
     numbers = {
         "geometry.femur_mm": 200.0, "geometry.tibia_mm": 260.0,
         "link.femur.axial_mm_per_n": 0.002, "link.femur.bending_mm_per_n": 0.08, "link.femur.tilt_rad": 0.0,

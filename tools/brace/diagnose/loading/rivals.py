@@ -33,7 +33,7 @@ GAUGE_ON_RIG = (
     "does"
 )
 RARE_SIGMAS = 3.0  # of the prior on a size: so far out lies the ratio that the catalogue calls `plausible_times`
-BEAM_TURNS = 1.8  # a beam moves a point beside its end by 1.5 turns of the line to it under a force, by 2 under a moment
+BEAM_TURNS = 1.8  # a beam moves a point beside its end 1.5 turns of the line to it aside under a force, 2 under a moment
 BOWED_ALONG = 0.6  # a bow of c yields along the link by 8/5 (c/L)^2 of its bending, its turned ellipsoid by (c/L)^2
 
 Turn = Callable[[np.ndarray, np.ndarray], None]
@@ -349,7 +349,8 @@ def _knee_beside(models: np.ndarray, sizes: np.ndarray) -> None:
     models[:, index["geometry.femur_mm"]] = np.hypot(femur_mm, sizes[:, 0])
     models[:, index["joint.femur.zero_offset_rad"]] += turned
     models[:, index["joint.tibia.zero_offset_rad"]] += turned
-    models[:, index["link.femur.tilt_rad"]] += (BEAM_TURNS * models[:, index["link.femur.moment_transfer"]] - 1.0) * turned
+    turns = BEAM_TURNS * models[:, index["link.femur.moment_transfer"]] - 1.0
+    models[:, index["link.femur.tilt_rad"]] += turns * turned
 
 
 def _tibia_bowed(models: np.ndarray, sizes: np.ndarray) -> None:
