@@ -33,7 +33,7 @@ GAUGE_ON_RIG = (
     "does"
 )
 RARE_SIGMAS = 3.0  # of the prior on a size: so far out lies the ratio that the catalogue calls `plausible_times`
-BEAM_TURNS = 1.8  # a beam moves a point beside its end 1.5 turns of the line to it aside under a force, 2 under a moment
+BEAM_TURNS = 1.8  # a beam moves a point beside its end by 1.5 turns of the line to it (a force), by 2 (a moment)
 BOWED_ALONG = 0.6  # a bow of c yields along the link by 8/5 (c/L)^2 of its bending, its turned ellipsoid by (c/L)^2
 
 Turn = Callable[[np.ndarray, np.ndarray], None]
@@ -150,7 +150,9 @@ def _against(final: Pass, cause: RivalCause) -> Contest | None:
     return _contest(final, cause, disputed, rival, Member((cause.label,), 0.0, fitted, limb, cause))
 
 
-def _in_place_of(final: Pass, cause: RivalCause, disputed: frozenset[str]) -> Iterator[tuple[float, frozenset[str], Fit]]:
+def _in_place_of(
+    final: Pass, cause: RivalCause, disputed: frozenset[str]
+) -> Iterator[tuple[float, frozenset[str], Fit]]:
     """How far each way of the cause is ahead of the chosen set, and its fit."""
     chosen = final.decision.chosen.best.fit
     for way in cause.ways:
