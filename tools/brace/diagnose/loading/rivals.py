@@ -33,6 +33,7 @@ GAUGE_ON_RIG = (
     "does"
 )
 RARE_SIGMAS = 3.0  # of the prior on a size: so far out lies the ratio that the catalogue calls `plausible_times`
+BEAM_TURNS = 1.8  # a beam moves a point beside its end by 1.5 turns of the line to it (a force), by 2 (a moment)
 BOWED_ALONG = 0.6  # a bow of c yields along the link by 8/5 (c/L)^2 of its bending, its turned ellipsoid by (c/L)^2
 
 Turn = Callable[[np.ndarray, np.ndarray], None]
@@ -149,7 +150,9 @@ def _against(final: Pass, cause: RivalCause) -> Contest | None:
     return _contest(final, cause, disputed, rival, Member((cause.label,), 0.0, fitted, limb, cause))
 
 
-def _in_place_of(final: Pass, cause: RivalCause, disputed: frozenset[str]) -> Iterator[tuple[float, frozenset[str], Fit]]:
+def _in_place_of(
+    final: Pass, cause: RivalCause, disputed: frozenset[str]
+) -> Iterator[tuple[float, frozenset[str], Fit]]:
     """How far each way of the cause is ahead of the chosen set, and its fit."""
     chosen = final.decision.chosen.best.fit
     for way in cause.ways:
@@ -340,14 +343,16 @@ def _rig_turned(models: np.ndarray, sizes: np.ndarray) -> None:
 
 
 def _knee_beside(models: np.ndarray, sizes: np.ndarray) -> None:
-    """The line to the knee turns and grows. The tibia keeps its direction, and the femur those in which it yields."""
+    """The line to the knee turns and grows, and the tibia keeps its direction. A femur that yields at its end keeps the
+    directions in which it yields. The end of a femur that is a beam turns, too, and moves the knee beside it."""
     index = number_index()
     femur_mm = models[:, index["geometry.femur_mm"]].copy()
     turned = np.arctan2(sizes[:, 0], femur_mm)
     models[:, index["geometry.femur_mm"]] = np.hypot(femur_mm, sizes[:, 0])
     models[:, index["joint.femur.zero_offset_rad"]] += turned
     models[:, index["joint.tibia.zero_offset_rad"]] += turned
-    models[:, index["link.femur.tilt_rad"]] -= turned
+    turns = BEAM_TURNS * models[:, index["link.femur.moment_transfer"]] - 1.0
+    models[:, index["link.femur.tilt_rad"]] += turns * turned
 
 
 def _tibia_bowed(models: np.ndarray, sizes: np.ndarray) -> None:
