@@ -1,4 +1,4 @@
-/* Codecs of every frame of BRACE_CAN_FRAMES, whose messages are taken as words of 32 bits: unpack_NAME and pack_NAME. */
+/* unpack_NAME and pack_NAME for every frame of BRACE_CAN_FRAMES. They treat a message as words of 32 bits. */
 #ifndef BRACE_TEST_FRAME_CODECS_H
 #define BRACE_TEST_FRAME_CODECS_H
 
