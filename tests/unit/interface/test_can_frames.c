@@ -6,6 +6,7 @@
 
 #include "brace/answering.h"
 #include "brace/can_frames.h"
+#include "frame_codecs.h"
 #include "unity.h"
 
 enum { TRIES = 100, MOST_WORDS = 32, MOST_BYTES = 64 };
@@ -17,22 +18,6 @@ typedef struct {
     void (*unpack)(const uint8_t *data, uint32_t *words);
     uint32_t (*pack)(const uint32_t *words, uint8_t *data);
 } frame_t;
-
-#define BOTH(name, bytes)                                                \
-    static void unpack_##name(const uint8_t *data, uint32_t *words)      \
-    {                                                                    \
-        brace_can_##name##_t message;                                    \
-        brace_can_unpack_##name(data, &message);                         \
-        memcpy(words, &message, sizeof message);                         \
-    }                                                                    \
-    static uint32_t pack_##name(const uint32_t *words, uint8_t *data)    \
-    {                                                                    \
-        brace_can_##name##_t message;                                    \
-        memcpy(&message, words, sizeof message);                         \
-        return brace_can_pack_##name(&message, data);                    \
-    }
-BRACE_CAN_FRAMES(BOTH)
-#undef BOTH
 
 #define ROW(name, bytes) {#name, bytes, sizeof(brace_can_##name##_t) / 4u, unpack_##name, pack_##name},
 static const frame_t frames[] = {BRACE_CAN_FRAMES(ROW)};

@@ -1,5 +1,5 @@
-/* What each drive is told: take-up and loading test together, within the torque of both and within the board's ceiling;
- * and whether a drive refuses. */
+/* The controller tells each drive what take-up and loading test ask for together. It keeps within the torque of both
+ * and within the board's ceiling, and it counts a drive that refuses. */
 #include "command/drives.h"
 
 #include <math.h>
@@ -155,7 +155,7 @@ static void test_a_drive_that_refuses_for_50_ms_is_told(void)
     tick(false); /* the last command is refused too */
     TEST_ASSERT_TRUE(drives_refuse(&drives));
     tick(false);
-    TEST_ASSERT_FALSE(drives_refuse(&drives)); /* nothing is told any more */
+    TEST_ASSERT_FALSE(drives_refuse(&drives)); /* the controller commands no drive now */
 }
 
 static void test_a_board_without_commands_is_told_nothing(void)

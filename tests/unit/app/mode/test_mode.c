@@ -65,7 +65,7 @@ static void test_without_K_whatever_moves_ends(void)
         inputs.faults = BRACE_FAULT_SENSOR_FEMUR;
         TEST_ASSERT_TRUE(update_from(working[i]));
         TEST_ASSERT_EQUAL(BRACE_MODE_FAULT, mode.now);
-        inputs.faults = BRACE_FAULT_DRIVE_REFUSES; /* K is told, and nothing may move */
+        inputs.faults = BRACE_FAULT_DRIVE_REFUSES; /* the controller still tells K, but moves nothing */
         TEST_ASSERT_TRUE(update_from(working[i]));
         TEST_ASSERT_EQUAL(BRACE_MODE_LOADING_TEST, mode.now);
         inputs.faults = BRACE_FAULT_MODEL_DRIFT; /* no reason to stop */

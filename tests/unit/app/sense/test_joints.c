@@ -104,7 +104,7 @@ static void test_an_angle_that_no_joint_could_have_reached_is_refused_once(void)
     TEST_ASSERT_EQUAL(4, bad);
 }
 
-/* The link's angle is watched as the motor's is; one that is absurd, or not there, says nothing. */
+/* The controller checks a link's angle as it checks the motor's. An absurd or missing angle counts as not measured. */
 static void test_link_angles_are_watched_too(void)
 {
     (void)read_at(1.0f, 1.0f, 100.0f);

@@ -236,7 +236,7 @@ static void test_idle_is_who_has_nothing_to_mind(void)
     static const uint8_t key[SIPHASH_KEY_BYTES] = {1};
     setUp();
     session_start(&ownership.session, false, key);
-    TEST_ASSERT_FALSE(ownership_is_idle(&ownership)); /* the next session's challenge is not there yet */
+    TEST_ASSERT_FALSE(ownership_is_idle(&ownership)); /* it still waits for the challenge of the next session */
     session_challenge(&ownership.session, 1);
     TEST_ASSERT_TRUE(ownership_is_idle(&ownership));
 }

@@ -29,7 +29,7 @@ static void step(bool is_counted, bool may_work)
     softening_step(&softening, &model, &parameters.limb, unbent_rad, is_counted, may_work);
 }
 
-/* Steps until a factor is told. returns how many */
+/* Steps until the search has found a factor. returns how many steps that took */
 static int until_told(void)
 {
     int count = 0;
@@ -58,7 +58,8 @@ static void test_a_search_ends_and_is_repeated(void)
     TEST_ASSERT_TRUE(first <= 120 && more <= 120 && more >= first - 6);
 }
 
-/* A factor that nobody may renew is told for 240 ticks; K without load stays. Without a load there is none at once. */
+/* While the search may not work, the factor found last counts for 240 ticks, and K without load stays. When the load
+ * goes, the factor goes at once. */
 static void test_a_factor_grows_old(void)
 {
     (void)until_told();

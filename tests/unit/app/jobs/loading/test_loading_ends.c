@@ -176,7 +176,8 @@ static void test_play_that_opens_in_a_test_ends_it(void)
     TEST_ASSERT_EQUAL(BRACE_LOADING_E_LOST, result()->outcome);
 }
 
-/* A nearly straight limb tells no force by its joints: when its sensor falls silent, the test has nothing to measure. */
+/* The joints of a nearly straight limb cannot tell the force. When the sensor at its tip falls silent, the loading test
+ * has nothing to measure, and ends. */
 static void test_a_sensor_that_falls_silent_on_a_straight_limb_ends_the_test(void)
 {
     brace_parameters_t p = bench_parameters();
