@@ -13,6 +13,7 @@ from itertools import product
 import numpy as np
 
 from brace.dataset import Dataset
+from brace.dataset.grid import step_of, unrounded
 from brace.errors import BadFileError
 from brace.identify.fit import Fit, Nuisances, columns_of, fit
 from brace.effects.catalogue import FRICTION_TURN, MOST_GAP, USUAL_LOAD_RATIO
@@ -69,7 +70,7 @@ class JointProblem:
                 why=f"at least {MIN_ROWS} readings are needed",
                 next_step="record more",
             )
-        self.dataset = dataset = apart(dataset)
+        self.dataset = dataset = apart(_as_it_stood(dataset))
         self.position_count = count(dataset)
         self.joint = dataset.meta.joint
         self.columns, self._counts = averaged(dataset, max(1, dataset.rows // block_rows))
@@ -296,6 +297,14 @@ def averaged(dataset: Dataset, block: int) -> tuple[dict[str, np.ndarray], np.nd
     }
     result["test"] = test[edges]
     return result, counts
+
+
+def _as_it_stood(dataset: Dataset) -> Dataset:
+    """The record with its angle as it stood before the encoder rounded it."""
+    step = step_of(dataset["angle_rad"])
+    if step <= 0.0:
+        return dataset
+    return dataset.with_columns({"angle_rad": unrounded(dataset["angle_rad"], dataset["test"], step)})
 
 
 def smoothed(values: np.ndarray, test: np.ndarray, counts: np.ndarray) -> np.ndarray:
