@@ -287,7 +287,7 @@ def as_read(torque: np.ndarray, nuisances: Nuisances, moved: Motion) -> np.ndarr
 
 def averaged(dataset: Dataset, block: int) -> tuple[dict[str, np.ndarray], np.ndarray]:
     """Means over `block` rows, never across tests, and how many rows are in each."""
-    test = dataset["test"] if "test" in dataset else np.zeros(dataset.rows, np.int32)
+    test = _tests(dataset)
     starts = np.concatenate([[0], np.flatnonzero(np.diff(test)) + 1, [test.size]])
     edges = np.concatenate([np.arange(first, last, block) for first, last in zip(starts[:-1], starts[1:])])
     counts = np.diff(np.append(edges, test.size))
@@ -299,12 +299,17 @@ def averaged(dataset: Dataset, block: int) -> tuple[dict[str, np.ndarray], np.nd
     return result, counts
 
 
+def _tests(dataset: Dataset) -> np.ndarray:
+    """The number of each row's test; a record that numbers none is one."""
+    return dataset["test"] if "test" in dataset else np.zeros(dataset.rows, np.int32)
+
+
 def _as_it_stood(dataset: Dataset) -> Dataset:
     """The record with its angle as it stood before the encoder rounded it."""
     step = step_of(dataset["angle_rad"])
     if step <= 0.0:
         return dataset
-    return dataset.with_columns({"angle_rad": unrounded(dataset["angle_rad"], dataset["test"], step)})
+    return dataset.with_columns({"angle_rad": unrounded(dataset["angle_rad"], _tests(dataset), step)})
 
 
 def smoothed(values: np.ndarray, test: np.ndarray, counts: np.ndarray) -> np.ndarray:
