@@ -305,11 +305,14 @@ def _tests(dataset: Dataset) -> np.ndarray:
 
 
 def _as_it_stood(dataset: Dataset) -> Dataset:
-    """The record with its angle as it stood before the encoder rounded it."""
-    step = step_of(dataset["angle_rad"])
-    if step <= 0.0:
+    """The record with its angle as it stood before the encoder rounded it, where the torque is read so well that this
+    shows."""
+    angle, torque = dataset["angle_rad"], dataset["torque_n_mm"]
+    step = step_of(angle)
+    spring_n_mm_per_rad = float(np.ptp(torque)) / max(float(np.ptp(angle)), 1e-30)
+    if spring_n_mm_per_rad * step / np.sqrt(12.0) <= noise(torque):
         return dataset
-    return dataset.with_columns({"angle_rad": unrounded(dataset["angle_rad"], _tests(dataset), step)})
+    return dataset.with_columns({"angle_rad": unrounded(angle, _tests(dataset), step)})
 
 
 def smoothed(values: np.ndarray, test: np.ndarray, counts: np.ndarray) -> np.ndarray:
