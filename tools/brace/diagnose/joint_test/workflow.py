@@ -150,7 +150,7 @@ def _told(
     tried = [*choice.sets, *choice.shaped]
     others = rivals(fitter, by_rows, best, frozenset(term.name for term in found), tried)
     effects = _named(fitter, by_rows, best, exported, found, others, choice.count, random)
-    small = [term.name for term in found if _lost_rad(term, exported.values, record) < _least_rad(term, record)]
+    small = [term.name for term in found if _is_small(term, exported.values, record)]
 
     def is_weak(one: NamedEffect) -> bool:
         told = {**exported.values, **{key: size.value for key, size in one.parameters.items()}}
@@ -365,10 +365,12 @@ def _lost_rad(term: Term, values: Mapping[str, float], record: JointRecord) -> f
     return term.shows.lost_rad(term.by_leaf(values), record.size, spring)
 
 
-def _least_rad(term: Term, record: JointRecord) -> float:
-    """The least that an effect must move the joint to be named [rad]."""
-    of_swing = LEAST * record.size.angle_rad if term.name in STOPS else 0.0
-    return max(of_swing, LEAST_OF_STEP * record.angle_step_rad)
+def _is_small(term: Term, values: Mapping[str, float], record: JointRecord) -> bool:
+    """Whether the effect moves the joint by less than instruments can tell."""
+    lost_rad = _lost_rad(term, values, record)
+    if term.name in STOPS and lost_rad < LEAST * record.size.angle_rad:
+        return True
+    return 0.0 < lost_rad < LEAST_OF_STEP * record.angle_step_rad
 
 
 def _gaps(
