@@ -254,6 +254,17 @@ def test_a_posture_under_a_foreign_name_is_asked(brace: Brace, tmp_path: Path) -
     assert "'pressure': what is it?" not in asked.err + asked.out  # it changes from row to row
 
 
+def test_a_displacement_that_was_not_measured_is_told_as_a_guess(brace: Brace, tmp_path: Path) -> None:
+    """Under a weight on a free tip the guess is wrong, and nothing in the record shows it."""
+    table = tmp_path / "rig.csv"
+    rows = "\n".join(f"{n},-40,80,{n},{0.2 * n:.1f}" for n in range(6))
+    table.write_text(f"t (s),hip (deg),knee (deg),fz (N),dz (mm)\n{rows}\n")
+    done = brace("import", table, "--out", tmp_path / "out", "--yes")
+    assert done.code == 0 and "dx_mm was not measured" in done.err
+    assert "If the tip was free to move that way, this record gives a wrong K" in done.err
+    assert "wrong K" in (tmp_path / "out" / "meta.toml").read_text()
+
+
 def test_hip_and_knee_without_a_unit_are_asked_once(brace: Brace, tmp_path: Path) -> None:
     table = tmp_path / "rig.csv"
     table.write_text("hip,knee,fz (N),dz (mm)\n" + "\n".join(f"-40,80,{n},{0.2 * n}" for n in range(4)) + "\n")
