@@ -217,8 +217,8 @@ def _displacements(table: Table, axis: np.ndarray, rows: int, notes: list[str]) 
         )
     if lacking:
         notes.append(
-            f"{table.part.path.name}: {' and '.join(lacking)} {'was' if len(lacking) == 1 else 'were'} not measured and "
-            "taken as 0 across the axis: the rig is taken to hold the tip there. If the tip was free to move that way, "
+            f"{table.part.path.name}: {' and '.join(lacking)} {'was' if len(lacking) == 1 else 'were'} not measured "
+            "and taken as 0 across the axis: the rig is taken to hold the tip there. If the tip was free to move that way, "
             "this record gives a wrong K: measure both displacements"
         )
     return out
