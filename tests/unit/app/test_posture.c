@@ -128,7 +128,8 @@ static void test_a_load_takes_the_limb_where_it_says(void)
 static void test_moments_about_the_coxa_joint_are_in_balance(void)
 {
     static const float leans[] = {0.0f, 0.4f, -0.7f}, coxas_n_mm[] = {100.0f, -350.0f}, x_ns[] = {4.0f, -9.0f};
-    const posture_bend_t bend = {.tip_across_mm = 12.0f, .tibia_across_mm = 7.0f, .joint_turn_rad = {0.05f, 0.0f, 0.0f}};
+    const posture_bend_t bend = {
+        .tip_across_mm = 12.0f, .tibia_across_mm = 7.0f, .joint_turn_rad = {0.05f, 0.0f, 0.0f}};
     for (int i = 0; i < 24; i++) {
         const float lean = leans[i % 3], coxa_n_mm = coxas_n_mm[i / 3 % 2];
         const bool is_turned = i / 12 != 0;

@@ -403,8 +403,8 @@ static void add_hinge(column_t *at, double force_n, double rad_per_n_mm)
     at->slope -= rad_per_n_mm * force_n * at->aside_mm;
 }
 
-/* Slope at the base, of a unit's slope at the tip: a column stands while it is above zero. In the plane the limb ends at
- * the hip, with the base's rotation; in space the coxa link goes on to the base. */
+/* Slope at the base, of a unit's slope at the tip: a column stands while it is above zero. In the plane the limb ends
+ * at the hip, with the base's rotation; in space the coxa link goes on to the base. */
 static double slope_in_plane(double force_n)
 {
     column_t at = {0.0, 1.0};
@@ -508,8 +508,8 @@ static void be_column(const yields_t *of)
     }
 }
 
-/* The factor is the load that buckles it over the present one, at whatever load it is asked. Integers need not hold what
- * lies within half of it. */
+/* The factor is the load that buckles it over the present one, at whatever load it is asked. Integers need not hold
+ * what lies within half of it. */
 static void expect_factor(double factor, double told, double within)
 {
     if (factor < 10.5) {
@@ -524,8 +524,8 @@ static void test_columns_buckle_as_their_energy_says(void)
     for (uint32_t n = 0; n < sizeof columns / sizeof *columns; n++) {
         const yields_t *of = &columns[n];
         be_column(of);
-        const double plane_n = buckles_at(slope_in_plane), up_n = buckles_at(slope_up), aside_n = buckles_at(slope_aside);
-        const double space_n = fmin(up_n, aside_n);
+        const double plane_n = buckles_at(slope_in_plane);
+        const double space_n = fmin(buckles_at(slope_up), buckles_at(slope_aside));
         for (int i = 0; i < 60 * PATHS; i++) {
             const path_t path = (path_t)(i % PATHS);
             const double factor = 1.02 * pow(1.05, i / PATHS);
@@ -624,8 +624,8 @@ static double apart(float a, float b)
 }
 
 /* They share no line. In the plane they take the same steps, so that they are apart by the rounding of words alone,
- * whatever the load: 2^-26 of the limb's size, some hundreds of times that in K. The end of the search for the factor is
- * a parabola on determinants of other loads. */
+ * whatever the load: 2^-26 of the limb's size, some hundreds of times that in K. The end of the search for the factor
+ * is a parabola on determinants of other loads. */
 static void test_in_the_plane_floats_and_integers_agree(void)
 {
     int told = 0, factors = 0;
@@ -672,7 +672,8 @@ static void test_in_space_floats_and_integers_agree(void)
     for (int i = 0; i < 2000; i++) {
         const double force_n = any(1.0, 60.0), turn_rad = i % 2 == 0 ? 0.05 : 0.15;
         be_even(turn_rad, force_n);
-        const double down_rad = any(-3.2, 3.2), force_rad = any(-3.2, 3.2), up = any(-1.0, 1.0), out = sqrt(1.0 - up * up);
+        const double down_rad = any(-3.2, 3.2), force_rad = any(-3.2, 3.2), up = any(-1.0, 1.0);
+        const double out = sqrt(1.0 - up * up);
         space_load.down = (brace_vec3_t){(float)(0.6 * cos(down_rad)), 0.8f, (float)(0.6 * sin(down_rad))};
         const double at_n[3] = {force_n * out * cos(force_rad), force_n * up, force_n * out * sin(force_rad)};
         brace_space_result_t a, b;
