@@ -256,6 +256,18 @@ static void test_slender_K_is_flagged_from_its_bound_on(void)
     }
 }
 
+/* Integers tell K in the plane down to the last place that a word has left of it. */
+static void test_slender_K_is_told_down_to_the_last_place(void)
+{
+    for (int axis = 0; axis < 3; axis += 2) {
+        const brace_k3_t told = slender_k(axis, 1.5f * 0x1p-27f), none = slender_k(axis, 0.7f * 0x1p-28f);
+        TEST_ASSERT_EQUAL(BRACE_OK, put_in_plane(true, &told));
+        TEST_ASSERT_EQUAL_UINT32(BRACE_FLAG_NEAR_SINGULAR, flags);
+        TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, put_in_plane(true, &none));
+        TEST_ASSERT_EQUAL(BRACE_OK, put_in_plane(false, &told));
+    }
+}
+
 static void test_turning_up_to_its_bound(void)
 {
     const brace_k3_t k = slender_k(0, 0.5f);
@@ -277,6 +289,7 @@ int main(void)
     RUN_TEST(test_in_the_plane_two_steps_settle_up_to_a_bound);
     RUN_TEST(test_what_resists_no_more_is_refused);
     RUN_TEST(test_slender_K_is_flagged_from_its_bound_on);
+    RUN_TEST(test_slender_K_is_told_down_to_the_last_place);
     RUN_TEST(test_turning_up_to_its_bound);
     return UNITY_END();
 }

@@ -602,7 +602,7 @@ static void be_even(double turn_rad, double force_n)
     const float length_mm[BRACE_LINK_COUNT] = {limb.coxa_mm, limb.femur_mm, limb.tibia_mm};
     for (int i = 0; i < BRACE_LINK_COUNT; i++) {
         const double square = (double)length_mm[i] * (double)length_mm[i];
-        limb.link[i] = (brace_link_t){.axial_mm_per_n = (float)(any(0.02, 0.1) * per_n_mm * square),
+        limb.link[i] = (brace_link_t){.axial_mm_per_n = (float)(any(0.02, 0.2) * per_n_mm * square),
                                       .bending_mm_per_n = (float)(any(0.1, 0.4) * per_n_mm * square),
                                       .lateral_mm_per_n = (float)(any(0.1, 0.4) * per_n_mm * square),
                                       .torsion_rad_per_n_mm = (float)(any(0.2, 1.0) * per_n_mm),
@@ -658,7 +658,7 @@ static void test_in_the_plane_floats_and_integers_agree(void)
         TEST_ASSERT_DOUBLE_WITHIN(3e-6, 0.0, apart(a.knee_turn_rad, b.knee_turn_rad));
         if (i % 2 == 0 && a.buckling_factor < 10.0f) {
             factors++;
-            TEST_ASSERT_DOUBLE_WITHIN(2e-3, 1.0, (double)(b.buckling_factor / a.buckling_factor));
+            TEST_ASSERT_DOUBLE_WITHIN(1e-3, 1.0, (double)(b.buckling_factor / a.buckling_factor));
         }
     }
     TEST_ASSERT_TRUE(told > 1800 && factors > 40);
