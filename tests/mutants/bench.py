@@ -109,6 +109,11 @@ class Bench:
         tests = (name for name in self.commands if name.startswith(SUITES))
         return {Path(name).stem: name for name in tests if Path(name).stem.startswith("test_")}
 
+    def newest_of(self, suite: str) -> float:
+        """When the newest object was made that a suite runs."""
+        sources = [*self.linked, self.source_of()[suite]]
+        return max(self.object_of(name).stat().st_mtime for name in sources)
+
     def link_suite(self, test_object: Path, program: Path) -> None:
         """A suite; it takes the library that it finds when it runs."""
         objects = [str(test_object), str(self.object_of("unity.c"))]

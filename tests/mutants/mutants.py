@@ -78,9 +78,9 @@ class Judge:
             self.by_file[file].update(names)
         self.kills: Counter[tuple[str, str]] = Counter()
         self.folder = bench.WORK / "mutant"
-        costs = read_costs()
+        costs, looked_at = read_costs(), COSTS.stat().st_mtime if COSTS.is_file() else 0.0
         for name, suite in self.suites.items():
-            if name not in costs:
+            if name not in costs or self.bench.newest_of(name) > looked_at:
                 ending = bench.run_suite(suite, bench.WORK, 300)
                 if not ending.passes:
                     raise bench.BuildError(f"{name} fails without a mutant: {ending.words}")

@@ -64,6 +64,24 @@ static void test_the_model_is_compared_in_sigmas(void)
     TEST_ASSERT_TRUE(result()->z_x < -3.0f);
 }
 
+/* The model's K is that under the mean of the forces, which has little of the noise of a single one. */
+static void test_the_model_is_that_under_the_mean_force(void)
+{
+    const brace_parameters_t p = bench_parameters();
+    truth = model_k();
+    noise_n = 0.5f;
+    for (int axis = 0; axis < 2; axis++) {
+        brace_loading_setup_t setup = along_x;
+        setup.axis = axis == 0 ? BRACE_AXIS_X : BRACE_AXIS_Z;
+        run(&setup);
+        TEST_ASSERT_EQUAL(BRACE_LOADING_DONE, result()->outcome);
+        const brace_force_t mean = {result()->preload_x_n, result()->preload_z_n};
+        const brace_stiffness_t k = equilibrium(&p, (float)theta1, (float)theta2, mean, (brace_vec_t){0.0f, -1.0f}).stiffness;
+        ASSERT_CLOSE(axis == 0 ? k.k_xx_n_per_mm : k.k_xz_n_per_mm, result()->model_k_x_n_per_mm, 2e-3);
+        ASSERT_CLOSE(axis == 0 ? k.k_xz_n_per_mm : k.k_zz_n_per_mm, result()->model_k_z_n_per_mm, 2e-3);
+    }
+}
+
 static void test_noise_is_in_the_sigma_of_the_slope(void)
 {
     noise_n = 0.5f;
@@ -222,6 +240,7 @@ int main(void)
     RUN_TEST(test_the_slope_along_x_is_the_first_column_of_K);
     RUN_TEST(test_the_slope_along_z_is_the_second_column);
     RUN_TEST(test_the_model_is_compared_in_sigmas);
+    RUN_TEST(test_the_model_is_that_under_the_mean_force);
     RUN_TEST(test_noise_is_in_the_sigma_of_the_slope);
     RUN_TEST(test_commanded_displacement_has_the_servo_in_it);
     RUN_TEST(test_what_is_off_the_axis_is_taken_off_by_the_model);
