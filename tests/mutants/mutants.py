@@ -177,16 +177,30 @@ def read_kept() -> dict[generate.Mutant, Outcome]:
     return found
 
 
-def read_argued() -> dict[tuple[str, str, str], str]:
-    """survivors.toml: file, line without and with the mutant: why no suite needs to find it."""
+@dataclass(frozen=True)
+class Argument:
+    """Why no suite needs to find a mutant. behind: the line before it, where its own stands in the file twice."""
+
+    behind: str
+    why: str
+
+
+def read_argued() -> dict[tuple[str, str, str], Argument]:
+    """survivors.toml: file, line without and with the mutant: the argument."""
     items = tomllib.loads((HERE / "survivors.toml").read_text()).get("survivor", [])
     return {
-        (item["file"], item["old"].strip(), item["new"].strip()): " ".join(item["why"].split()) for item in items
+        (item["file"], item["old"].strip(), item["new"].strip()): Argument(
+            item.get("behind", ""), " ".join(item["why"].split())
+        )
+        for item in items
     }
 
 
-def argued(mutant: generate.Mutant, known: dict[tuple[str, str, str], str]) -> str:
-    return known.get((mutant.file, mutant.old.strip(), mutant.new.strip()), "")
+def argued(mutant: generate.Mutant, known: dict[tuple[str, str, str], Argument]) -> str:
+    """The argument for this mutant, or nothing."""
+    argument = known.get((mutant.file, mutant.old.strip(), mutant.new.strip()), Argument("", ""))
+    before = (bench.ROOT / mutant.file).read_text().splitlines()[mutant.line - 2].strip()
+    return argument.why if argument.behind in ("", before) else ""
 
 
 def report(outcomes: list[Outcome], seed: int) -> int:

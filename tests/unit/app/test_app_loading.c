@@ -76,7 +76,8 @@ static void test_the_model_is_that_under_the_mean_force(void)
         run(&setup);
         TEST_ASSERT_EQUAL(BRACE_LOADING_DONE, result()->outcome);
         const brace_force_t mean = {result()->preload_x_n, result()->preload_z_n};
-        const brace_stiffness_t k = equilibrium(&p, (float)theta1, (float)theta2, mean, (brace_vec_t){0.0f, -1.0f}).stiffness;
+        const brace_stiffness_t k =
+            equilibrium(&p, (float)theta1, (float)theta2, mean, (brace_vec_t){0.0f, -1.0f}).stiffness;
         ASSERT_CLOSE(axis == 0 ? k.k_xx_n_per_mm : k.k_xz_n_per_mm, result()->model_k_x_n_per_mm, 2e-3);
         ASSERT_CLOSE(axis == 0 ? k.k_xz_n_per_mm : k.k_zz_n_per_mm, result()->model_k_z_n_per_mm, 2e-3);
     }

@@ -1,5 +1,5 @@
-/* The words of the integer paths under a load: products, quotients and floats, against the same in double precision; and
- * every bound that is noted, at it and just within. The bounds are those that fixed_vec.h and number.h name. */
+/* The words of the integer paths under a load: products, quotients and floats, against the same in double precision;
+ * and every bound that is noted, at it and just within. The bounds are those that fixed_vec.h and number.h name. */
 #include <math.h>
 
 #pragma GCC diagnostic ignored "-Wunused-function" /* what else the header has */
@@ -104,8 +104,8 @@ static void test_floats_from_and_to_words(void)
     for (int i = 0; i < 20000; i++) {
         const int32_t number = any_number(), format = (int32_t)(any_word() % 80u) - 40;
         const double right = ldexp((double)number, -format);
-        /* truncated, and a negative one by a last place */
-        TEST_ASSERT_DOUBLE_WITHIN(fabs(right) * 0x1p-23 + ldexp(1.0, -format), right, (double)float_from(number, format));
+        const double last = fabs(right) * 0x1p-23 + ldexp(1.0, -format); /* truncated; a negative word by its last place */
+        TEST_ASSERT_DOUBLE_WITHIN(last, right, (double)float_from(number, format));
     }
     TEST_ASSERT_EQUAL_HEX32(0u, bits_of(float_from(0, 20)));
     for (int32_t format = -20; format <= 60; format++) {

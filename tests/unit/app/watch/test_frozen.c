@@ -1,5 +1,5 @@
-/* When a joint's sensor counts as frozen: each of the five proofs at its bound, just within and just beyond, from samples
- * that are made up here. tests/unit/app/test_app_frozen.c plays them through the controller. */
+/* When a joint's sensor counts as frozen: each of the five proofs at its bound, just within and just beyond, from
+ * samples that are made up here. tests/unit/app/test_app_frozen.c plays them through the controller. */
 #include <math.h>
 #include <string.h>
 
