@@ -104,7 +104,8 @@ static void test_floats_from_and_to_words(void)
     for (int i = 0; i < 20000; i++) {
         const int32_t number = any_number(), format = (int32_t)(any_word() % 80u) - 40;
         const double right = ldexp((double)number, -format);
-        const double last = fabs(right) * 0x1p-23 + ldexp(1.0, -format); /* truncated; a negative word by its last place */
+        /* truncated, and a negative word by its last place */
+        const double last = fabs(right) * 0x1p-23 + ldexp(1.0, -format);
         TEST_ASSERT_DOUBLE_WITHIN(last, right, (double)float_from(number, format));
     }
     TEST_ASSERT_EQUAL_HEX32(0u, bits_of(float_from(0, 20)));
