@@ -93,9 +93,11 @@ static void test_the_journal_of_a_fresh_set_is_not_searched(void)
                                    .origin = BRACE_PARAMETERS_SLOT_A, .may_work = true, .may_write = false};
     for (int is_fresh = 0; is_fresh < 2; is_fresh++) {
         memset(&job, 0, sizeof job);
-        job.is_erased = is_fresh == 0; /* of the set before */
+        job.is_erased = is_fresh == 0; /* of the set before, like all that waits */
+        job.opens = job.scans = job.has_reading = job.looks = job.foresees = job.has_outlook = true;
         drift_job_configure(&job, is_fresh != 0);
         TEST_ASSERT_TRUE(job.learns_anew);
+        TEST_ASSERT_FALSE(job.opens || job.scans || job.has_reading || job.looks || job.foresees || job.has_outlook);
         drift_job_step(&job, &inputs);
         TEST_ASSERT_TRUE(job.opens && !job.learns_anew);
         drift_job_step(&job, &inputs);

@@ -372,6 +372,198 @@ static void test_limbs_of_two_hinges(void)
     TEST_ASSERT_TRUE(told > 300 && factors > 40);
 }
 
+/* --- limbs of three hinges, in space -------------------------------------------------------------------------- */
+
+typedef struct {
+    double turn[3], tip_mm[3], k[3][3], factor;
+} hinged_in_space_t;
+
+/* Places of knee and tip, of rigid links. */
+static void places_of(const double turn[3], double knee_mm[3], double tip_mm[3])
+{
+    const double a = theta1_rad + turn[1], b = theta1_rad - theta2_rad + turn[1] + turn[2];
+    const double knee = (double)limb.coxa_mm + (double)limb.femur_mm * cos(a);
+    const double tip = knee + (double)limb.tibia_mm * cos(b);
+    knee_mm[0] = cos(turn[0]) * knee, knee_mm[1] = sin(turn[0]) * knee, knee_mm[2] = (double)limb.femur_mm * sin(a);
+    tip_mm[0] = cos(turn[0]) * tip, tip_mm[1] = sin(turn[0]) * tip;
+    tip_mm[2] = knee_mm[2] + (double)limb.tibia_mm * sin(b);
+}
+
+/* What the tip's force and the weights have as potential energy. Each link weighs in its middle. */
+static double load_energy(const double turn[3], const double force_n[3])
+{
+    const double down[3] = {(double)space_load.down.x, (double)space_load.down.y, (double)space_load.down.z};
+    const double root_mm[3] = {(double)limb.coxa_mm * cos(turn[0]), (double)limb.coxa_mm * sin(turn[0]), 0.0};
+    double knee_mm[3], tip_mm[3], energy = 0.0;
+    places_of(turn, knee_mm, tip_mm);
+    for (int axis = 0; axis < 3; axis++) {
+        const double weighed = (double)weights.femur_n * 0.5 * (root_mm[axis] + knee_mm[axis]) +
+                               (double)weights.knee_n * knee_mm[axis] +
+                               (double)weights.tibia_n * 0.5 * (knee_mm[axis] + tip_mm[axis]);
+        energy -= force_n[axis] * tip_mm[axis] + down[axis] * weighed;
+    }
+    return energy;
+}
+
+static double energy_at(const double turn[3], const double force_n[3], int i, double by, int j, double and_by)
+{
+    double near[3] = {turn[0], turn[1], turn[2]};
+    near[i] += by, near[j] += and_by;
+    return load_energy(near, force_n);
+}
+
+static void slopes_of(const double turn[3], const double force_n[3], double slope[3], double bend[3][3])
+{
+    const double h = 1e-4;
+    for (int i = 0; i < 3; i++) {
+        slope[i] = (energy_at(turn, force_n, i, h, i, 0.0) - energy_at(turn, force_n, i, -h, i, 0.0)) / (2.0 * h);
+        for (int j = 0; j < 3; j++) {
+            bend[i][j] = (energy_at(turn, force_n, i, h, j, h) - energy_at(turn, force_n, i, h, j, -h) -
+                          energy_at(turn, force_n, i, -h, j, h) + energy_at(turn, force_n, i, -h, j, -h)) /
+                         (4.0 * h * h);
+        }
+    }
+}
+
+static double det_of(const double m[3][3])
+{
+    return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+           m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+}
+
+/* The springs' determinant with so many times the load. */
+static double softened(const double yields[3], const double bend[3][3], double times)
+{
+    double m[3][3];
+    for (int i = 0; i < 9; i++) {
+        m[i / 3][i % 3] = times * bend[i / 3][i % 3] * yields[i / 3] + (i / 3 == i % 3 ? 1.0 : 0.0);
+    }
+    return det_of((const double(*)[3])m);
+}
+
+/* x of m x = right, by Cramer. */
+static void solved(const double m[3][3], const double right[3], double x[3])
+{
+    const double det = det_of(m);
+    for (int column = 0; column < 3; column++) {
+        double with[3][3];
+        memcpy(with, m, sizeof with);
+        for (int row = 0; row < 3; row++) {
+            with[row][column] = right[row];
+        }
+        x[column] = det_of((const double(*)[3])with) / det;
+    }
+}
+
+static hinged_in_space_t hinged_in_space(const double yields[3], const double force_n[3])
+{
+    hinged_in_space_t r = {.turn = {0.0, 0.0, 0.0}, .factor = (double)INFINITY};
+    double slope[3], bend[3][3], whole[3][3], jacobian[3][3], knee_mm[3], straight_mm[3];
+    const double none[3] = {0.0, 0.0, 0.0};
+    for (int step = 0; step < 40; step++) {
+        double off[3], by[3];
+        slopes_of(r.turn, force_n, slope, bend);
+        for (int i = 0; i < 3; i++) {
+            off[i] = -slope[i] - r.turn[i] / yields[i];
+            for (int j = 0; j < 3; j++) {
+                whole[i][j] = bend[i][j] + (i == j ? 1.0 / yields[i] : 0.0);
+            }
+        }
+        solved((const double(*)[3])whole, off, by);
+        for (int i = 0; i < 3; i++) {
+            r.turn[i] += by[i];
+        }
+    }
+    places_of(r.turn, knee_mm, r.tip_mm);
+    places_of(none, knee_mm, straight_mm);
+    for (int j = 0; j < 3; j++) { /* how the tip moves with each turn, one a row */
+        double ahead_mm[3], behind_mm[3], near[3] = {r.turn[0], r.turn[1], r.turn[2]};
+        near[j] += 1e-5;
+        places_of(near, knee_mm, ahead_mm);
+        near[j] -= 2e-5;
+        places_of(near, knee_mm, behind_mm);
+        for (int axis = 0; axis < 3; axis++) {
+            jacobian[j][axis] = (ahead_mm[axis] - behind_mm[axis]) / 2e-5;
+        }
+        r.tip_mm[j] -= straight_mm[j];
+    }
+    /* A move d turns the joints by q, where J' q = d; the force against it is J^-1 H q. */
+    for (int axis = 0; axis < 3; axis++) {
+        double moved[3] = {0.0, 0.0, 0.0}, turn[3], moment[3] = {0.0, 0.0, 0.0}, transposed[3][3];
+        moved[axis] = 1.0;
+        for (int i = 0; i < 9; i++) {
+            transposed[i % 3][i / 3] = jacobian[i / 3][i % 3];
+        }
+        solved((const double(*)[3])transposed, moved, turn);
+        for (int i = 0; i < 9; i++) {
+            moment[i / 3] += whole[i / 3][i % 3] * turn[i % 3];
+        }
+        solved((const double(*)[3])jacobian, moment, r.k[axis]);
+    }
+    for (double times = 0.0; times < 20.0 && isinf(r.factor); times += 0.01) {
+        if (softened(yields, (const double(*)[3])bend, times + 0.01) <= 0.0) {
+            double below = times, above = times + 0.01;
+            for (int halving = 0; halving < 40; halving++) {
+                const double middle = 0.5 * (below + above);
+                *(softened(yields, (const double(*)[3])bend, middle) > 0.0 ? &below : &above) = middle;
+            }
+            r.factor = below;
+        }
+    }
+    return r;
+}
+
+/* The second step is made with the matrix of the straight limb: it leaves the cube of what the limb turns. */
+static void test_limbs_of_three_hinges(void)
+{
+    int told = 0, factors = 0;
+    for (int i = 0; i < 300; i++) {
+        const path_t path = (path_t)(i % PATHS);
+        be_hinged(1e-5f * (float)(1 + i % 5), 1.6e-5f * (float)(1 + i % 3));
+        limb.joint[BRACE_COXA].compliance_rad_per_n_mm = 1.2e-5f * (float)(1 + i % 4);
+        limb.coxa_mm = 30.0f + 10.0f * (float)(i % 5);
+        limb.femur_mm = 100.0f + 20.0f * (float)(i % 7), limb.tibia_mm = 120.0f + 25.0f * (float)(i % 4);
+        weights = (brace_gravity_t){
+            .femur_n = 3.0f * (float)(i % 3), .knee_n = 1.5f * (float)(i % 4), .tibia_n = 2.5f * (float)(i % 5)};
+        const double lean_rad = 0.5 * sin(i), down_rad = 0.61 * i, size_n = 1.0 + i % 13, up = sin(1.1 * i);
+        space_load.down = (brace_vec3_t){(float)(cos(lean_rad) * cos(down_rad)), (float)sin(lean_rad),
+                                         (float)(cos(lean_rad) * sin(down_rad))};
+        theta1_rad = (double)(-1.5f + 0.3f * (float)(i % 11)), theta2_rad = (double)(0.4f + 0.35f * (float)(i % 6));
+        const double out_n = size_n * sqrt(1.0 - up * up);
+        const double force_n[3] = {out_n * cos(0.37 * i), size_n * up, out_n * sin(0.37 * i)};
+        const double yields[3] = {(double)limb.joint[0].compliance_rad_per_n_mm,
+                                  (double)limb.joint[1].compliance_rad_per_n_mm,
+                                  (double)limb.joint[2].compliance_rad_per_n_mm};
+        const hinged_in_space_t h = hinged_in_space(yields, force_n);
+        float factor;
+        const brace_space_result_t r = in_space(path, force_n, &factor);
+        const double turned = fabs(h.turn[0]) + fabs(h.turn[1]) + fabs(h.turn[2]);
+        const double left = 2.0 * (turned * turned * turned + 5e-5);
+        const double is_turn[3] = {(double)r.yaw_turn_rad, (double)r.hip_turn_rad, (double)r.knee_turn_rad};
+        const double is_mm[3] = {(double)r.displacement_mm.x, (double)r.displacement_mm.y, (double)r.displacement_mm.z};
+        const double is_k[6] = {(double)r.k.xx_n_per_mm, (double)r.k.xy_n_per_mm, (double)r.k.xz_n_per_mm,
+                                (double)r.k.yy_n_per_mm, (double)r.k.yz_n_per_mm, (double)r.k.zz_n_per_mm};
+        const double k[6] = {h.k[0][0], h.k[0][1], h.k[0][2], h.k[1][1], h.k[1][2], h.k[2][2]};
+        const double trace = k[0] + k[3] + k[5];
+        double c[3][3];
+        inverse_of(&r.k, c);
+        const bool is_slender = trace * (c[0][0] + c[1][1] + c[2][2]) > 100.0;
+        for (int e = 0; e < 6; e++) {
+            TEST_ASSERT_DOUBLE_WITHIN(left, h.turn[e % 3], is_turn[e % 3]);
+            TEST_ASSERT_DOUBLE_WITHIN(500.0 * left, h.tip_mm[e % 3], is_mm[e % 3]);
+            TEST_ASSERT_TRUE(is_slender || fabs(k[e] - is_k[e]) < 2.0 * left * trace);
+        }
+        told += is_slender ? 0 : 1;
+        if (h.factor > 1.3 && h.factor < 10.0) { /* integers may end on a load that they have met */
+            factors++;
+            TEST_ASSERT_DOUBLE_WITHIN((path == FLOATS ? 1e-3 : 0.031) * h.factor, h.factor, (double)factor);
+        } else if (h.factor > 17.0) {
+            TEST_ASSERT_TRUE(isinf(factor));
+        }
+    }
+    TEST_ASSERT_TRUE(told > 150 && factors > 25);
+}
+
 /* --- straight limbs pressed along themselves ------------------------------------------------------------------ */
 
 /* A column from the tip to the base, under a force along it: how far it is aside there, and its slope. */
@@ -713,6 +905,7 @@ int main(void)
     RUN_TEST(test_in_the_plane_the_knee_s_weight_is_a_force_there);
     RUN_TEST(test_in_space_the_knee_s_weight_is_a_force_there);
     RUN_TEST(test_limbs_of_two_hinges);
+    RUN_TEST(test_limbs_of_three_hinges);
     RUN_TEST(test_columns_buckle_as_their_energy_says);
     RUN_TEST(test_columns_that_are_pulled);
     RUN_TEST(test_in_the_plane_floats_and_integers_agree);

@@ -159,6 +159,41 @@ static void test_every_counter_counts_its_own(void)
     }
 }
 
+/* Function 08 without a whole word behind its number is none. */
+static void test_a_diagnosis_has_its_length(void)
+{
+    static const uint8_t pdu[] = {8, 0, 0, 1, 2, 3, 4, 5, 6};
+    for (uint32_t length = 1; length <= sizeof pdu; length++) {
+        const reply_t reply = tcp_asks(UNIT, pdu, length);
+        if (length >= 5u && length % 2u == 1u) { /* an echo of whole words */
+            TEST_ASSERT_EQUAL(length, reply.count);
+            TEST_ASSERT_EQUAL_HEX8_ARRAY(pdu, reply.byte, length);
+        } else {
+            TEST_ASSERT_EQUAL(2, reply.count);
+            TEST_ASSERT_EQUAL_HEX8(0x88, reply.byte[0]);
+            TEST_ASSERT_EQUAL(MODBUS_E_VALUE, reply.byte[1]);
+        }
+    }
+}
+
+/* However a request over TCP is cut, it is answered once when it is whole, and so is the one behind it. */
+static void test_a_request_over_tcp_may_come_in_pieces(void)
+{
+    static const uint8_t adu[] = {0, 1, 0, 0, 0, 6, UNIT, 4, 0, 0, 0, 2};
+    for (uint32_t piece = 1; piece <= sizeof adu; piece++) {
+        for (int round = 0; round < 2; round++) {
+            for (uint32_t at = 0; at < sizeof adu; at += piece) {
+                const uint32_t count = sizeof adu - at < piece ? (uint32_t)sizeof adu - at : piece;
+                uint8_t sink[16];
+                TEST_ASSERT_EQUAL(0, brace_fake_bytes_take(&fake, BRACE_SERIAL_MODBUS_TCP, sink, sizeof sink));
+                TEST_ASSERT_EQUAL(count, brace_fake_bytes_arrive(&fake, BRACE_SERIAL_MODBUS_TCP, adu + at, count));
+                ticks(1);
+            }
+            TEST_ASSERT_EQUAL(13, heard(BRACE_SERIAL_MODBUS_TCP).count);
+        }
+    }
+}
+
 /* Nothing has been asked yet, and every register of a question and of its answer says that it is not known. */
 static void test_questions_that_nobody_asked_read_as_not_known(void)
 {
@@ -181,6 +216,8 @@ int main(void)
     RUN_TEST(test_what_a_command_s_register_reads);
     RUN_TEST(test_what_comes_over_tcp_is_counted_once);
     RUN_TEST(test_every_counter_counts_its_own);
+    RUN_TEST(test_a_diagnosis_has_its_length);
+    RUN_TEST(test_a_request_over_tcp_may_come_in_pieces);
     RUN_TEST(test_questions_that_nobody_asked_read_as_not_known);
     return UNITY_END();
 }
