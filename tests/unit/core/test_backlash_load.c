@@ -202,6 +202,26 @@ static void inertia_is_taken_off(void)
     ASSERT_CLOSE(1000.0 + FRICTION_N_MM + 100.0, joint.torque_n_mm, 1.0);
 }
 
+/* The link lags behind the motor by no more than half the gap, either way: where it began in the gap, it may be between
+ * the two that began at its ends. */
+static void where_the_link_may_be_in_its_gap(void)
+{
+    const double half = 0.005;
+    double low = -half, high = half, motor_rad = 0.3;
+    begin(motor_rad, 0.0);
+    joint.play_low_rad = (float)low, joint.play_high_rad = (float)high;
+    for (int i = 0; i < 400; i++) {
+        const double to_rad = 0.3 + 0.004 * sin(0.05 * i) + (i > 200 ? 0.009 * sin(0.11 * i) : 0.0);
+        low = fmax(-half, fmin(half, low + to_rad - motor_rad));
+        high = fmax(-half, fmin(half, high + to_rad - motor_rad));
+        motor_rad = to_rad;
+        observe(motor_rad, 0.0);
+        ASSERT_CLOSE(low, joint.play_low_rad, 1e-5);
+        ASSERT_CLOSE(high, joint.play_high_rad, 1e-5);
+    }
+    TEST_ASSERT_TRUE(high - low < 1e-6); /* a motion through the whole gap leaves no doubt */
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -212,5 +232,6 @@ int main(void)
     RUN_TEST(a_proof_takes_twelve_ticks);
     RUN_TEST(an_expected_load_narrows_what_is_shown);
     RUN_TEST(inertia_is_taken_off);
+    RUN_TEST(where_the_link_may_be_in_its_gap);
     return UNITY_END();
 }
