@@ -185,22 +185,23 @@ class Argument:
     why: str
 
 
-def read_argued() -> dict[tuple[str, str, str], Argument]:
-    """survivors.toml: file, line without and with the mutant: the argument."""
-    items = tomllib.loads((HERE / "survivors.toml").read_text()).get("survivor", [])
-    return {
-        (item["file"], item["old"].strip(), item["new"].strip()): Argument(
-            item.get("behind", ""), " ".join(item["why"].split())
-        )
-        for item in items
-    }
+Arguments = dict[tuple[str, str, str], list[Argument]]
 
 
-def argued(mutant: generate.Mutant, known: dict[tuple[str, str, str], Argument]) -> str:
+def read_argued() -> Arguments:
+    """survivors.toml: file, line without and with the mutant: the arguments."""
+    found = defaultdict(list)
+    for item in tomllib.loads((HERE / "survivors.toml").read_text()).get("survivor", []):
+        key = (item["file"], item["old"].strip(), item["new"].strip())
+        found[key].append(Argument(item.get("behind", ""), " ".join(item["why"].split())))
+    return found
+
+
+def argued(mutant: generate.Mutant, known: Arguments) -> str:
     """The argument for this mutant, or nothing."""
-    argument = known.get((mutant.file, mutant.old.strip(), mutant.new.strip()), Argument("", ""))
     before = (bench.ROOT / mutant.file).read_text().splitlines()[mutant.line - 2].strip()
-    return argument.why if argument.behind in ("", before) else ""
+    arguments = known.get((mutant.file, mutant.old.strip(), mutant.new.strip()), [])
+    return next((argument.why for argument in arguments if argument.behind in ("", before)), "")
 
 
 def report(outcomes: list[Outcome], seed: int) -> int:
