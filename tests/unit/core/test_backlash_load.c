@@ -229,6 +229,7 @@ static void a_takeup_needs_more_torque_than_friction_hides(void)
     brace_backlash_params_t params = joint.params;
     const double least = (double)joint.least_preload_n_mm, friction = FRICTION_N_MM * (1.0 + TOLERANCE) + BIAS_N_MM;
     TEST_ASSERT_TRUE(least > friction);
+    params.takeup.preload_n_mm = 0.0f;
     params.takeup.torque_max_n_mm = (float)(least + FRICTION_N_MM + 0.1);
     TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_backlash_init(&joint, &params));
     const brace_backlash_t before = joint;
