@@ -1,4 +1,4 @@
-"""Prints tests/unit/bench/loaded_space_rows.h: limbs in space under loads, as the double-precision reference tells them.
+"""Prints tests/unit/bench/loaded_space_rows.h: limbs in space under loads, as the reference tells them.
 
     .venv/bin/python tests/engine/print_rows.py > tests/unit/bench/loaded_space_rows.h
 
@@ -13,6 +13,7 @@ import numpy as np
 from brace.native.loaded import LoadedLimbs
 
 import cases
+from engine_chain import Array
 
 SEED, DRAWN, ROWS = 20261126, 12000, 40
 LINKS = ("coxa", "femur", "tibia")
@@ -28,7 +29,10 @@ KEYS = (
 
 def in_single(case: cases.Case) -> cases.Case:
     """The same in numbers that floats hold, in the frame of the limb's plane."""
-    single = lambda numbers: np.asarray(numbers, np.float32).astype(float)  # noqa: E731
+
+    def single(numbers: object) -> Array:
+        return np.asarray(numbers, np.float32).astype(float)
+
     keys = dict(zip(case.keys, map(float, single(list(case.keys.values())))))
     theta_rad = single((0.0, *case.theta_rad[1:]))
     return replace(
@@ -64,7 +68,7 @@ def row(case: cases.Case, found: LoadedLimbs) -> str:
 
 def main() -> None:
     draw = np.random.default_rng(SEED)
-    chosen = []
+    chosen: list[tuple[float, int, cases.Case, LoadedLimbs]] = []
     for _ in range(DRAWN):
         case = in_single(cases._draw(draw, True))
         found = reference(case)
@@ -72,9 +76,9 @@ def main() -> None:
         moved = float(np.linalg.norm(found.displacement_mm[0])) / reach_mm
         if found.status[0] == 0 and 2.0 <= found["buckling_factor"][0] <= 9.0 and "gravity.femur_n" in case.keys:
             chosen.append((moved, len(chosen), case, found))
-    print("/* Written by tests/engine/print_rows.py from the double-precision reference; do not edit. In each row the limb,")
-    print(" * the direction of its weight, theta1, theta2, the tip's force; then K, the tip's displacement and the buckling")
-    print(" * factor, all in the limb's plane's frame. */")
+    print("/* Written by tests/engine/print_rows.py from the double-precision reference; do not edit. In each row")
+    print(" * the limb, the direction of its weight, theta1, theta2, the tip's force; then K, the tip's displacement")
+    print(" * and the buckling factor, all in the limb's plane's frame. */")
     print("#ifndef LOADED_SPACE_ROWS_H\n#define LOADED_SPACE_ROWS_H\n")
     print(f"enum {{ LOADED_SPACE_ROWS = {ROWS}, LOADED_SPACE_NUMBERS = {len(KEYS) + 18} }};\n")
     print("static const double loaded_space_rows[LOADED_SPACE_ROWS][LOADED_SPACE_NUMBERS] = {")

@@ -574,8 +574,8 @@ static void test_a_memory_that_does_not_answer(void)
 }
 
 /* A roll-back whose mark is written though the memory denies it, and whose undoing the memory refuses: the set in force
- * stays in force, and is affirmed anew before the other slot is touched. So whenever the power fails, one of two sets is
- * there. */
+ * stays in force, and is affirmed anew before the other slot is touched. So whenever the power fails, one of two sets
+ * is there. */
 static void test_a_set_is_affirmed_anew_after_a_mark_that_may_stand(void)
 {
     update(1);
