@@ -27,6 +27,9 @@ PRINT_K = BUILD / "tools" / "client" / "print_k"
 LIMB = PROJECT / "tools" / "brace" / "data" / "paper-limb.toml"
 sys.path.insert(0, str(Path(__file__).parent))
 TELLING_S = 3.0
+PROMISED_MS = 2500  # with this time-out every failure is told within TELLING_S
+# The guest kernel stands still for seconds when the machine is busy, and what is tested there is not its speed.
+ANSWER_MS = 20000 if os.environ.get("BRACE_TEST_CAN") else PROMISED_MS
 
 
 @dataclass
@@ -51,6 +54,7 @@ class Answer:
 
     @property
     def values(self) -> dict[str, float]:
+        assert self.code == 0, f"the client gave no value: {self.err}"
         return {name: float(value) for name, value in (line.split() for line in self.out.splitlines())}
 
     @property
@@ -68,7 +72,7 @@ def probe() -> Callable[..., Answer]:
     if not PROBE.exists():
         pytest.fail(f"{PROBE} is missing; ./dev setup builds it")
 
-    def call(url: str, name: str, *numbers: float, node: int = 1, timeout_ms: int = 2500) -> Answer:
+    def call(url: str, name: str, *numbers: float, node: int = 1, timeout_ms: int = ANSWER_MS) -> Answer:
         begin = time.monotonic()
         done = subprocess.run(
             [PROBE, url, str(node), str(timeout_ms), name, *map(str, numbers)],

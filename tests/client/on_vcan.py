@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator
 
 import can
 import pytest
-from conftest import PROBE, Answer
+from conftest import PROBE, PROMISED_MS, Answer
 from test_transports import FRAMES, dump, frames_in
 
 NO_DEVICE, DOWN, SILENT, BIT_RATE, NODE = 2, 4, 7, 8, 9
@@ -71,7 +71,7 @@ def test_interface_goes_down_meanwhile(empty: str) -> None:
 
 
 def test_silence(empty: str, probe: Probe) -> None:
-    answer = probe(empty, "identity")
+    answer = probe(empty, "identity", timeout_ms=PROMISED_MS)
     assert answer.code == SILENT and answer.told_in_time
 
 

@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 import pytest
-from conftest import LIMB, PROBE, PRINT_K, Answer, Sim, motors_of
+from conftest import LIMB, PRINT_K, PROBE, PROMISED_MS, Answer, Sim, motors_of
 
 from brace.model import load_limb
 from brace.native.loaded import under_force
@@ -193,7 +193,7 @@ def test_a_posture_that_can_not_be_is_not_asked(probe: Probe, url: str, angle: f
 
 def test_limbs_on_one_bus_and_a_node_that_is_not_there(probe: Probe, sim: Sim) -> None:
     assert probe(sim.can, "identity", node=2).values["node"] == 2
-    answer = probe(sim.can, "identity", node=9)
+    answer = probe(sim.can, "identity", node=9, timeout_ms=PROMISED_MS)
     assert answer.code == 9 and "heard: 1, 2" in answer.err and answer.told_in_time
 
 

@@ -15,7 +15,7 @@ PROJECT = Path(__file__).resolve().parents[2]
 IMAGES = Path(os.environ.get("BRACE_IMAGES", PROJECT / "build" / "m4f" / "images"))
 BOARDS = ("mps2-an386", "netduinoplus2")
 COUNTED = ("-icount", "shift=0")  # the board's clock counts its instructions, 1 ns each, and stands while it is paused
-PATIENCE_S = 30.0  # a loaded machine; nothing here takes more than a second on an idle one
+PATIENCE_S = 60.0  # a loaded machine; nothing here takes more than a second on an idle one
 
 
 def image(name: str) -> Path:

@@ -26,7 +26,10 @@ class Bench:
 
 
 @pytest.fixture
-def bench() -> Iterator[Bench]:
+def bench(monkeypatch: pytest.MonkeyPatch) -> Iterator[Bench]:
+    # The client waits twice this long for an answer. Its own 16 ms are those of a USB adapter; on a busy machine the
+    # simulated servos may have to wait longer for a processor.
+    monkeypatch.setattr(sdk.port_handler, "LATENCY_TIMER", 100)
     with ServoLine(IDS) as line:
         port = sdk.PortHandler(line.place)
         assert port.setBaudRate(3_000_000)

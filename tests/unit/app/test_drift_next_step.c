@@ -84,6 +84,34 @@ static void test_learning_anew_forgets_what_was_kept(void)
     TEST_ASSERT_EQUAL_FLOAT(0.0f, job.kept_evidence[BRACE_DRIFT_CAUSE_COUNT]);
 }
 
+/* A set that has just been written has an empty journal behind it: nothing is searched. Any other one is. */
+static void test_the_journal_of_a_fresh_set_is_not_searched(void)
+{
+    const brace_parameters_t p = bench_parameters();
+    bench_start(&p);
+    const drift_inputs_t inputs = {.hal = &fake.hal, .parameters = &p, .parameter_crc = brace_parameters_crc(&p),
+                                   .origin = BRACE_PARAMETERS_SLOT_A, .may_work = true, .may_write = false};
+    for (int is_fresh = 0; is_fresh < 2; is_fresh++) {
+        memset(&job, 0, sizeof job);
+        job.is_erased = is_fresh == 0; /* of the set before, like all that waits */
+        job.opens = job.scans = job.has_reading = job.looks = job.foresees = job.has_outlook = true;
+        drift_job_configure(&job, is_fresh != 0);
+        TEST_ASSERT_TRUE(job.learns_anew);
+        TEST_ASSERT_FALSE(job.opens || job.scans || job.has_reading || job.looks || job.foresees || job.has_outlook);
+        drift_job_step(&job, &inputs);
+        TEST_ASSERT_TRUE(job.opens && !job.learns_anew);
+        drift_job_step(&job, &inputs);
+        TEST_ASSERT_FALSE(job.opens);
+        TEST_ASSERT_EQUAL(is_fresh == 0, job.scans);
+        for (int i = 0; i < 2000 && job.scans; i++) {
+            drift_job_step(&job, &inputs);
+        }
+        TEST_ASSERT_FALSE(job.scans);
+        drift_job_step(&job, &inputs);
+        TEST_ASSERT_EQUAL(BRACE_DRIFT_LEARNING, job.report.state);
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -92,5 +120,6 @@ int main(void)
     RUN_TEST(test_a_drift_names_what_to_look_at);
     RUN_TEST(test_learning_anew_forgets_what_was_kept);
     RUN_TEST(test_a_run_that_ends_behind_a_reading_waits_for_it);
+    RUN_TEST(test_the_journal_of_a_fresh_set_is_not_searched);
     return UNITY_END();
 }

@@ -202,6 +202,76 @@ static void inertia_is_taken_off(void)
     ASSERT_CLOSE(1000.0 + FRICTION_N_MM + 100.0, joint.torque_n_mm, 1.0);
 }
 
+/* The link lags behind the motor by no more than half the gap, either way: where it began in the gap, it may be between
+ * the two that began at its ends. */
+static void where_the_link_may_be_in_its_gap(void)
+{
+    const double half = 0.005;
+    double low = -half, high = half, motor_rad = 0.3;
+    begin(motor_rad, 0.0);
+    joint.play_low_rad = (float)low, joint.play_high_rad = (float)high;
+    for (int i = 0; i < 400; i++) {
+        const double to_rad = 0.3 + 0.004 * sin(0.05 * i) + (i > 200 ? 0.009 * sin(0.11 * i) : 0.0);
+        low = fmax(-half, fmin(half, low + to_rad - motor_rad));
+        high = fmax(-half, fmin(half, high + to_rad - motor_rad));
+        motor_rad = to_rad;
+        observe(motor_rad, 0.0);
+        ASSERT_CLOSE(low, joint.play_low_rad, 1e-5);
+        ASSERT_CLOSE(high, joint.play_high_rad, 1e-5);
+    }
+    TEST_ASSERT_TRUE(high - low < 1e-6); /* a motion through the whole gap leaves no doubt */
+}
+
+/* A take-up has to bring the least preload, and friction on top, with less than its greatest torque. The least preload
+ * is friction at its worst, the bias, and what the noise may make of the fast mean. */
+static void a_takeup_needs_more_torque_than_friction_hides(void)
+{
+    brace_backlash_params_t params = joint.params;
+    const double least = (double)joint.least_preload_n_mm, friction = FRICTION_N_MM * (1.0 + TOLERANCE) + BIAS_N_MM;
+    TEST_ASSERT_TRUE(least > friction);
+    params.takeup.preload_n_mm = 0.0f;
+    params.takeup.torque_max_n_mm = (float)(least + FRICTION_N_MM + 0.1);
+    TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_backlash_init(&joint, &params));
+    const brace_backlash_t before = joint;
+    params.takeup.torque_max_n_mm = (float)(least + FRICTION_N_MM - 0.1);
+    TEST_ASSERT_EQUAL_INT(BRACE_E_PARAMETER, brace_backlash_init(&joint, &params));
+    TEST_ASSERT_EQUAL_MEMORY(&before, &joint, sizeof joint);
+}
+
+static brace_backlash_out_t tick_at(double motor_rad, double torque_n_mm)
+{
+    brace_backlash_out_t out;
+    now_us += TICK_US;
+    const brace_backlash_sample_t sample = sample_of(motor_rad, torque_n_mm);
+    (void)brace_backlash_tick(&joint, &sample, &out);
+    return out;
+}
+
+/* What is known of the link's place in its gap outlasts every state but FAULT, behind which it may be anywhere. */
+static void only_a_fault_forgets_where_the_link_is(void)
+{
+    int states = 0, last = -1;
+    double motor_rad = 0.3;
+    for (int i = 0; i < 600; i++) {
+        motor_rad += i < 200 ? 1e-4 : 0.0;
+        const brace_backlash_out_t out = tick_at(motor_rad, i < 400 ? 2500.0 : 2500.0 - 12.0 * (i - 400));
+        TEST_ASSERT_NOT_EQUAL(BRACE_BACKLASH_FAULT, out.state);
+        states += (int)out.state != last ? 1 : 0;
+        last = (int)out.state;
+        if (i > 110) { /* through the gap of 10 mrad: it lies at its end */
+            ASSERT_CLOSE(0.005, joint.play_low_rad, 1e-5);
+            ASSERT_CLOSE(0.005, joint.play_high_rad, 1e-5);
+        }
+    }
+    TEST_ASSERT_TRUE(states >= 2);
+    for (int i = 0; i < 50; i++) {
+        last = (int)tick_at(NAN, 2500.0).state;
+    }
+    TEST_ASSERT_EQUAL(BRACE_BACKLASH_FAULT, last);
+    ASSERT_CLOSE(-0.005, joint.play_low_rad, 1e-6);
+    ASSERT_CLOSE(0.005, joint.play_high_rad, 1e-6);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -212,5 +282,8 @@ int main(void)
     RUN_TEST(a_proof_takes_twelve_ticks);
     RUN_TEST(an_expected_load_narrows_what_is_shown);
     RUN_TEST(inertia_is_taken_off);
+    RUN_TEST(where_the_link_may_be_in_its_gap);
+    RUN_TEST(a_takeup_needs_more_torque_than_friction_hides);
+    RUN_TEST(only_a_fault_forgets_where_the_link_is);
     return UNITY_END();
 }

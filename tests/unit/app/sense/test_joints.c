@@ -71,6 +71,12 @@ static void test_the_mean_begins_as_the_median_of_three(void)
 static void test_the_mean_follows_what_two_samples_agree_on(void)
 {
     const joint_t *joint = &joints.joint[BRACE_FEMUR];
+    (void)read_at(1.0f, NAN, 100.0f);
+    (void)read_at(1.0f, NAN, 100.0f);
+    TEST_ASSERT_EQUAL_FLOAT(100.0f, read_at(1.0f, NAN, 2100.0f)->torque_n_mm);
+    joint = read_at(1.0f, NAN, 2200.0f); /* already the fourth */
+    TEST_ASSERT_FLOAT_WITHIN(1.0f, 100.0f + 2000.0f / 21.0f, joint->torque_n_mm);
+    joints_start(&joints, &hal);
     for (int i = 0; i < 4; i++) {
         joint = read_at(1.0f, NAN, 100.0f);
     }
