@@ -218,9 +218,9 @@ def _displacements(table: Table, axis: np.ndarray, rows: int, notes: list[str]) 
     if lacking:
         were = "was" if len(lacking) == 1 else "were"
         notes.append(
-            f"{table.part.path.name}: {' and '.join(lacking)} {were} not measured and taken as 0 across the axis: the rig "
-            "is taken to hold the tip there. If the tip was free to move that way, this record gives a wrong K: measure "
-            "both displacements"
+            f"{table.part.path.name}: {' and '.join(lacking)} {were} not measured and taken as 0 across the axis: the "
+            "rig is taken to hold the tip there. If the tip was free to move that way, this record gives a wrong K: "
+            "measure both displacements"
         )
     return out
 
