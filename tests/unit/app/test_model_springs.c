@@ -203,6 +203,7 @@ static void test_a_limb_in_its_plane_is_told_as_the_core_finds_it(void)
         ASSERT_CLOSE(moved.z_mm, rest.bend.tip_mm.z, 0.1);
         ASSERT_CLOSE(found.tibia_mm.x, rest.bend.tibia_mm.x, 0.1);
         ASSERT_CLOSE(found.tibia_mm.z, rest.bend.tibia_mm.z, 0.1);
+        TEST_ASSERT_TRUE(isnan(rest.moved_across_mm));
         TEST_ASSERT_EQUAL_FLOAT(0.0f, rest.bend.tip_across_mm);
         TEST_ASSERT_EQUAL_FLOAT(0.0f, rest.bend.tibia_across_mm);
         TEST_ASSERT_EQUAL_FLOAT(0.0f, rest.bend.joint_turn_rad[BRACE_COXA]);

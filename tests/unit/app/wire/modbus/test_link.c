@@ -50,6 +50,7 @@ static void answer_of(uint32_t count)
     for (uint32_t i = 0; i < count; i++) {
         link.bytes[i] = (uint8_t)(i + 1u);
     }
+    link.is_waiting = true;
     modbus_link_answer(&link, &tick, count);
     TEST_ASSERT_TRUE(link.is_sending && !link.is_waiting);
 }
