@@ -133,7 +133,8 @@ static void be_soft(bool is_spatial)
 }
 
 /* The core's own equilibrium, in the application's words: a knee's turn has the sense of its angle, which is the other
- * one; a limb that moves far is not promised. */
+ * one; a limb that moves far is not promised. Without an FPU the application asks the integers, which are apart by the
+ * third order of what the load bends. */
 static void test_a_limb_in_space_is_told_as_the_core_finds_it(void)
 {
     static const float unbent_rad[] = {0.0f, 1.0f, 1.4f};
@@ -158,21 +159,21 @@ static void test_a_limb_in_space_is_told_as_the_core_finds_it(void)
         TEST_ASSERT_EQUAL(BRACE_OK, brace_loaded_space_settle(&loaded, 1.0f, 1.4f, &load, &at));
         TEST_ASSERT_EQUAL(BRACE_OK, brace_loaded_space_stiffness(&loaded, &at, &found));
         const brace_vec3_t moved = found.displacement_mm;
-        ASSERT_CLOSE(moved.x, rest.bend.tip_mm.x, 0.1);
-        ASSERT_CLOSE(moved.z, rest.bend.tip_mm.z, 0.1);
-        ASSERT_CLOSE(moved.y, rest.bend.tip_across_mm, 0.1);
-        ASSERT_CLOSE(moved.y, rest.moved_across_mm, 0.1);
-        ASSERT_CLOSE(found.tibia_mm.x, rest.bend.tibia_mm.x, 0.1);
-        ASSERT_CLOSE(found.tibia_mm.z, rest.bend.tibia_mm.z, 0.1);
-        ASSERT_CLOSE(found.tibia_mm.y, rest.bend.tibia_across_mm, 0.1);
-        ASSERT_CLOSE(found.yaw_turn_rad, rest.bend.joint_turn_rad[BRACE_COXA], 1e-3);
-        ASSERT_CLOSE(found.hip_turn_rad, rest.bend.joint_turn_rad[BRACE_FEMUR], 1e-3);
-        ASSERT_CLOSE(-found.knee_turn_rad, rest.bend.joint_turn_rad[BRACE_TIBIA], 1e-3);
-        ASSERT_CLOSE(found.k.xx_n_per_mm, rest.space.xx_n_per_mm, 1e-2);
-        ASSERT_CLOSE(found.k.xy_n_per_mm, rest.space.xy_n_per_mm, 1e-2);
-        ASSERT_CLOSE(found.k.zz_n_per_mm, rest.space.zz_n_per_mm, 1e-2);
-        ASSERT_CLOSE(found.k.xx_n_per_mm, rest.plane.k_xx_n_per_mm, 1e-2);
-        ASSERT_CLOSE(found.k.xz_n_per_mm, rest.plane.k_xz_n_per_mm, 1e-2);
+        ASSERT_CLOSE(moved.x, rest.bend.tip_mm.x, 0.5);
+        ASSERT_CLOSE(moved.z, rest.bend.tip_mm.z, 0.5);
+        ASSERT_CLOSE(moved.y, rest.bend.tip_across_mm, 0.5);
+        ASSERT_CLOSE(moved.y, rest.moved_across_mm, 0.5);
+        ASSERT_CLOSE(found.tibia_mm.x, rest.bend.tibia_mm.x, 0.5);
+        ASSERT_CLOSE(found.tibia_mm.z, rest.bend.tibia_mm.z, 0.5);
+        ASSERT_CLOSE(found.tibia_mm.y, rest.bend.tibia_across_mm, 0.5);
+        ASSERT_CLOSE(found.yaw_turn_rad, rest.bend.joint_turn_rad[BRACE_COXA], 3e-3);
+        ASSERT_CLOSE(found.hip_turn_rad, rest.bend.joint_turn_rad[BRACE_FEMUR], 3e-3);
+        ASSERT_CLOSE(-found.knee_turn_rad, rest.bend.joint_turn_rad[BRACE_TIBIA], 3e-3);
+        ASSERT_CLOSE(found.k.xx_n_per_mm, rest.space.xx_n_per_mm, 3e-2);
+        ASSERT_CLOSE(found.k.xy_n_per_mm, rest.space.xy_n_per_mm, 3e-2);
+        ASSERT_CLOSE(found.k.zz_n_per_mm, rest.space.zz_n_per_mm, 3e-2);
+        ASSERT_CLOSE(found.k.xx_n_per_mm, rest.plane.k_xx_n_per_mm, 3e-2);
+        ASSERT_CLOSE(found.k.xz_n_per_mm, rest.plane.k_xz_n_per_mm, 3e-2);
         const float most_mm = 0.2f * (parameters.limb.femur_mm + parameters.limb.tibia_mm);
         const bool is_far = moved.x * moved.x + moved.y * moved.y + moved.z * moved.z > most_mm * most_mm;
         TEST_ASSERT_EQUAL_HEX32(is_far ? (uint32_t)BRACE_FLAG_NEAR_SINGULAR : 0u, rest.plane.flags);
