@@ -82,6 +82,18 @@ static void test_idle_time_counts_from_the_start_and_from_each_request(void)
     TEST_ASSERT_EQUAL_UINT32(0, parameter_job_wait_ms(&job));
 }
 
+/* How long a master may be silent: 130 ms, or what the board's door says. */
+static void test_how_long_a_master_may_be_silent(void)
+{
+    TEST_ASSERT_EQUAL_UINT32(130000, app.controller.ownership.session.life_us);
+    fake.hal.silence_us = 250000;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_start(&app, &fake.hal));
+    TEST_ASSERT_EQUAL_UINT32(250000, app.controller.ownership.session.life_us);
+    fake.hal.silence_us = 0;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_start(&app, &fake.hal));
+    TEST_ASSERT_EQUAL_UINT32(130000, app.controller.ownership.session.life_us);
+}
+
 /* Before its first tick a controller already says what the store has told it. */
 static void test_faults_are_told_before_the_first_tick(void)
 {
@@ -292,6 +304,7 @@ int main(void)
     RUN_TEST(test_a_fault_from_before_configuration_has_no_K_after_it);
     RUN_TEST(test_what_was_staged_ends_when_it_comes_in_force);
     RUN_TEST(test_idle_time_counts_from_the_start_and_from_each_request);
+    RUN_TEST(test_how_long_a_master_may_be_silent);
     RUN_TEST(test_faults_are_told_before_the_first_tick);
     return UNITY_END();
 }

@@ -124,6 +124,9 @@ static void test_what_is_off_the_axis_is_taken_off_by_the_model(void)
 
 static void test_rows_are_a_pass_in_the_columns_of_a_dataset(void)
 {
+    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
+        fake.joint[i].sample.temp_degc = 31.5f;
+    }
     run(&along_x);
     TEST_ASSERT_EQUAL(17, brace_app_row_count(&app));
     static const int place[17] = {0, 1, 2, 3, 4, 3, 2, 1, 0, -1, -2, -3, -4, -3, -2, -1, 0};
@@ -143,6 +146,7 @@ static void test_rows_are_a_pass_in_the_columns_of_a_dataset(void)
         ASSERT_CLOSE(1.0 + 3.5 * (double)row.dx_mm - 0.5 * (double)row.dz_mm, row.fx_n, 2e-3);
         ASSERT_CLOSE(6.0 - 0.5 * (double)row.dx_mm + 0.6 * (double)row.dz_mm, row.fz_n, 2e-3);
         ASSERT_CLOSE(1.0, row.theta1_rad, 2e-3);
+        ASSERT_CLOSE(31.5, row.temp_degc, 1e-3);
         TEST_ASSERT_TRUE(row.t_s > before_s);
         before_s = row.t_s;
         TEST_ASSERT_TRUE(isnan(row.enc1_rad));

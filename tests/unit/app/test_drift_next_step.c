@@ -112,6 +112,32 @@ static void test_the_journal_of_a_fresh_set_is_not_searched(void)
     }
 }
 
+/* A write may take a whole tick: the memory is asked for one in eight ticks at most. */
+static void test_the_journal_is_written_in_one_tick_of_eight(void)
+{
+    const brace_parameters_t p = bench_parameters();
+    int last = -100, kept = 0;
+    bench_start(&p);
+    drift_inputs_t inputs = {.hal = &fake.hal, .parameters = &p, .parameter_crc = brace_parameters_crc(&p),
+                             .origin = BRACE_PARAMETERS_SLOT_A, .may_work = true, .may_write = false};
+    memset(&job, 0, sizeof job);
+    drift_job_configure(&job, true);
+    for (int i = 0; i < 10; i++) {
+        drift_job_step(&job, &inputs);
+    }
+    inputs.may_write = true;
+    for (int i = 0; i < 80; i++) {
+        job.looks = true;
+        drift_job_step(&job, &inputs);
+        if (job.has_worked) {
+            TEST_ASSERT_GREATER_OR_EQUAL(8, i - last);
+            last = i;
+            kept++;
+        }
+    }
+    TEST_ASSERT_EQUAL(10, kept);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -121,5 +147,6 @@ int main(void)
     RUN_TEST(test_learning_anew_forgets_what_was_kept);
     RUN_TEST(test_a_run_that_ends_behind_a_reading_waits_for_it);
     RUN_TEST(test_the_journal_of_a_fresh_set_is_not_searched);
+    RUN_TEST(test_the_journal_is_written_in_one_tick_of_eight);
     return UNITY_END();
 }

@@ -268,6 +268,33 @@ static void test_slender_K_is_told_down_to_the_last_place(void)
     }
 }
 
+/* K in the plane, the tip held across it: its own entries, and their eigenvalues and stiff axis. */
+static void test_K_in_the_plane_is_what_space_has_there(void)
+{
+    for (int i = 0; i < 60; i++) {
+        const double stiff = 3.0 + 0.1 * i, soft = stiff * pow(10.0, -0.05 * (i % 40)), axis_rad = -1.5 + 0.05 * i;
+        const double c = cos(axis_rad), s = sin(axis_rad);
+        const brace_k3_t k = {.xx_n_per_mm = (float)(stiff * c * c + soft * s * s),
+                              .xz_n_per_mm = (float)((stiff - soft) * c * s),
+                              .zz_n_per_mm = (float)(stiff * s * s + soft * c * c),
+                              .xy_n_per_mm = 0.3f, .yy_n_per_mm = 7.0f, .yz_n_per_mm = -0.2f};
+        for (int is_fixed = 0; is_fixed < 2; is_fixed++) {
+            brace_stiffness_t plane;
+            TEST_ASSERT_EQUAL(BRACE_OK, is_fixed != 0 ? brace_loaded_space_fixed_in_plane(&k, &plane)
+                                                      : brace_loaded_space_in_plane(&k, &plane));
+            TEST_ASSERT_EQUAL_FLOAT(k.xx_n_per_mm, plane.k_xx_n_per_mm);
+            TEST_ASSERT_EQUAL_FLOAT(k.xz_n_per_mm, plane.k_xz_n_per_mm);
+            TEST_ASSERT_EQUAL_FLOAT(k.zz_n_per_mm, plane.k_zz_n_per_mm);
+            TEST_ASSERT_DOUBLE_WITHIN(1e-6 * stiff, stiff, (double)plane.lambda_max_n_per_mm);
+            TEST_ASSERT_DOUBLE_WITHIN(1e-6 * stiff, soft, (double)plane.lambda_min_n_per_mm);
+            if (soft < 0.9 * stiff) {
+                TEST_ASSERT_DOUBLE_WITHIN(5e-6, 0.0, sin((double)plane.stiff_axis_rad - axis_rad));
+            }
+            TEST_ASSERT_EQUAL_UINT32(0u, plane.flags);
+        }
+    }
+}
+
 static void test_turning_up_to_its_bound(void)
 {
     const brace_k3_t k = slender_k(0, 0.5f);
@@ -290,6 +317,7 @@ int main(void)
     RUN_TEST(test_what_resists_no_more_is_refused);
     RUN_TEST(test_slender_K_is_flagged_from_its_bound_on);
     RUN_TEST(test_slender_K_is_told_down_to_the_last_place);
+    RUN_TEST(test_K_in_the_plane_is_what_space_has_there);
     RUN_TEST(test_turning_up_to_its_bound);
     return UNITY_END();
 }

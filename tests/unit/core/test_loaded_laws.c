@@ -508,10 +508,10 @@ static hinged_in_space_t hinged_in_space(const double yields[3], const double fo
         }
         solved((const double(*)[3])jacobian, moment, r.k[axis]);
     }
-    for (double times = 0.0; times < 20.0 && isinf(r.factor); times += 0.01) {
-        if (softened(yields, (const double(*)[3])bend, times + 0.01) <= 0.0) {
-            double below = times, above = times + 0.01;
-            for (int halving = 0; halving < 40; halving++) {
+    for (double times = 0.0; times < 20.0 && isinf(r.factor); times += 0.05) {
+        if (softened(yields, (const double(*)[3])bend, times + 0.05) <= 0.0) {
+            double below = times, above = times + 0.05;
+            for (int halving = 0; halving < 30; halving++) {
                 const double middle = 0.5 * (below + above);
                 *(softened(yields, (const double(*)[3])bend, middle) > 0.0 ? &below : &above) = middle;
             }

@@ -71,6 +71,37 @@ static void test_a_takeup_goes_as_far_as_gap_and_spring(void)
     }
 }
 
+/* Every joint's machine has its own joint's and drive's numbers. */
+static void test_a_machine_has_its_joint_s_numbers(void)
+{
+    parameters.controller.tick_us = 2000;
+    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
+        const float n = (float)(i + 1);
+        parameters.drive[i] = (brace_drive_t){.torque_range_n_mm = 9000.0f + n, .torque_noise_n_mm = 10.0f + n,
+                                              .torque_bias_n_mm = 20.0f + n, .motor_friction_n_mm = 30.0f + n,
+                                              .motor_friction_tolerance_ratio = 0.1f * n, .angle_step_rad = 1e-5f * n,
+                                              .motor_inertia_n_mm_s2_per_rad = 5.0f + n,
+                                              .takeup_torque_n_mm = 4000.0f + n};
+        parameters.limb.joint[i].gap_rad = 0.02f + 0.001f * n;
+    }
+    configure();
+    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
+        const brace_backlash_params_t *p = &flank.joint[i].machine.params;
+        const brace_drive_t *drive = &parameters.drive[i];
+        TEST_ASSERT_TRUE(flank.joint[i].watched);
+        TEST_ASSERT_EQUAL_UINT32(2000, p->tick_us);
+        TEST_ASSERT_EQUAL_FLOAT(parameters.limb.joint[i].gap_rad, p->gap_rad);
+        TEST_ASSERT_EQUAL_FLOAT(drive->motor_friction_n_mm, p->friction_n_mm);
+        TEST_ASSERT_EQUAL_FLOAT(drive->motor_friction_tolerance_ratio, p->friction_tolerance_ratio);
+        TEST_ASSERT_EQUAL_FLOAT(drive->motor_inertia_n_mm_s2_per_rad, p->inertia_n_mm_s2_per_rad);
+        TEST_ASSERT_EQUAL_FLOAT(drive->torque_range_n_mm, p->torque_range_n_mm);
+        TEST_ASSERT_EQUAL_FLOAT(drive->torque_noise_n_mm, p->torque_noise_n_mm);
+        TEST_ASSERT_EQUAL_FLOAT(drive->torque_bias_n_mm, p->torque_bias_n_mm);
+        TEST_ASSERT_EQUAL_FLOAT(drive->angle_step_rad, p->angle_step_rad);
+        TEST_ASSERT_EQUAL_FLOAT(drive->takeup_torque_n_mm, p->takeup.torque_max_n_mm);
+    }
+}
+
 static void test_what_has_play_and_is_watched(void)
 {
     parameters.limb.joint[BRACE_COXA].gap_rad = 0.99e-5f;
@@ -175,6 +206,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_a_takeup_goes_as_far_as_gap_and_spring);
+    RUN_TEST(test_a_machine_has_its_joint_s_numbers);
     RUN_TEST(test_what_has_play_and_is_watched);
     RUN_TEST(test_joints_that_are_not_watched);
     RUN_TEST(test_the_load_that_is_expected);

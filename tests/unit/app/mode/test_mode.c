@@ -134,6 +134,19 @@ static void test_a_fault_lasts_a_while_after_its_cause(void)
     }
 }
 
+/* Ticks that do not divide the 100 ms: the first one beyond ends it. */
+static void test_a_fault_ends_with_the_first_tick_beyond(void)
+{
+    faults_t faults = {.now = 0u};
+    faults_update(&faults, BRACE_FAULT_MEMORY, 0u, true, 3000u);
+    for (int i = 1; i <= 33; i++) {
+        faults_update(&faults, 0u, 0u, true, 3000u);
+        TEST_ASSERT_EQUAL_HEX32(BRACE_FAULT_MEMORY, faults.now);
+    }
+    faults_update(&faults, 0u, 0u, true, 3000u);
+    TEST_ASSERT_EQUAL_HEX32(0u, faults.now);
+}
+
 static void test_some_faults_stand_as_long_as_somebody_says_so(void)
 {
     static const uint32_t stands[] = {BRACE_FAULT_PARAMETERS, BRACE_FAULT_STORE, BRACE_FAULT_MODEL_DRIFT,
@@ -158,6 +171,7 @@ int main(void)
     RUN_TEST(test_configuration_ends_by_hand);
     RUN_TEST(test_in_which_modes_k_is_told);
     RUN_TEST(test_a_fault_lasts_a_while_after_its_cause);
+    RUN_TEST(test_a_fault_ends_with_the_first_tick_beyond);
     RUN_TEST(test_some_faults_stand_as_long_as_somebody_says_so);
     return UNITY_END();
 }

@@ -95,6 +95,9 @@ static void test_a_saturated_reading_is_not_known(void)
         *axis = sign * most_n;
         tip_force_read(&force, &hal, &parameters);
         TEST_ASSERT_FALSE(force.known);
+        *axis = sign * 2.0f * most_n;
+        tip_force_read(&force, &hal, &parameters);
+        TEST_ASSERT_FALSE(force.known);
         *axis = NAN;
         tip_force_read(&force, &hal, &parameters);
         TEST_ASSERT_FALSE(force.known);

@@ -176,6 +176,23 @@ static void test_a_diagnosis_has_its_length(void)
     }
 }
 
+/* Requests of one length have no other. */
+static void test_a_request_of_another_length_is_none(void)
+{
+    static const uint8_t functions[] = {3, 4, 6};
+    for (uint32_t f = 0; f < sizeof functions; f++) {
+        for (uint32_t length = 1; length <= 9u; length++) {
+            const uint8_t pdu[9] = {functions[f], 0, 0, 0, 1, 0, 1, 0, 1};
+            const reply_t reply = tcp_asks(UNIT, pdu, length);
+            if (length != 5u) {
+                TEST_ASSERT_EQUAL(2, reply.count);
+                TEST_ASSERT_EQUAL_HEX8(functions[f] | 0x80, reply.byte[0]);
+                TEST_ASSERT_EQUAL(MODBUS_E_VALUE, reply.byte[1]);
+            }
+        }
+    }
+}
+
 /* However a request over TCP is cut, it is answered once when it is whole, and so is the one behind it. */
 static void test_a_request_over_tcp_may_come_in_pieces(void)
 {
@@ -217,6 +234,7 @@ int main(void)
     RUN_TEST(test_what_comes_over_tcp_is_counted_once);
     RUN_TEST(test_every_counter_counts_its_own);
     RUN_TEST(test_a_diagnosis_has_its_length);
+    RUN_TEST(test_a_request_of_another_length_is_none);
     RUN_TEST(test_a_request_over_tcp_may_come_in_pieces);
     RUN_TEST(test_questions_that_nobody_asked_read_as_not_known);
     return UNITY_END();
