@@ -241,6 +241,15 @@ static void test_the_owner_goes_by_modbus_too(void)
     ticks(20);
     TEST_ASSERT_NOT_EQUAL(BRACE_TAKEUP_IDLE, now()->play[BRACE_FEMUR].phase);
     TEST_ASSERT_EQUAL_HEX8(0x90, tcp_asks(UNIT, pdu, count).byte[0]); /* a seal is used up */
+    /* its numbers may leave out as many as half of 32 bits hold */
+    count = make_block(COMMAND_REGISTER(life_counter), 0x50000000u, check_of(the_key, 0x50000000u, 1, NULL, 0), 2, pdu);
+    TEST_ASSERT_EQUAL(5, tcp_asks(UNIT, pdu, count).count);
+    /* a seal is over one request: there is none over half a value */
+    const uint8_t half[] = {6, (uint8_t)(COMMAND_REGISTER(let_go) >> 8), (uint8_t)COMMAND_REGISTER(let_go), 0, 1};
+    const uint32_t halves = make_block(COMMAND_REGISTER(seal_counter), 0x50000001u,
+                                       check_of(the_key, 0x50000001u, 2, half, sizeof half), 2, sealing);
+    TEST_ASSERT_EQUAL(5, tcp_asks(UNIT, sealing, halves).count);
+    TEST_ASSERT_EQUAL_HEX8(0x86, tcp_asks(UNIT, half, sizeof half).byte[0]);
     drain();
 }
 

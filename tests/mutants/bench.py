@@ -98,34 +98,44 @@ class Bench:
                 run([*command.to(output), "-MMD", "-MF", str(output.with_suffix(".d"))], command.folder)
         self.link(WORK, {})
         suites = []
-        for name, objects in self._programs().items():
+        for name, source in self.source_of().items():
             program = WORK / "suites" / name
-            run(["cc", "-o", str(program), *map(str, objects), str(WORK / LIBRARY), "-lm"])
+            self.link_suite(self.object_of(source), program)
             suites.append(Suite(name, program))
         return suites
 
-    def _programs(self) -> dict[str, list[Path]]:
-        """Name of a suite: its objects."""
-        unity = self.object_of("unity.c")
-        tests = [name for name in self.commands if name.startswith("tests/")]
-        found = {
-            Path(name).stem: [self.object_of(name), unity] for name in tests if Path(name).stem.startswith("test_")
-        }
-        return found
+    def source_of(self) -> dict[str, str]:
+        """Name of a suite: its file."""
+        tests = (name for name in self.commands if name.startswith(SUITES))
+        return {Path(name).stem: name for name in tests if Path(name).stem.startswith("test_")}
+
+    def newest_of(self, suite: str) -> float:
+        """When the newest object was made that a suite runs."""
+        sources = [*self.linked, self.source_of()[suite]]
+        return max(self.object_of(name).stat().st_mtime for name in sources)
+
+    def link_suite(self, test_object: Path, program: Path) -> None:
+        """A suite; it takes the library that it finds when it runs."""
+        objects = [str(test_object), str(self.object_of("unity.c"))]
+        run(["cc", "-o", str(program), *objects, str(WORK / LIBRARY), "-lm"])
 
     def link(self, folder: Path, instead: dict[str, Path]) -> None:
         """The library, with some objects in place of others."""
         objects = [str(instead.get(name, self.object_of(name))) for name in self.linked]
         run(["cc", "-shared", f"-Wl,-soname,{LIBRARY}", "-o", str(folder / LIBRARY), *objects, "-lm"])
 
+    def includes(self, source: str, header: str) -> bool:
+        """Does a file include a header?"""
+        words = self.object_of(source).with_suffix(".d").read_text().split()
+        return str(ROOT / header) in [os.path.normpath(word) for word in words]
+
     def users_of(self, header: str) -> list[str]:
         """The files of the library that include a header."""
-        return [
-            name
-            for name in self.linked
-            if str(ROOT / header)
-            in [os.path.normpath(w) for w in self.object_of(name).with_suffix(".d").read_text().split()]
-        ]
+        return [name for name in self.linked if self.includes(name, header)]
+
+    def suites_with(self, header: str) -> list[str]:
+        """The suites that include a header: what they hold of it is not the library's."""
+        return [name for name, source in self.source_of().items() if self.includes(source, header)]
 
 
 @dataclass(frozen=True)

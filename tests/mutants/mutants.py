@@ -5,8 +5,8 @@ usage: mutants.py [--count N] [--seed S] [--only GLOB] [--afresh]
 A mutant is a file of the firmware with one line changed by universalmutator's rules. Only lines that some suite runs
 are mutated (./dev coverage tells of the others). A mutant that the compiler refuses, or of which it makes the same
 object as without, does not count. Every other one is given to the suites that run its line, until one fails: then it
-is killed. The suites are the unit tests; power cuts, fuzzers and
-TOO_LONG take too long for each mutant.
+is killed. A suite that includes a header is made anew with the header's mutant. The suites are the unit tests; power
+cuts, fuzzers and TOO_LONG take too long for each mutant.
 Outcomes are kept in build/mutants/outcomes.jsonl, so that a run that was stopped goes on.
 
 exit codes: 0 enough are killed and every survivor is argued for in survivors.toml, 1 not so, 4 a tool failed.
@@ -78,9 +78,9 @@ class Judge:
             self.by_file[file].update(names)
         self.kills: Counter[tuple[str, str]] = Counter()
         self.folder = bench.WORK / "mutant"
-        costs = read_costs()
+        costs, looked_at = read_costs(), COSTS.stat().st_mtime if COSTS.is_file() else 0.0
         for name, suite in self.suites.items():
-            if name not in costs:
+            if name not in costs or self.bench.newest_of(name) > looked_at:
                 ending = bench.run_suite(suite, bench.WORK, 300)
                 if not ending.passes:
                     raise bench.BuildError(f"{name} fails without a mutant: {ending.words}")
@@ -109,10 +109,8 @@ class Judge:
                     str((bench.ROOT / user).parent),
                     f"-ffile-prefix-map={tree}={bench.ROOT / user}",
                 ]
-            else:  # a header: the mutant's folder comes first, and quotes look there before the header's own folder
-                overlay = self._overlay(mutant, tree)
-                words = [word.replace(str(bench.ROOT / "firmware"), str(overlay)) for word in words]
-                words.append(f"-ffile-prefix-map={overlay}={bench.ROOT / 'firmware'}")
+            else:
+                words = self._over(self._overlay(mutant, tree), words)
             try:
                 bench.run(words, command.folder)
             except bench.BuildError:
@@ -129,6 +127,20 @@ class Judge:
             shutil.copy(tree, self.folder / mutant.file)
         return overlay
 
+    def _over(self, overlay: Path, words: list[str]) -> list[str]:
+        """A compiler's command with a header's mutant: its folder comes first, and quotes look there before the
+        header's own folder."""
+        words = [word.replace(str(bench.ROOT / "firmware"), str(overlay)) for word in words]
+        return [*words, f"-ffile-prefix-map={overlay}={bench.ROOT / 'firmware'}"]
+
+    def _with_header(self, suite: bench.Suite) -> bench.Suite:
+        """A suite that includes the header whose mutant is judged, made anew with it."""
+        command = self.bench.commands[self.bench.source_of()[suite.name]]
+        made, program = self.folder / f"{suite.name}.o", self.folder / suite.name
+        bench.run(self._over(self.folder / "firmware", command.to(made)), command.folder)
+        self.bench.link_suite(made, program)
+        return replace(suite, program=program)
+
     def _suites_of(self, mutant: generate.Mutant) -> Iterable[str]:
         """Those that run its line; those that run its file, where that has changed since the lines were counted."""
         is_counted = (bench.ROOT / mutant.file).stat().st_mtime < COUNTS.stat().st_mtime
@@ -142,10 +154,12 @@ class Judge:
         if not objects:
             return Outcome(mutant, SAME)
         self.bench.link(self.folder, objects)
-        names = [name for name in self._suites_of(mutant) if name in self.suites and name not in TOO_LONG]
+        with_header = self.bench.suites_with(mutant.file) if mutant.file.endswith(".h") else []
+        wanted = {*self._suites_of(mutant), *with_header}
+        names = [name for name in wanted if name in self.suites and name not in TOO_LONG]
         names.sort(key=lambda name: self.suites[name].cpu_s / (1.0 + 20.0 * self.kills[name, mutant.file]))
         for name in names:
-            suite = self.suites[name]
+            suite = self._with_header(self.suites[name]) if name in with_header else self.suites[name]
             ending = bench.run_suite(suite, self.folder, int(3.0 + 10.0 * suite.cpu_s))
             if not ending.passes:
                 self.kills[name, mutant.file] += 1
@@ -163,16 +177,31 @@ def read_kept() -> dict[generate.Mutant, Outcome]:
     return found
 
 
-def read_argued() -> dict[tuple[str, str, str], str]:
-    """survivors.toml: file, line without and with the mutant: why no suite needs to find it."""
-    items = tomllib.loads((HERE / "survivors.toml").read_text()).get("survivor", [])
-    return {
-        (item["file"], item["old"].strip(), item["new"].strip()): " ".join(item["why"].split()) for item in items
-    }
+@dataclass(frozen=True)
+class Argument:
+    """Why no suite needs to find a mutant. behind: the line before it, where its own stands in the file twice."""
+
+    behind: str
+    why: str
 
 
-def argued(mutant: generate.Mutant, known: dict[tuple[str, str, str], str]) -> str:
-    return known.get((mutant.file, mutant.old.strip(), mutant.new.strip()), "")
+Arguments = dict[tuple[str, str, str], list[Argument]]
+
+
+def read_argued() -> Arguments:
+    """survivors.toml: file, line without and with the mutant: the arguments."""
+    found = defaultdict(list)
+    for item in tomllib.loads((HERE / "survivors.toml").read_text()).get("survivor", []):
+        key = (item["file"], item["old"].strip(), item["new"].strip())
+        found[key].append(Argument(item.get("behind", ""), " ".join(item["why"].split())))
+    return found
+
+
+def argued(mutant: generate.Mutant, known: Arguments) -> str:
+    """The argument for this mutant, or nothing."""
+    before = (bench.ROOT / mutant.file).read_text().splitlines()[mutant.line - 2].strip()
+    arguments = known.get((mutant.file, mutant.old.strip(), mutant.new.strip()), [])
+    return next((argument.why for argument in arguments if argument.behind in ("", before)), "")
 
 
 def report(outcomes: list[Outcome], seed: int) -> int:

@@ -20,7 +20,8 @@ from typing import Any
 import pytest
 from conftest import Outcome, spawn
 
-from brace.cli import sim_values
+from brace.cli import sim_command, sim_values
+from brace.model import load_limb
 
 LOOPBACK = "127.0.0.1"
 FREE = ("--can", "tcp://127.0.0.1:0", "--modbus", "modbus-tcp://127.0.0.1:0")
@@ -339,3 +340,13 @@ def test_a_terminal_gets_a_live_line(paper_limb: Path) -> None:
     os.close(ours)
     assert process.returncode == 0
     assert b"monitor, K 3.9" in shown
+
+
+def test_the_first_posture_lies_within_the_travel(paper_limb: Path, tmp_path: Path) -> None:
+    """A limb that cannot reach the usual posture begins in the middle of its travel, so its K holds at once."""
+    limb = tmp_path / "limb.toml"
+    limb.write_text(paper_limb.read_text() + "\n[motor.femur]\nangle_min_rad = -1.5\nangle_max_rad = 0.5\n")
+    model = load_limb(limb)
+    posture = sim_command._usual_posture(model)
+    assert (posture.theta1_rad, posture.theta2_rad) == (-0.5, 1.4)
+    assert sim_command._usual_posture(load_limb(paper_limb)).theta1_rad == 1.0

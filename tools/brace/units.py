@@ -70,6 +70,7 @@ _SPELLED = {
     "pound": "lbf", "pounds": "lbf", "kp": "kgf", "kg-f": "kgf", "kilopond": "kgf", "gramm": "gf", "gram": "gf",
     "grams": "gf", "kilogramm": "kgf", "dan": "daN",
     "radian": "rad", "radians": "rad", "radiant": "rad", "degree": "deg", "degrees": "deg", "grad": "deg",
+    "grados": "deg", "gradi": "deg", "graus": "deg", "grader": "deg",
     "\u00b0deg": "deg", "milliradian": "mrad", "minofarc": "arcmin", "arcminutes": "arcmin", "turn": "rev",
     "turns": "rev", "revolution": "rev", "revolutions": "rev", "umdrehung": "rev", "umdrehungen": "rev",
     "sec": "s", "secs": "s", "second": "s", "seconds": "s", "sek": "s", "sekunde": "s", "sekunden": "s",

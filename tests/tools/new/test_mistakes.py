@@ -154,3 +154,38 @@ def test_a_plan_keeps_the_knee_from_folding_through_itself(brace: Brace, tmp_pat
     outcome = brace("plan", "--model", limb(tmp_path), "--json")
     assert "no travel of the knee" in outcome.err
     assert all(abs(posture["theta2_rad"]) <= 2.6 for posture in json.loads(outcome.out)["best"])
+
+
+TYPED = ("--femur", 230, "--tibia", 270, "--femur-joint", 60, "--tibia-joint", 60, "--tibia-link", "rigid")
+COMMAS = [
+    ("measured 0,06", "measured 0.06"),
+    ("tube 30,5 26 alu", "tube 30.5 26 alu"),
+    ("tube 30 26,5 alu", "tube 30 26.5 alu"),
+    ("rod 12,5 70GPa", "rod 12.5 70GPa"),
+]
+
+
+@pytest.mark.parametrize("link, way", COMMAS, ids=[link for link, _ in COMMAS])
+def test_a_decimal_comma_in_a_link(brace: Brace, tmp_path: Path, link: str, way: str) -> None:
+    """'measured 0,06' was once a link that yields 6 mm/N along itself and nothing across."""
+    refused = brace("new", "--out", tmp_path / "limb.toml", *TYPED, "--femur-link", link)
+    readable(refused, 2, "the decimal sign is a point", f"try: {way}")
+
+
+@pytest.mark.parametrize("link", ["tube 30,26,alu", "tube 30, 26, alu", "rod 12,70GPa", "measured 0.06,0.001"])
+def test_commas_between_the_numbers_of_a_link(brace: Brace, tmp_path: Path, link: str) -> None:
+    assert brace("new", "--out", tmp_path / "limb.toml", *TYPED, "--femur-link", link).code == 0
+
+
+def test_a_limb_without_its_option(brace: Brace, tmp_path: Path) -> None:
+    readable(brace("k", limb(tmp_path), *POSTURE), 2, "required: --model", f"try: --model {tmp_path / 'limb.toml'}")
+
+
+def test_a_bus_with_a_single_colon(brace: Brace) -> None:
+    readable(brace("query", "--bus", "tcp:localhost:29536"), 2, "try: --bus tcp://localhost:29536")
+
+
+def test_a_log_without_frames(brace: Brace, tmp_path: Path) -> None:
+    log = tmp_path / "bus.log"
+    log.write_text("")
+    readable(brace("replay", log), 4, "no frames of a controller", "brace record")

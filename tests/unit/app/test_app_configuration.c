@@ -34,6 +34,77 @@ static void test_parameters_are_stored_in_configuration_only(void)
     TEST_ASSERT_EQUAL(BRACE_E_MODE, brace_app_parameters_rollback(&app));
 }
 
+/* A set that has come in force is no copy in waiting; nor is one that was refused gone. */
+static void test_what_was_staged_ends_when_it_comes_in_force(void)
+{
+    const float femur_mm = 191.0f;
+    uint32_t word;
+    memcpy(&word, &femur_mm, 4);
+    ticks(5);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_enter(&app));
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_parameters_stage(&app, 1, 1, &word));
+    TEST_ASSERT_TRUE(brace_app_has_staged(&app));
+    const brace_parameters_t set = *brace_app_parameters_staged(&app);
+    TEST_ASSERT_EQUAL_FLOAT(191.0f, set.limb.femur_mm);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_parameters_commit(&app, &set));
+    ticks(1000);
+    TEST_ASSERT_EQUAL_FLOAT(191.0f, brace_app_parameters(&app)->limb.femur_mm);
+    TEST_ASSERT_EQUAL(BRACE_MODE_CONFIGURATION, now()->mode);
+    TEST_ASSERT_FALSE(brace_app_has_staged(&app));
+    TEST_ASSERT_EQUAL_PTR(brace_app_parameters(&app), brace_app_parameters_staged(&app));
+}
+
+/* How long nobody has asked for anything; a store at work is asked for. */
+static void test_idle_time_counts_from_the_start_and_from_each_request(void)
+{
+    static parameter_job_t job;
+    memset(&job, 0xa5, sizeof job);
+    parameter_job_start(&job, &fake.hal);
+    TEST_ASSERT_EQUAL_UINT32(5, parameter_job_idle_us(&job, 5));
+    TEST_ASSERT_EQUAL_UINT32(12, parameter_job_idle_us(&job, 7));
+    parameter_job_keep_open(&job);
+    TEST_ASSERT_EQUAL_UINT32(3, parameter_job_idle_us(&job, 3));
+    parameter_job_open(&job);
+    TEST_ASSERT_EQUAL_UINT32(2, parameter_job_idle_us(&job, 2));
+    job.storing = true;
+    TEST_ASSERT_EQUAL_UINT32(0, parameter_job_idle_us(&job, 9));
+    job.storing = false;
+    TEST_ASSERT_EQUAL_UINT32(9, parameter_job_idle_us(&job, 9));
+    /* ten seconds lie between two erases; from the start on a commit need not wait */
+    TEST_ASSERT_EQUAL_UINT32(0, parameter_job_wait_ms(&job));
+    job.apart_us = 0;
+    TEST_ASSERT_EQUAL_UINT32(10000, parameter_job_wait_ms(&job));
+    parameter_job_age(&job, 1);
+    TEST_ASSERT_EQUAL_UINT32(10000, parameter_job_wait_ms(&job)); /* rounded up */
+    parameter_job_age(&job, 999);
+    TEST_ASSERT_EQUAL_UINT32(9999, parameter_job_wait_ms(&job));
+    parameter_job_age(&job, UINT32_MAX);
+    TEST_ASSERT_EQUAL_UINT32(0, parameter_job_wait_ms(&job));
+}
+
+/* How long a master may be silent: 130 ms, or what the board's door says. */
+static void test_how_long_a_master_may_be_silent(void)
+{
+    TEST_ASSERT_EQUAL_UINT32(130000, app.controller.ownership.session.life_us);
+    fake.hal.silence_us = 250000;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_start(&app, &fake.hal));
+    TEST_ASSERT_EQUAL_UINT32(250000, app.controller.ownership.session.life_us);
+    fake.hal.silence_us = 0;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_start(&app, &fake.hal));
+    TEST_ASSERT_EQUAL_UINT32(130000, app.controller.ownership.session.life_us);
+}
+
+/* Before its first tick a controller already says what the store has told it. */
+static void test_faults_are_told_before_the_first_tick(void)
+{
+    brace_fake_start(&fake);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_start(&app, &fake.hal));
+    TEST_ASSERT_EQUAL_HEX32(BRACE_FAULT_PARAMETERS, now()->faults);
+    TEST_ASSERT_EQUAL(BRACE_PARAMETERS_DEFAULT, now()->parameter_origin);
+    TEST_ASSERT_FALSE(now()->k_is_valid);
+    TEST_ASSERT_TRUE(isnan(now()->force_x_n) && isnan(now()->tip_mm.x_mm) && isnan(now()->theta_rad[BRACE_FEMUR]));
+}
+
 static void settle(void)
 {
     for (int i = 0; i < 2000 && brace_app_configuration_leave(&app) != BRACE_OK; i++) {
@@ -231,5 +302,9 @@ int main(void)
     RUN_TEST(test_an_erase_in_configuration_is_no_late_tick);
     RUN_TEST(test_configuration_that_nobody_feeds_is_left_and_nothing_has_changed);
     RUN_TEST(test_a_fault_from_before_configuration_has_no_K_after_it);
+    RUN_TEST(test_what_was_staged_ends_when_it_comes_in_force);
+    RUN_TEST(test_idle_time_counts_from_the_start_and_from_each_request);
+    RUN_TEST(test_how_long_a_master_may_be_silent);
+    RUN_TEST(test_faults_are_told_before_the_first_tick);
     return UNITY_END();
 }

@@ -1,5 +1,6 @@
 /* The loading test through the controller: its slopes, its comparison with the model, its rows. */
 #include "loading_bench.h"
+#include "jobs/loading/levers.h"
 #include "jobs/loading/reading.h"
 
 void setUp(void)
@@ -64,6 +65,25 @@ static void test_the_model_is_compared_in_sigmas(void)
     TEST_ASSERT_TRUE(result()->z_x < -3.0f);
 }
 
+/* The model's K is that under the mean of the forces, which has little of the noise of a single one. */
+static void test_the_model_is_that_under_the_mean_force(void)
+{
+    const brace_parameters_t p = bench_parameters();
+    truth = model_k();
+    noise_n = 0.5f;
+    for (int axis = 0; axis < 2; axis++) {
+        brace_loading_setup_t setup = along_x;
+        setup.axis = axis == 0 ? BRACE_AXIS_X : BRACE_AXIS_Z;
+        run(&setup);
+        TEST_ASSERT_EQUAL(BRACE_LOADING_DONE, result()->outcome);
+        const brace_force_t mean = {result()->preload_x_n, result()->preload_z_n};
+        const brace_stiffness_t k =
+            equilibrium(&p, (float)theta1, (float)theta2, mean, (brace_vec_t){0.0f, -1.0f}).stiffness;
+        ASSERT_CLOSE(axis == 0 ? k.k_xx_n_per_mm : k.k_xz_n_per_mm, result()->model_k_x_n_per_mm, 2e-3);
+        ASSERT_CLOSE(axis == 0 ? k.k_xz_n_per_mm : k.k_zz_n_per_mm, result()->model_k_z_n_per_mm, 2e-3);
+    }
+}
+
 static void test_noise_is_in_the_sigma_of_the_slope(void)
 {
     noise_n = 0.5f;
@@ -104,6 +124,9 @@ static void test_what_is_off_the_axis_is_taken_off_by_the_model(void)
 
 static void test_rows_are_a_pass_in_the_columns_of_a_dataset(void)
 {
+    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
+        fake.joint[i].sample.temp_degc = 31.5f;
+    }
     run(&along_x);
     TEST_ASSERT_EQUAL(17, brace_app_row_count(&app));
     static const int place[17] = {0, 1, 2, 3, 4, 3, 2, 1, 0, -1, -2, -3, -4, -3, -2, -1, 0};
@@ -123,6 +146,7 @@ static void test_rows_are_a_pass_in_the_columns_of_a_dataset(void)
         ASSERT_CLOSE(1.0 + 3.5 * (double)row.dx_mm - 0.5 * (double)row.dz_mm, row.fx_n, 2e-3);
         ASSERT_CLOSE(6.0 - 0.5 * (double)row.dx_mm + 0.6 * (double)row.dz_mm, row.fz_n, 2e-3);
         ASSERT_CLOSE(1.0, row.theta1_rad, 2e-3);
+        ASSERT_CLOSE(31.5, row.temp_degc, 1e-3);
         TEST_ASSERT_TRUE(row.t_s > before_s);
         before_s = row.t_s;
         TEST_ASSERT_TRUE(isnan(row.enc1_rad));
@@ -192,6 +216,45 @@ static void test_runs_repetitions_and_postures_are_counted(void)
     TEST_ASSERT_EQUAL(2, result()->config);
 }
 
+static void test_a_row_s_columns_are_those_of_a_dataset(void)
+{
+    const brace_row_t row = {.run = 1, .config = 2, .theta1_rad = 3.0f, .theta2_rad = 4.0f, .axis = 5, .rep = 6,
+                             .step = 7, .t_s = 8.0f, .temp_degc = 9.0f, .dx_mm = 10.0f, .dz_mm = 11.0f, .fx_n = 12.0f,
+                             .fz_n = 13.0f, .enc1_rad = 14.0f, .enc2_rad = 15.0f};
+    float value = 0.0f;
+    for (uint32_t column = 0; column < (uint32_t)BRACE_ROW_COLUMNS; column++) {
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_row_value(&row, column, &value));
+        TEST_ASSERT_EQUAL_FLOAT((float)(column + 1u), value);
+    }
+    TEST_ASSERT_EQUAL(BRACE_E_RANGE, brace_row_value(&row, BRACE_ROW_COLUMNS, &value));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_row_value(NULL, 0, &value));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_row_value(&row, 0, NULL));
+    TEST_ASSERT_EQUAL_FLOAT(15.0f, value);
+}
+
+/* So many radians at the motors move the tip by a millimetre along the axis, and not across it. */
+static void test_offsets_move_the_tip_along_the_axis(void)
+{
+    static brace_loading_t test;
+    const brace_parameters_t p = bench_parameters();
+    for (int i = 0; i < 40; i++) {
+        float per_mm[2];
+        const brace_axis_t axis = i % 2 == 0 ? BRACE_AXIS_X : BRACE_AXIS_Z;
+        test.lever_femur = (brace_point_t){300.0f * cosf((float)i), 300.0f * sinf((float)i)};
+        test.lever_knee = (brace_point_t){150.0f * cosf(2.3f * (float)i), 150.0f * sinf(2.3f * (float)i)};
+        const float cross_mm2 =
+            test.lever_femur.x_mm * test.lever_knee.z_mm - test.lever_femur.z_mm * test.lever_knee.x_mm;
+        const bool is_there = levers_offsets_per_mm(&test, &p.limb, axis, per_mm);
+        TEST_ASSERT_EQUAL(fabsf(cross_mm2) >= 0.05f * p.limb.femur_mm * p.limb.tibia_mm, is_there);
+        if (is_there) {
+            const float x_mm = per_mm[0] * test.lever_femur.x_mm + per_mm[1] * test.lever_knee.x_mm;
+            const float z_mm = per_mm[0] * test.lever_femur.z_mm + per_mm[1] * test.lever_knee.z_mm;
+            ASSERT_CLOSE(axis == BRACE_AXIS_X ? 1.0 : 0.0, x_mm, 1e-4);
+            ASSERT_CLOSE(axis == BRACE_AXIS_Z ? 1.0 : 0.0, z_mm, 1e-4);
+        }
+    }
+}
+
 static void test_the_recorder_keeps_the_newest_rows(void)
 {
     static brace_recorder_t recorder;
@@ -222,6 +285,7 @@ int main(void)
     RUN_TEST(test_the_slope_along_x_is_the_first_column_of_K);
     RUN_TEST(test_the_slope_along_z_is_the_second_column);
     RUN_TEST(test_the_model_is_compared_in_sigmas);
+    RUN_TEST(test_the_model_is_that_under_the_mean_force);
     RUN_TEST(test_noise_is_in_the_sigma_of_the_slope);
     RUN_TEST(test_commanded_displacement_has_the_servo_in_it);
     RUN_TEST(test_what_is_off_the_axis_is_taken_off_by_the_model);
@@ -229,6 +293,8 @@ int main(void)
     RUN_TEST(test_link_encoders_tell_deflections_of_a_dataset);
     RUN_TEST(test_the_drift_check_s_K_is_at_the_measured_posture);
     RUN_TEST(test_runs_repetitions_and_postures_are_counted);
+    RUN_TEST(test_a_row_s_columns_are_those_of_a_dataset);
+    RUN_TEST(test_offsets_move_the_tip_along_the_axis);
     RUN_TEST(test_the_recorder_keeps_the_newest_rows);
     return UNITY_END();
 }

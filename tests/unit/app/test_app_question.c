@@ -380,6 +380,27 @@ static void test_down_is_set_over_Modbus_too(void)
     assert_down(2.0f, 0.5f);
 }
 
+/* Whoever stops asking is forgotten after six ticks; who asks again in time, is not. */
+static void test_a_question_is_kept_for_six_ticks(void)
+{
+    static question_job_t job;
+    const question_inputs_t idle = {.may_work = false};
+    const brace_k_question_t question = {.where = BRACE_K_AT_POSTURE, .theta_rad = {0.0f, 1.0f, 1.4f}};
+    brace_k_answer_t answer;
+    for (int asker = 0; asker < (int)BRACE_ASKER_COUNT; asker++) {
+        memset(&job, 0, sizeof job);
+        for (int round = 0; round < 3; round++) {
+            TEST_ASSERT_EQUAL(BRACE_APP_LATER, question_job_ask(&job, (brace_asker_t)asker, &question, &answer));
+            for (int i = 0; i < 6; i++) {
+                question_job_step(&job, &idle);
+                TEST_ASSERT_TRUE(question_job_is_asked(&job));
+            }
+        }
+        question_job_step(&job, &idle);
+        TEST_ASSERT_FALSE(question_job_is_asked(&job));
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -396,5 +417,6 @@ int main(void)
     RUN_TEST(test_a_port_that_is_closed_loses_its_question);
     RUN_TEST(test_the_main_computer_sets_where_down_is_until_the_next_start);
     RUN_TEST(test_down_is_set_over_Modbus_too);
+    RUN_TEST(test_a_question_is_kept_for_six_ticks);
     return UNITY_END();
 }

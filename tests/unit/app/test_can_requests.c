@@ -4,6 +4,7 @@
 #include "brace/answering.h"
 #include "brace/codes.h"
 #include "can_bench.h"
+#include "controller.h"
 
 void setUp(void)
 {
@@ -623,6 +624,60 @@ static void test_two_commits_are_two_answers_whenever_the_second_comes(void)
     TEST_ASSERT_EQUAL(0, stored);
 }
 
+/* Only who speaks over a connection of Modbus TCP can hang up, and only a connection that is closed is hung up. */
+static void test_who_hangs_up(void)
+{
+    for (int port = 0; port < (int)BRACE_ASKER_COUNT; port++) {
+        setUp();
+        TEST_ASSERT_FALSE(controller_has_hung_up(&app.controller, (brace_who_t){(brace_asker_t)port, 5}));
+        brace_fake_with_peers(&fake);
+        fake.open_from = 5;
+        TEST_ASSERT_FALSE(controller_has_hung_up(&app.controller, (brace_who_t){(brace_asker_t)port, 5}));
+        TEST_ASSERT_EQUAL(port == (int)BRACE_ASKER_MODBUS_TCP,
+                          controller_has_hung_up(&app.controller, (brace_who_t){(brace_asker_t)port, 4}));
+    }
+}
+
+/* Requests that come together are answered one a tick, each with its own token, in their order. */
+static void test_one_request_is_answered_in_a_tick(void)
+{
+    enum { ASKED = 6 };
+    int answered = 0;
+    for (uint8_t token = 1; token <= ASKED; token++) {
+        const uint8_t data[8] = {BRACE_REQUEST_IDENTIFY, token};
+        arrives(0x600u + NODE, data, 8);
+    }
+    for (int i = 0; i < 4 * ASKED && answered < ASKED; i++) {
+        brace_can_frame_t frame;
+        int begun = 0;
+        ticks(1);
+        while (brace_fake_frame_take(&fake, &frame)) {
+            if (frame.id == 0x580u + NODE && frame.data[0] == BRACE_REQUEST_IDENTIFY) { /* its first part */
+                begun++;
+                TEST_ASSERT_EQUAL(++answered, frame.data[1]);
+            }
+        }
+        TEST_ASSERT_TRUE(begun <= 1);
+    }
+    TEST_ASSERT_EQUAL(ASKED, answered);
+}
+
+/* Questions in every tick leave no room for process data, but for one frame in seventeen ticks. */
+static void test_process_data_go_on_while_each_tick_answers(void)
+{
+    int told = 0;
+    for (int i = 0; i < 400; i++) {
+        brace_can_frame_t frame;
+        const uint8_t data[8] = {BRACE_REQUEST_IDENTIFY, 1};
+        arrives(0x600u + NODE, data, 8);
+        ticks(1);
+        while (brace_fake_frame_take(&fake, &frame)) {
+            told += frame.id >= 0x180u && frame.id < 0x580u ? 1 : 0;
+        }
+    }
+    TEST_ASSERT_GREATER_OR_EQUAL(400 / 17 - 1, told);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -648,5 +703,8 @@ int main(void)
     RUN_TEST(test_a_download_is_of_one_set_in_order);
     RUN_TEST(test_faults_that_stay_are_cleared);
     RUN_TEST(test_two_commits_are_two_answers_whenever_the_second_comes);
+    RUN_TEST(test_who_hangs_up);
+    RUN_TEST(test_one_request_is_answered_in_a_tick);
+    RUN_TEST(test_process_data_go_on_while_each_tick_answers);
     return UNITY_END();
 }

@@ -84,6 +84,60 @@ static void test_learning_anew_forgets_what_was_kept(void)
     TEST_ASSERT_EQUAL_FLOAT(0.0f, job.kept_evidence[BRACE_DRIFT_CAUSE_COUNT]);
 }
 
+/* A set that has just been written has an empty journal behind it: nothing is searched. Any other one is. */
+static void test_the_journal_of_a_fresh_set_is_not_searched(void)
+{
+    const brace_parameters_t p = bench_parameters();
+    bench_start(&p);
+    const drift_inputs_t inputs = {.hal = &fake.hal, .parameters = &p, .parameter_crc = brace_parameters_crc(&p),
+                                   .origin = BRACE_PARAMETERS_SLOT_A, .may_work = true, .may_write = false};
+    for (int is_fresh = 0; is_fresh < 2; is_fresh++) {
+        memset(&job, 0, sizeof job);
+        job.is_erased = is_fresh == 0; /* of the set before, like all that waits */
+        job.opens = job.scans = job.has_reading = job.looks = job.foresees = job.has_outlook = true;
+        drift_job_configure(&job, is_fresh != 0);
+        TEST_ASSERT_TRUE(job.learns_anew);
+        TEST_ASSERT_FALSE(job.opens || job.scans || job.has_reading || job.looks || job.foresees || job.has_outlook);
+        drift_job_step(&job, &inputs);
+        TEST_ASSERT_TRUE(job.opens && !job.learns_anew);
+        drift_job_step(&job, &inputs);
+        TEST_ASSERT_FALSE(job.opens);
+        TEST_ASSERT_EQUAL(is_fresh == 0, job.scans);
+        for (int i = 0; i < 2000 && job.scans; i++) {
+            drift_job_step(&job, &inputs);
+        }
+        TEST_ASSERT_FALSE(job.scans);
+        drift_job_step(&job, &inputs);
+        TEST_ASSERT_EQUAL(BRACE_DRIFT_LEARNING, job.report.state);
+    }
+}
+
+/* A write may take a whole tick: the memory is asked for one in eight ticks at most. */
+static void test_the_journal_is_written_in_one_tick_of_eight(void)
+{
+    const brace_parameters_t p = bench_parameters();
+    int last = -100, kept = 0;
+    bench_start(&p);
+    drift_inputs_t inputs = {.hal = &fake.hal, .parameters = &p, .parameter_crc = brace_parameters_crc(&p),
+                             .origin = BRACE_PARAMETERS_SLOT_A, .may_work = true, .may_write = false};
+    memset(&job, 0, sizeof job);
+    drift_job_configure(&job, true);
+    for (int i = 0; i < 10; i++) {
+        drift_job_step(&job, &inputs);
+    }
+    inputs.may_write = true;
+    for (int i = 0; i < 80; i++) {
+        job.looks = true;
+        drift_job_step(&job, &inputs);
+        if (job.has_worked) {
+            TEST_ASSERT_GREATER_OR_EQUAL(8, i - last);
+            last = i;
+            kept++;
+        }
+    }
+    TEST_ASSERT_EQUAL(10, kept);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -92,5 +146,7 @@ int main(void)
     RUN_TEST(test_a_drift_names_what_to_look_at);
     RUN_TEST(test_learning_anew_forgets_what_was_kept);
     RUN_TEST(test_a_run_that_ends_behind_a_reading_waits_for_it);
+    RUN_TEST(test_the_journal_of_a_fresh_set_is_not_searched);
+    RUN_TEST(test_the_journal_is_written_in_one_tick_of_eight);
     return UNITY_END();
 }

@@ -118,6 +118,107 @@ static void test_k_takes_each_spring_at_its_joint(void)
     ASSERT_CLOSE(fixed.k_zz_n_per_mm, changing.k_zz_n_per_mm, 1e-4);
 }
 
+/* --- where a load takes the limb ------------------------------------------------------------------------------ */
+
+static const float no_load_n_mm[] = {0.0f, 0.0f, 0.0f}, at_25_degc[] = {25.0f, 25.0f, 25.0f};
+
+static void be_soft(bool is_spatial)
+{
+    parameters.limb = sample_limb[SAMPLE_BEAM];
+    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
+        parameters.limb.joint[i].compliance_rad_per_n_mm = 1e-5f * (float)(i + 1);
+        parameters.drive[i].hardening_n_mm_per_rad3 = 0.0f;
+    }
+    model_configure(&model, &parameters, is_spatial);
+}
+
+/* The core's own equilibrium, in the application's words: a knee's turn has the sense of its angle, which is the other
+ * one; a limb that moves far is not promised. Without an FPU the application asks the integers, which are apart by the
+ * third order of what the load bends. */
+static void test_a_limb_in_space_is_told_as_the_core_finds_it(void)
+{
+    static const float unbent_rad[] = {0.0f, 1.0f, 1.4f};
+    static const brace_vec3_t forces_n[] = {{-3.0f, 2.0f, 5.0f}, {4.0f, -6.0f, 8.0f}, {10.0f, 30.0f, 25.0f}};
+    const brace_vec3_t down = {0.36f, 0.48f, -0.8f};
+    int far = 0;
+    be_soft(true);
+    for (int i = 0; i < 3; i++) {
+        brace_loaded_joint_t springs[BRACE_LINK_COUNT];
+        model_place_t place;
+        model_rest_t rest;
+        brace_loaded_space_t loaded;
+        brace_space_rest_t at;
+        brace_space_result_t found;
+        memset(&rest, 0x55, sizeof rest);
+        model_springs(&model, &parameters, no_load_n_mm, at_25_degc, springs);
+        TEST_ASSERT_EQUAL(BRACE_OK, model_loaded(&model, &parameters.limb, unbent_rad, springs, forces_n[i], down,
+                                                 &place, &rest));
+        const brace_space_load_t load = {
+            .tip_n = forces_n[i], .down = down, .yaw = springs[0], .hip = springs[1], .knee = springs[2]};
+        brace_loaded_space_collapse(&parameters.limb, &parameters.gravity, &loaded);
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_loaded_space_settle(&loaded, 1.0f, 1.4f, &load, &at));
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_loaded_space_stiffness(&loaded, &at, &found));
+        const brace_vec3_t moved = found.displacement_mm;
+        ASSERT_CLOSE(moved.x, rest.bend.tip_mm.x, 0.5);
+        ASSERT_CLOSE(moved.z, rest.bend.tip_mm.z, 0.5);
+        ASSERT_CLOSE(moved.y, rest.bend.tip_across_mm, 0.5);
+        ASSERT_CLOSE(moved.y, rest.moved_across_mm, 0.5);
+        ASSERT_CLOSE(found.tibia_mm.x, rest.bend.tibia_mm.x, 0.5);
+        ASSERT_CLOSE(found.tibia_mm.z, rest.bend.tibia_mm.z, 0.5);
+        ASSERT_CLOSE(found.tibia_mm.y, rest.bend.tibia_across_mm, 0.5);
+        ASSERT_CLOSE(found.yaw_turn_rad, rest.bend.joint_turn_rad[BRACE_COXA], 3e-3);
+        ASSERT_CLOSE(found.hip_turn_rad, rest.bend.joint_turn_rad[BRACE_FEMUR], 3e-3);
+        ASSERT_CLOSE(-found.knee_turn_rad, rest.bend.joint_turn_rad[BRACE_TIBIA], 3e-3);
+        ASSERT_CLOSE(found.k.xx_n_per_mm, rest.space.xx_n_per_mm, 3e-2);
+        ASSERT_CLOSE(found.k.xy_n_per_mm, rest.space.xy_n_per_mm, 3e-2);
+        ASSERT_CLOSE(found.k.zz_n_per_mm, rest.space.zz_n_per_mm, 3e-2);
+        ASSERT_CLOSE(found.k.xx_n_per_mm, rest.plane.k_xx_n_per_mm, 3e-2);
+        ASSERT_CLOSE(found.k.xz_n_per_mm, rest.plane.k_xz_n_per_mm, 3e-2);
+        const float most_mm = 0.2f * (parameters.limb.femur_mm + parameters.limb.tibia_mm);
+        const bool is_far = moved.x * moved.x + moved.y * moved.y + moved.z * moved.z > most_mm * most_mm;
+        TEST_ASSERT_EQUAL_HEX32(is_far ? (uint32_t)BRACE_FLAG_NEAR_SINGULAR : 0u, rest.plane.flags);
+        TEST_ASSERT_TRUE(isnan(rest.buckling_factor));
+        far += is_far;
+    }
+    TEST_ASSERT_TRUE(far >= 1 && far < 3);
+}
+
+static void test_a_limb_in_its_plane_is_told_as_the_core_finds_it(void)
+{
+    static const float unbent_rad[] = {0.0f, 1.0f, 1.4f};
+    static const brace_vec3_t forces_n[] = {{-3.0f, 0.0f, 5.0f}, {4.0f, 0.0f, -8.0f}, {20.0f, 0.0f, 20.0f}};
+    const brace_vec3_t down = {0.6f, 0.0f, -0.8f};
+    be_soft(false);
+    for (int i = 0; i < 3; i++) {
+        brace_loaded_joint_t springs[BRACE_LINK_COUNT];
+        model_place_t place;
+        model_rest_t rest;
+        memset(&rest, 0x55, sizeof rest);
+        model_springs(&model, &parameters, no_load_n_mm, at_25_degc, springs);
+        TEST_ASSERT_EQUAL(BRACE_OK, model_loaded(&model, &parameters.limb, unbent_rad, springs, forces_n[i], down,
+                                                 &place, &rest));
+        const brace_loaded_stiffness_t found = equilibrium(
+            &parameters, 1.0f, 1.4f, (brace_force_t){forces_n[i].x, forces_n[i].z}, (brace_vec_t){down.x, down.z});
+        const brace_displacement_t moved = found.displacement;
+        ASSERT_CLOSE(moved.x_mm, rest.bend.tip_mm.x, 0.1);
+        ASSERT_CLOSE(moved.z_mm, rest.bend.tip_mm.z, 0.1);
+        ASSERT_CLOSE(found.tibia_mm.x, rest.bend.tibia_mm.x, 0.1);
+        ASSERT_CLOSE(found.tibia_mm.z, rest.bend.tibia_mm.z, 0.1);
+        TEST_ASSERT_TRUE(isnan(rest.moved_across_mm));
+        TEST_ASSERT_EQUAL_FLOAT(0.0f, rest.bend.tip_across_mm);
+        TEST_ASSERT_EQUAL_FLOAT(0.0f, rest.bend.tibia_across_mm);
+        TEST_ASSERT_EQUAL_FLOAT(0.0f, rest.bend.joint_turn_rad[BRACE_COXA]);
+        ASSERT_CLOSE(-found.knee_turn_rad, rest.bend.joint_turn_rad[BRACE_TIBIA], 1e-3);
+        ASSERT_CLOSE(found.stiffness.k_xx_n_per_mm, rest.plane.k_xx_n_per_mm, 1e-2);
+        ASSERT_CLOSE(found.stiffness.k_zz_n_per_mm, rest.plane.k_zz_n_per_mm, 1e-2);
+        const float most_mm = 0.2f * (parameters.limb.femur_mm + parameters.limb.tibia_mm);
+        const float moved_mm2 = moved.x_mm * moved.x_mm + moved.z_mm * moved.z_mm;
+        const uint32_t flags = brace_loaded_flags(found.buckling_factor, moved_mm2, 5.0f * most_mm);
+        TEST_ASSERT_EQUAL_HEX32(flags | found.stiffness.flags, rest.plane.flags);
+        TEST_ASSERT_EQUAL(i == 2, moved_mm2 > most_mm * most_mm);
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -125,5 +226,7 @@ int main(void)
     RUN_TEST(test_without_a_load_and_beyond_any_a_spring_is_as_at_rest);
     RUN_TEST(test_rigid_and_endlessly_soft_springs);
     RUN_TEST(test_k_takes_each_spring_at_its_joint);
+    RUN_TEST(test_a_limb_in_space_is_told_as_the_core_finds_it);
+    RUN_TEST(test_a_limb_in_its_plane_is_told_as_the_core_finds_it);
     return UNITY_END();
 }

@@ -1,8 +1,10 @@
-/* The statics of a posture, against levers written out here in double. */
+/* The statics of a posture, against levers written out here in double; where a load takes it, and which way down is. */
 #include <math.h>
 #include <string.h>
 
 #include "app_bench.h"
+#include "brace/ranges.h"
+#include "posture/gravity.h"
 #include "posture/posture.h"
 
 static brace_parameters_t parameters;
@@ -88,6 +90,125 @@ static void test_a_force_across_is_told_by_the_coxa_joint(void)
     ASSERT_CLOSE(-100.0 / (double)tip_mm, across_n, 1e-5);
 }
 
+/* What a load moves is added to where the limb stands; and nothing of it is left when the load is not known. */
+static void test_a_load_takes_the_limb_where_it_says(void)
+{
+    const posture_bend_t bend = {.tip_mm = {3.0f, -2.0f},
+                                 .tibia_mm = {250.0f, -60.0f},
+                                 .tip_across_mm = 5.0f,
+                                 .tibia_across_mm = 1.5f,
+                                 .joint_turn_rad = {0.03f, -0.02f, 0.05f}};
+    stand(1.0f, 1.4f);
+    const posture_t before = posture;
+    posture_settle(&posture, &bend);
+    ASSERT_CLOSE((double)before.pose.tip.x_mm + 3.0, posture.pose.tip.x_mm, 1e-3);
+    ASSERT_CLOSE((double)before.pose.tip.z_mm - 2.0, posture.pose.tip.z_mm, 1e-3);
+    ASSERT_CLOSE(250.0, posture.pose.tip.x_mm - posture.pose.knee.x_mm, 1e-3);
+    ASSERT_CLOSE(-60.0, posture.pose.tip.z_mm - posture.pose.knee.z_mm, 1e-3);
+    TEST_ASSERT_EQUAL_FLOAT(5.0f, posture.tip_across_mm);
+    TEST_ASSERT_EQUAL_FLOAT(3.5f, posture.knee_across_mm);
+    TEST_ASSERT_EQUAL_FLOAT(0.03f, posture.yaw_turn_rad);
+    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
+        ASSERT_CLOSE((double)before.unbent_rad[i] + (double)bend.joint_turn_rad[i], posture.theta_rad[i], 1e-6);
+        TEST_ASSERT_EQUAL_FLOAT(before.unbent_rad[i], posture.unbent_rad[i]);
+    }
+    /* a motor holds what turns its joint: the levers are those of the bent limb, turned by a quarter */
+    ASSERT_CLOSE(-(double)posture.pose.tip.z_mm, posture.pose.lever_femur.x_mm, 1e-3);
+    ASSERT_CLOSE(posture.pose.tip.x_mm, posture.pose.lever_femur.z_mm, 1e-3);
+    posture_settle(&posture, NULL);
+    ASSERT_CLOSE(before.pose.tip.x_mm, posture.pose.tip.x_mm, 1e-4);
+    ASSERT_CLOSE(before.pose.knee.z_mm, posture.pose.knee.z_mm, 1e-4);
+    TEST_ASSERT_EQUAL_FLOAT(0.0f, posture.tip_across_mm);
+    TEST_ASSERT_EQUAL_FLOAT(0.0f, posture.knee_across_mm);
+    TEST_ASSERT_EQUAL_FLOAT(0.0f, posture.yaw_turn_rad);
+}
+
+/* With the limb leaning over and its tip beside the plane: the moments about the coxa joint's axis, all of them, are
+ * in balance with the force that is told. In a plane that the load has turned, outwards is turned too. */
+static void test_moments_about_the_coxa_joint_are_in_balance(void)
+{
+    static const float leans[] = {0.0f, 0.4f, -0.7f}, coxas_n_mm[] = {100.0f, -350.0f}, x_ns[] = {4.0f, -9.0f};
+    const posture_bend_t bend = {
+        .tip_across_mm = 12.0f, .tibia_across_mm = 7.0f, .joint_turn_rad = {0.05f, 0.0f, 0.0f}};
+    for (int i = 0; i < 24; i++) {
+        const float lean = leans[i % 3], coxa_n_mm = coxas_n_mm[i / 3 % 2];
+        const bool is_turned = i / 12 != 0;
+        const brace_vec3_t leaning = {0.6f * cosf(lean), sinf(lean), -0.8f * cosf(lean)};
+        float x_n = x_ns[i / 6 % 2];
+        posture_bend_t here = bend;
+        stand(0.6f, 1.1f);
+        here.tip_mm = (brace_vec_t){0.0f, 0.0f};
+        here.tibia_mm = (brace_vec_t){posture.pose.tip.x_mm - posture.pose.knee.x_mm,
+                                      posture.pose.tip.z_mm - posture.pose.knee.z_mm};
+        posture_settle(&posture, &here);
+        const float told_n = posture_force_across_n(&posture, &parameters, leaning, coxa_n_mm, is_turned, &x_n);
+        const double coxa = (double)parameters.limb.coxa_mm, knee = coxa + (double)posture.pose.knee.x_mm;
+        const double tip = coxa + (double)posture.pose.tip.x_mm, knee_aside = 5.0, tip_aside = 12.0;
+        /* each weight at the middle of its own: its place outwards and aside */
+        const double weight[3] = {2.0, 1.5, 1.0}, out[3] = {0.5 * (coxa + knee), knee, 0.5 * (knee + tip)};
+        const double aside[3] = {0.5 * knee_aside, knee_aside, 0.5 * (knee_aside + tip_aside)};
+        double about = (double)coxa_n_mm + tip * (double)told_n - tip_aside * (double)x_n;
+        for (int w = 0; w < 3; w++) {
+            about += weight[w] * (out[w] * (double)leaning.y - aside[w] * (double)leaning.x);
+        }
+        TEST_ASSERT_DOUBLE_WITHIN(2e-2, 0.0, about);
+        ASSERT_CLOSE((double)x_ns[i / 6 % 2] - (is_turned ? 0.05 * (double)told_n : 0.0), x_n, 1e-5);
+    }
+}
+
+/* --- which way down is ---------------------------------------------------------------------------------------- */
+
+static void expect_down(const gravity_t *gravity, double direction_rad, double lean_rad)
+{
+    ASSERT_CLOSE(cos(lean_rad) * cos(direction_rad), gravity->down.x, 1e-6);
+    ASSERT_CLOSE(sin(lean_rad), gravity->down.y, 1e-6);
+    ASSERT_CLOSE(cos(lean_rad) * sin(direction_rad), gravity->down.z, 1e-6);
+    ASSERT_CLOSE(direction_rad, gravity->direction_rad, 1e-6);
+    ASSERT_CLOSE(lean_rad, gravity->lean_rad, 1e-6);
+}
+
+static void test_down_is_as_told_until_it_is_told_no_more(void)
+{
+    gravity_t gravity = {.is_told = false};
+    brace_gravity_t said = {.direction_rad = -1.2f, .lean_rad = 0.3f};
+    gravity_configure(&gravity, &said);
+    expect_down(&gravity, -1.2, 0.3);
+    said.direction_rad = -1.0f;
+    gravity_configure(&gravity, &said);
+    expect_down(&gravity, -1.0, 0.3);
+    TEST_ASSERT_EQUAL(BRACE_OK, gravity_tell(&gravity, &said, 2.0f, -0.5f));
+    expect_down(&gravity, 2.0, -0.5);
+    gravity_configure(&gravity, &said); /* parameters come in force: what was told holds */
+    expect_down(&gravity, 2.0, -0.5);
+    TEST_ASSERT_EQUAL(BRACE_OK, gravity_tell(&gravity, &said, NAN, NAN));
+    expect_down(&gravity, -1.0, 0.3);
+    said.lean_rad = -0.1f;
+    gravity_configure(&gravity, &said);
+    expect_down(&gravity, -1.0, -0.1);
+}
+
+static void test_down_out_of_range_changes_nothing(void)
+{
+    const float direction = BRACE_RANGE_GRAVITY_DIRECTION_RAD_MAX, lean = BRACE_RANGE_GRAVITY_LEAN_RAD_MAX;
+    const brace_gravity_t said = {.direction_rad = -1.2f, .lean_rad = 0.3f};
+    gravity_t gravity = {.is_told = false};
+    gravity_configure(&gravity, &said);
+    for (float sign = -1.0f; sign <= 1.0f; sign += 2.0f) {
+        TEST_ASSERT_EQUAL(BRACE_E_RANGE, gravity_tell(&gravity, &said, sign * nextafterf(direction, 4.0f), 0.0f));
+        TEST_ASSERT_EQUAL(BRACE_E_RANGE, gravity_tell(&gravity, &said, 0.0f, sign * nextafterf(lean, 4.0f)));
+        TEST_ASSERT_EQUAL(BRACE_E_RANGE, gravity_tell(&gravity, &said, sign * INFINITY, 0.0f));
+    }
+    TEST_ASSERT_EQUAL(BRACE_E_NOT_FINITE, gravity_tell(&gravity, &said, NAN, 0.0f));
+    TEST_ASSERT_EQUAL(BRACE_E_NOT_FINITE, gravity_tell(&gravity, &said, 0.0f, NAN));
+    expect_down(&gravity, -1.2, 0.3);
+    gravity_configure(&gravity, &said);
+    expect_down(&gravity, -1.2, 0.3);
+    for (float sign = -1.0f; sign <= 1.0f; sign += 2.0f) {
+        TEST_ASSERT_EQUAL(BRACE_OK, gravity_tell(&gravity, &said, sign * direction, sign * lean));
+        expect_down(&gravity, (double)(sign * direction), (double)(sign * lean));
+    }
+}
+
 static void test_angles_that_are_none_give_no_levers(void)
 {
     stand(NAN, 1.4f);
@@ -104,6 +225,10 @@ int main(void)
     RUN_TEST(test_weights_hang_where_they_are);
     RUN_TEST(test_where_the_levers_do_not_allow_it_no_force_is_told);
     RUN_TEST(test_a_force_across_is_told_by_the_coxa_joint);
+    RUN_TEST(test_a_load_takes_the_limb_where_it_says);
+    RUN_TEST(test_moments_about_the_coxa_joint_are_in_balance);
+    RUN_TEST(test_down_is_as_told_until_it_is_told_no_more);
+    RUN_TEST(test_down_out_of_range_changes_nothing);
     RUN_TEST(test_angles_that_are_none_give_no_levers);
     return UNITY_END();
 }

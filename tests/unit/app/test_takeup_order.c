@@ -107,6 +107,66 @@ static void test_the_last_joint_is_let_go_first(void)
     TEST_ASSERT_EQUAL(BRACE_OK, takeup_request(&takeup, &flank, BRACE_FEMUR, 1));
 }
 
+/* The first joint has failed in the tick in which the second was taken back: it is the last one again, and counts. */
+static void test_a_failure_counts_when_the_joint_behind_is_forgotten(void)
+{
+    TEST_ASSERT_EQUAL(BRACE_OK, takeup_request(&takeup, &flank, BRACE_TIBIA, 1));
+    holds(BRACE_TIBIA);
+    TEST_ASSERT_EQUAL(BRACE_OK, takeup_request(&takeup, &flank, BRACE_FEMUR, 1));
+    takeup_forget(&takeup, &flank);
+    TEST_ASSERT_EQUAL(1, takeup.count);
+    TEST_ASSERT_FALSE(flank.joint[BRACE_FEMUR].machine.requested);
+    TEST_ASSERT_TRUE(takeup_holds(&takeup, &flank));
+    goes_to(BRACE_TIBIA, BRACE_TAKEUP_IDLE, BRACE_TAKEUP_E_TRAVEL);
+    takeup_step(&takeup, &flank);
+    TEST_ASSERT_FALSE(takeup_runs(&takeup));
+    TEST_ASSERT_FALSE(takeup.letting_go);
+}
+
+/* The same while both are being let go, and that is taken back. */
+static void test_a_failure_counts_when_letting_go_is_forgotten(void)
+{
+    TEST_ASSERT_EQUAL(BRACE_OK, takeup_request(&takeup, &flank, BRACE_TIBIA, 1));
+    holds(BRACE_TIBIA);
+    TEST_ASSERT_EQUAL(BRACE_OK, takeup_request(&takeup, &flank, BRACE_FEMUR, 1));
+    goes_to(BRACE_TIBIA, BRACE_TAKEUP_IDLE, BRACE_TAKEUP_E_TRAVEL);
+    takeup_step(&takeup, &flank);
+    flank.joint[BRACE_FEMUR].machine.requested = false; /* its machine has dropped what was asked */
+    takeup_step(&takeup, &flank);
+    TEST_ASSERT_EQUAL(1, takeup.count);
+    takeup_forget(&takeup, &flank);
+    takeup_step(&takeup, &flank);
+    TEST_ASSERT_FALSE(takeup_runs(&takeup));
+}
+
+/* A joint on its way back holds no more, though nobody has let it go. */
+static void test_only_holding_is_holding(void)
+{
+    TEST_ASSERT_EQUAL(BRACE_OK, takeup_request(&takeup, &flank, BRACE_TIBIA, 1));
+    holds(BRACE_TIBIA);
+    static const brace_takeup_phase_t others[] = {BRACE_TAKEUP_IDLE, BRACE_TAKEUP_APPROACH, BRACE_TAKEUP_VERIFY,
+                                                  BRACE_TAKEUP_LET_GO};
+    for (int i = 0; i < 4; i++) {
+        flank.joint[BRACE_TIBIA].machine.phase = (uint8_t)others[i];
+        TEST_ASSERT_FALSE(takeup_holds(&takeup, &flank));
+        TEST_ASSERT_EQUAL(BRACE_E_MODE, takeup_request(&takeup, &flank, BRACE_FEMUR, 1));
+    }
+}
+
+static void test_what_is_no_joint_or_flank_is_refused(void)
+{
+    TEST_ASSERT_EQUAL(BRACE_E_RANGE, takeup_request(&takeup, &flank, BRACE_COXA - 1, 1));
+    TEST_ASSERT_EQUAL(BRACE_E_RANGE, takeup_request(&takeup, &flank, BRACE_TIBIA + 1, 1));
+    TEST_ASSERT_EQUAL(BRACE_E_RANGE, takeup_request(&takeup, &flank, BRACE_TIBIA, 0));
+    TEST_ASSERT_EQUAL(BRACE_E_RANGE, takeup_request(&takeup, &flank, BRACE_TIBIA, 2));
+    TEST_ASSERT_EQUAL(BRACE_E_RANGE, takeup_request(&takeup, &flank, BRACE_TIBIA, -2));
+    flank.joint[BRACE_TIBIA].watched = false;
+    TEST_ASSERT_EQUAL(BRACE_E_UNSUPPORTED, takeup_request(&takeup, &flank, BRACE_TIBIA, 1));
+    TEST_ASSERT_EQUAL(0, takeup.count);
+    TEST_ASSERT_EQUAL(BRACE_OK, takeup_request(&takeup, &flank, BRACE_COXA, -1));
+    TEST_ASSERT_EQUAL(-1, flank.joint[BRACE_COXA].machine.chosen_flank);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -114,5 +174,9 @@ int main(void)
     RUN_TEST(test_a_failure_of_before_does_not_end_a_takeup_that_has_not_begun);
     RUN_TEST(test_a_joint_that_is_lost_lets_all_go);
     RUN_TEST(test_the_last_joint_is_let_go_first);
+    RUN_TEST(test_a_failure_counts_when_the_joint_behind_is_forgotten);
+    RUN_TEST(test_a_failure_counts_when_letting_go_is_forgotten);
+    RUN_TEST(test_only_holding_is_holding);
+    RUN_TEST(test_what_is_no_joint_or_flank_is_refused);
     return UNITY_END();
 }

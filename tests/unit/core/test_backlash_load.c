@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "brace/backlash.h"
+#include "brace/ranges.h"
 #include "close.h"
 
 enum { TICK_US = 1000 };
@@ -202,6 +203,162 @@ static void inertia_is_taken_off(void)
     ASSERT_CLOSE(1000.0 + FRICTION_N_MM + 100.0, joint.torque_n_mm, 1.0);
 }
 
+/* A motor that goes on the same way within 8 ms has not turned round meanwhile; one that stood longer may have. */
+static void a_short_stop_leaves_the_direction_sure(void)
+{
+    const double unsure = FRICTION_N_MM * (1.0 + TOLERANCE), sure = FRICTION_N_MM * TOLERANCE;
+    for (int stops = 7; stops <= 8; stops++) {
+        setUp();
+        joint.params.inertia_n_mm_s2_per_rad = 0.0f;
+        begin(0.0, 0.0);
+        for (int i = 1; i <= 30; i++) {
+            observe(1e-4 * i, 0.0);
+        }
+        for (int i = 0; i < stops; i++) {
+            observe(1e-4 * 30, 0.0);
+        }
+        ASSERT_CLOSE(stops == 7 ? sure : unsure, width_of_tick(1e-4 * 31), 0.5);
+    }
+}
+
+/* The link lags behind the motor by no more than half the gap, either way: where it began in the gap, it may be between
+ * the two that began at its ends. */
+static void where_the_link_may_be_in_its_gap(void)
+{
+    const double half = 0.005;
+    double low = -half, high = half, motor_rad = 0.3;
+    begin(motor_rad, 0.0);
+    joint.play_low_rad = (float)low, joint.play_high_rad = (float)high;
+    for (int i = 0; i < 400; i++) {
+        const double to_rad = 0.3 + 0.004 * sin(0.05 * i) + (i > 200 ? 0.009 * sin(0.11 * i) : 0.0);
+        low = fmax(-half, fmin(half, low + to_rad - motor_rad));
+        high = fmax(-half, fmin(half, high + to_rad - motor_rad));
+        motor_rad = to_rad;
+        observe(motor_rad, 0.0);
+        ASSERT_CLOSE(low, joint.play_low_rad, 1e-5);
+        ASSERT_CLOSE(high, joint.play_high_rad, 1e-5);
+    }
+    TEST_ASSERT_TRUE(high - low < 1e-6); /* a motion through the whole gap leaves no doubt */
+}
+
+/* A take-up has to bring the least preload, and friction on top, with less than its greatest torque. The least preload
+ * is friction at its worst, the bias, and what the noise may make of the fast mean. */
+static void a_takeup_needs_more_torque_than_friction_hides(void)
+{
+    brace_backlash_params_t params = joint.params;
+    const double least = (double)joint.least_preload_n_mm, friction = FRICTION_N_MM * (1.0 + TOLERANCE) + BIAS_N_MM;
+    TEST_ASSERT_TRUE(least > friction);
+    params.takeup.preload_n_mm = 0.0f;
+    params.takeup.torque_max_n_mm = (float)(least + FRICTION_N_MM + 0.1);
+    TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_backlash_init(&joint, &params));
+    const brace_backlash_t before = joint;
+    params.takeup.torque_max_n_mm = (float)(least + FRICTION_N_MM - 0.1);
+    TEST_ASSERT_EQUAL_INT(BRACE_E_PARAMETER, brace_backlash_init(&joint, &params));
+    TEST_ASSERT_EQUAL_MEMORY(&before, &joint, sizeof joint);
+}
+
+/* Each time and each size at its least and most, and just beyond. */
+static void every_parameter_has_its_bounds(void)
+{
+    const brace_backlash_params_t sound = joint.params;
+    brace_backlash_params_t p;
+    const struct {
+        uint32_t *time_us, least, most;
+    } times[] = {{&p.tick_us, 100u, 5000u}, {&p.takeup.time_max_us, 1u, 60000000u},
+                 {&p.takeup.verify_us, 20000u, 10000000u}};
+    for (int i = 0; i < 3; i++) {
+        const uint32_t values[4] = {times[i].least, times[i].most, times[i].least - 1u, times[i].most + 1u};
+        for (int v = 0; v < 4; v++) {
+            p = sound;
+            *times[i].time_us = values[v];
+            TEST_ASSERT_EQUAL_INT(v < 2 ? BRACE_OK : BRACE_E_RANGE, brace_backlash_init(&joint, &p));
+        }
+    }
+    const struct {
+        float *value, least, most;
+    } sizes[] = {{&p.gap_rad, 1e-5f, BRACE_RANGE_JOINT_GAP_RAD_MAX},
+                 {&p.takeup.travel_max_rad, 1e-6f, 1.0f},
+                 {&p.takeup.reach_max_rad, 1e-6f, 2.0f},
+                 {&p.takeup.rate_rad_per_s, 1e-6f, 10.0f},
+                 {&p.takeup.preload_n_mm, 0.0f, sound.takeup.torque_max_n_mm},
+                 {&p.takeup.torque_max_n_mm, sound.takeup.torque_max_n_mm, sound.torque_range_n_mm}};
+    for (int i = 0; i < 6; i++) {
+        for (int v = 0; v < 5; v++) {
+            const float values[5] = {sizes[i].least, sizes[i].most, nextafterf(sizes[i].least, -1.0f),
+                                     nextafterf(sizes[i].most, 1e9f), NAN};
+            p = sound;
+            *sizes[i].value = values[v];
+            const brace_status_t status = brace_backlash_init(&joint, &p);
+            if (v == 4) {
+                TEST_ASSERT_EQUAL_INT(BRACE_E_NOT_FINITE, status);
+            } else if (v == 3 || (v == 2 && i < 5)) {
+                TEST_ASSERT_EQUAL_INT(BRACE_E_RANGE, status);
+            } else if (i < 4) {
+                TEST_ASSERT_EQUAL_INT(BRACE_OK, status);
+            } else {
+                TEST_ASSERT_NOT_EQUAL(BRACE_E_RANGE, status); /* what cannot go together is refused for that */
+            }
+        }
+    }
+}
+
+static brace_backlash_out_t tick_at(double motor_rad, double torque_n_mm)
+{
+    brace_backlash_out_t out;
+    now_us += TICK_US;
+    const brace_backlash_sample_t sample = sample_of(motor_rad, torque_n_mm);
+    (void)brace_backlash_tick(&joint, &sample, &out);
+    return out;
+}
+
+/* What is known of the link's place in its gap outlasts every state but FAULT, behind which it may be anywhere. */
+static void only_a_fault_forgets_where_the_link_is(void)
+{
+    int states = 0, last = -1;
+    double motor_rad = 0.3;
+    for (int i = 0; i < 600; i++) {
+        motor_rad += i < 200 ? 1e-4 : 0.0;
+        const brace_backlash_out_t out = tick_at(motor_rad, i < 400 ? 2500.0 : 2500.0 - 12.0 * (i - 400));
+        TEST_ASSERT_NOT_EQUAL(BRACE_BACKLASH_FAULT, out.state);
+        states += (int)out.state != last ? 1 : 0;
+        last = (int)out.state;
+        if (i > 110) { /* through the gap of 10 mrad: it lies at its end */
+            ASSERT_CLOSE(0.005, joint.play_low_rad, 1e-5);
+            ASSERT_CLOSE(0.005, joint.play_high_rad, 1e-5);
+        }
+    }
+    TEST_ASSERT_TRUE(states >= 2);
+    for (int i = 0; i < 50; i++) {
+        last = (int)tick_at(NAN, 2500.0).state;
+    }
+    TEST_ASSERT_EQUAL(BRACE_BACKLASH_FAULT, last);
+    ASSERT_CLOSE(-0.005, joint.play_low_rad, 1e-6);
+    ASSERT_CLOSE(0.005, joint.play_high_rad, 1e-6);
+}
+
+/* What accelerates the motor is taken off the torque, and a quarter of it may be wrong. */
+static void acceleration_widens_the_doubt(void)
+{
+    const double accel = 40.0, inertial = 20.0 * accel, dt = 1e-3; /* N mm: 20 N mm s2/rad */
+    double motor_rad = 0.0, speed = 0.0;
+    begin(0.0, inertial + 1000.0 + FRICTION_N_MM);
+    for (int i = 0; i < 600; i++) {
+        speed += accel * dt;
+        motor_rad += speed * dt;
+        observe(motor_rad, inertial + 1000.0 + FRICTION_N_MM);
+    }
+    ASSERT_CLOSE(1000.0, joint.fast_n_mm, 0.02 * inertial);
+    ASSERT_CLOSE(FRICTION_N_MM * TOLERANCE + 0.25 * inertial, joint.fast_width_n_mm, 0.02 * inertial);
+    const double steady = motor_rad;
+    for (int i = 0; i < 600; i++) {
+        motor_rad += speed * dt;
+        observe(motor_rad, 1000.0 + FRICTION_N_MM);
+    }
+    TEST_ASSERT_TRUE(motor_rad > steady);
+    ASSERT_CLOSE(1000.0, joint.fast_n_mm, 5.0);
+    ASSERT_CLOSE(FRICTION_N_MM * TOLERANCE, joint.fast_width_n_mm, 2.0);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -212,5 +369,11 @@ int main(void)
     RUN_TEST(a_proof_takes_twelve_ticks);
     RUN_TEST(an_expected_load_narrows_what_is_shown);
     RUN_TEST(inertia_is_taken_off);
+    RUN_TEST(a_short_stop_leaves_the_direction_sure);
+    RUN_TEST(where_the_link_may_be_in_its_gap);
+    RUN_TEST(a_takeup_needs_more_torque_than_friction_hides);
+    RUN_TEST(every_parameter_has_its_bounds);
+    RUN_TEST(only_a_fault_forgets_where_the_link_is);
+    RUN_TEST(acceleration_widens_the_doubt);
     return UNITY_END();
 }

@@ -1,4 +1,6 @@
-/* Requests and answers as a whole go the way of their frames: every member says what the frame's field says. */
+/* Requests and answers as a whole go the way of their frames: every member says what the frame's field says. And of
+ * every frame: what is packed of any values comes back, and every bit that unpacking heeds is packed. */
+#include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
@@ -9,17 +11,17 @@
 #include "brace/status.h"
 #include "unity.h"
 
-enum { TRIES = 200, MOST_WORDS = 20, TOKEN = 0x5a };
+enum { TRIES = 200, MOST_WORDS = 20, MOST_FRAME_WORDS = 80, TOKEN = 0x5a };
 
 /* A frame's message is its token and its fields, 32 bits each. */
 typedef struct {
     const char *name;
-    uint32_t words;
+    uint32_t bytes, words;
     void (*unpack)(const uint8_t *data, uint32_t *words);
     uint32_t (*pack)(const uint32_t *words, uint8_t *data);
 } frame_t;
 
-#define ROW(name, bytes) {#name, sizeof(brace_can_##name##_t) / 4u, unpack_##name, pack_##name},
+#define ROW(name, bytes) {#name, bytes, sizeof(brace_can_##name##_t) / 4u, unpack_##name, pack_##name},
 static const frame_t frames[] = {BRACE_CAN_FRAMES(ROW)};
 #undef ROW
 
@@ -46,6 +48,71 @@ static uint8_t any_byte(void)
 {
     seed = seed * 1664525u + 1013904223u;
     return (uint8_t)(seed >> 24);
+}
+
+/* A count, a code, a value, what is not known or has no bound: as a field may be told, whatever it is. */
+static uint32_t any_value(void)
+{
+    const float value = ((float)any_byte() - 128.0f) * (any_byte() < 128u ? 0.37f : 0.0037f);
+    const float odd[] = {value, -value, (float)NAN, (float)INFINITY, 0.0f};
+    uint32_t word = (uint32_t)any_byte() << (any_byte() % 3u * 8u) | any_byte();
+    const uint32_t which = any_byte() % 8u;
+    if (which < 5u) {
+        memcpy(&word, &odd[which], 4);
+    }
+    return word;
+}
+
+/* Equal, or apart by one last place of one field: a float of a 24-bit number's steps rounds. */
+static bool is_nearly(const uint8_t *a, const uint8_t *b)
+{
+    uint64_t of_a, of_b;
+    memcpy(&of_a, a, 8);
+    memcpy(&of_b, b, 8);
+    const uint64_t apart = of_a > of_b ? of_a - of_b : of_b - of_a;
+    return (apart & (apart - 1u)) == 0u;
+}
+
+static void test_what_is_packed_of_any_values_comes_back(void)
+{
+    for (uint32_t f = 0; f < sizeof frames / sizeof *frames; f++) {
+        for (uint32_t i = 0; i < 4u * TRIES; i++) {
+            uint32_t words[MOST_FRAME_WORDS] = {0}, back[MOST_FRAME_WORDS] = {0};
+            uint8_t data[64] = {0}, again[64] = {0};
+            TEST_ASSERT_TRUE(frames[f].words <= MOST_FRAME_WORDS);
+            for (uint32_t w = 0; w < frames[f].words; w++) {
+                words[w] = any_value();
+            }
+            (void)frames[f].pack(words, data);
+            frames[f].unpack(data, back);
+            (void)frames[f].pack(back, again);
+            for (uint32_t at = 0; at < sizeof data; at += 8u) {
+                TEST_ASSERT_TRUE_MESSAGE(is_nearly(data + at, again + at), frames[f].name);
+            }
+        }
+    }
+}
+
+static void test_every_bit_that_unpacking_heeds_is_packed(void)
+{
+    for (uint32_t f = 0; f < sizeof frames / sizeof *frames; f++) {
+        uint8_t any[64], first[64] = {0}, other[64] = {0};
+        uint32_t words[MOST_FRAME_WORDS], of_other[MOST_FRAME_WORDS];
+        memset(any, 0x11, sizeof any); /* small numbers: nothing is limited */
+        memset(words, 0, sizeof words);
+        memset(of_other, 0, sizeof of_other);
+        frames[f].unpack(any, words);
+        (void)frames[f].pack(words, first);
+        for (uint32_t bit = 0; bit < 8u * frames[f].bytes; bit++) {
+            any[bit / 8u] ^= (uint8_t)(1u << bit % 8u);
+            frames[f].unpack(any, of_other);
+            any[bit / 8u] ^= (uint8_t)(1u << bit % 8u);
+            if (memcmp(words, of_other, 4u * frames[f].words) != 0) {
+                (void)frames[f].pack(of_other, other);
+                TEST_ASSERT_TRUE_MESSAGE(((first[bit / 8u] ^ other[bit / 8u]) >> bit % 8u & 1u) != 0u, frames[f].name);
+            }
+        }
+    }
 }
 
 static const frame_t *frame_named(const char *name)
@@ -147,6 +214,8 @@ static void test_a_value_beyond_its_range_is_flagged(void)
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(test_what_is_packed_of_any_values_comes_back);
+    RUN_TEST(test_every_bit_that_unpacking_heeds_is_packed);
     RUN_TEST(test_a_request_has_what_its_frame_says);
     RUN_TEST(test_an_answer_says_what_its_frames_say);
     RUN_TEST(test_a_value_beyond_its_range_is_flagged);

@@ -7,6 +7,7 @@
 static struct {
     uint8_t bytes[2][4096];
     bool write_refused, read_refused, erase_refused, write_lost, erase_lost;
+    bool refuses_what_it_writes; /* the one write that is refused */
     int32_t stuck_slot;
     uint32_t stuck_at, writes_until_refused, reads_until_refused;
     uint32_t calls, bytes_moved;
@@ -33,7 +34,8 @@ static int32_t memory_write(void *context, uint32_t slot, uint32_t offset, const
     (void)context;
     memory.calls++;
     memory.bytes_moved += count;
-    if (memory.write_refused || (memory.writes_until_refused != 0 && --memory.writes_until_refused == 0)) {
+    const bool is_refused = memory.writes_until_refused != 0 && --memory.writes_until_refused == 0;
+    if (memory.write_refused || (is_refused && !memory.refuses_what_it_writes)) {
         return BRACE_HAL_E_DEVICE;
     }
     for (uint32_t i = 0; i < count && !memory.write_lost; i++) {
@@ -42,7 +44,7 @@ static int32_t memory_write(void *context, uint32_t slot, uint32_t offset, const
     if ((int32_t)slot == memory.stuck_slot) {
         memory.bytes[slot][memory.stuck_at] |= 1u;
     }
-    return BRACE_HAL_OK;
+    return is_refused ? BRACE_HAL_E_DEVICE : BRACE_HAL_OK;
 }
 
 static int32_t memory_erase(void *context, uint32_t slot)
@@ -571,6 +573,38 @@ static void test_a_memory_that_does_not_answer(void)
     expect_after_start(BRACE_PARAMETERS_SLOT_A, 1);
 }
 
+/* A roll-back whose mark is written though the memory denies it, and whose undoing the memory refuses: the set in force
+ * stays in force, and is affirmed anew before the other slot is touched. So whenever the power fails, one of two sets
+ * is there. */
+static void test_a_set_is_affirmed_anew_after_a_mark_that_may_stand(void)
+{
+    update(1);
+    update(2);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_store_rollback(&store));
+    memory.refuses_what_it_writes = true;
+    brace_store_state_t state = BRACE_STORE_BUSY;
+    for (int i = 0; i < 200 && state == BRACE_STORE_BUSY; i++) {
+        uint8_t before[4096];
+        memcpy(before, memory.bytes[1], sizeof before);
+        memory.writes_until_refused = memory.write_refused ? 0u : 1u;
+        state = brace_store_step(&store);
+        memory.write_refused = memory.write_refused || memcmp(before, memory.bytes[1], sizeof before) != 0;
+    }
+    TEST_ASSERT_EQUAL(BRACE_STORE_FAILED, state);
+    memory.write_refused = false;
+    memory.writes_until_refused = 0;
+    TEST_ASSERT_EQUAL(BRACE_PARAMETERS_SLOT_B, status_now().in_force);
+    const brace_parameters_t set = set_of(3);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_store_begin(&store, &set, NULL));
+    bool is_erased = false;
+    for (int i = 0; i < 200 && !is_erased; i++) {
+        (void)brace_store_step(&store);
+        is_erased = memory.bytes[0][0] == 0xffu;
+    }
+    TEST_ASSERT_TRUE(is_erased);
+    expect_after_start(BRACE_PARAMETERS_SLOT_B, 2);
+}
+
 static void test_what_is_refused_at_once(void)
 {
     brace_parameters_t wrong = set_of(1);
@@ -662,6 +696,7 @@ int main(void)
     RUN_TEST(test_of_two_other_dictionaries_the_older_block_goes);
     RUN_TEST(test_a_set_that_did_not_count_does_not_come_back);
     RUN_TEST(test_a_memory_that_does_not_answer);
+    RUN_TEST(test_a_set_is_affirmed_anew_after_a_mark_that_may_stand);
     RUN_TEST(test_what_is_refused_at_once);
     RUN_TEST(test_a_set_that_is_offered_is_judged_on_the_way);
     return UNITY_END();

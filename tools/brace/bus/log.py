@@ -105,7 +105,10 @@ class LogBus:
 
     def silence(self) -> tuple[str, str]:
         """Short logs."""
-        return ("the log holds no frames of this node", "brace replay FILE shows which nodes it has")
+        return (
+            "the log holds no frames of a controller",
+            "give a log of brace record or of candump -l, taken while a controller was on the bus",
+        )
 
     def close(self) -> None:
         """Nothing to do."""

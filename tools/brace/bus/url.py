@@ -89,8 +89,8 @@ def _unit(url: str, text: str | None) -> int:
 def _guess(text: str) -> str:
     if text.startswith("/dev/"):
         return f"--bus slcan:{text} for an SLCAN adapter, --bus modbus:{text} for Modbus RTU"
-    if re.fullmatch(r"[\w.-]+:\d+", text):
-        return f"--bus tcp://{text}"
+    if written := re.fullmatch(r"(?:tcp:/?)?([\w.-]+:\d+)", text):
+        return f"--bus tcp://{written.group(1)}"
     if text.endswith((".log", ".mcap")):
         return f"--bus log:{text}"
     return "--bus tcp://127.0.0.1:29536 for brace sim as it starts by itself"

@@ -77,7 +77,11 @@ class OptionParser(argparse.ArgumentParser):
     def error(self, message: str) -> NoReturn:
         """What argparse refuses without naming an argument: one is missing, or an abbreviation is not clear."""
         unknown = [text for text in self._given if self._is_unknown_option(text)]
-        raise self._unknown(unknown) if unknown else self._refusal("", message)
+        if unknown:
+            raise self._unknown(unknown)
+        model = next((text for text in self._given if text.endswith(".toml")), "")
+        forgotten = bool(model) and "--model" in message and "--model" in self._option_string_actions
+        raise self._refusal("", message, way=f"--model {model}; {self.prog} --help has the rest" if forgotten else "")
 
     def _check_value(self, action: argparse.Action, value: object) -> None:
         """argparse calls this for each value of an option with choices."""

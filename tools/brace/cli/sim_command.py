@@ -213,10 +213,19 @@ def _say_taken(url: str) -> None:
     common.say(f"note: {url} is taken, by another brace sim perhaps; a free port is used instead")
 
 
+def _usual_posture(model: LimbModel) -> spec.Posture:
+    """A leg half bent; a joint whose travel does not reach there stands in the middle of it."""
+    angles = []
+    for joint, usual_rad in (("femur", 1.0), ("tibia", 1.4)):
+        low, high = (model.number(f"motor.{joint}.angle_{end}_rad") for end in ("min", "max"))
+        angles.append(usual_rad if low <= usual_rad <= high else (low + high) / 2)
+    return spec.Posture(angles[0], angles[1], 0.0)
+
+
 def _setups(arguments: argparse.Namespace, model: LimbModel, plant: LimbModel, modbus: str) -> list[LimbSetup]:
     from brace.sim.node import LimbSetup
 
-    first = arguments.posture[0] if arguments.posture else spec.Posture(1.0, 1.4, 0.0)
+    first = arguments.posture[0] if arguments.posture else _usual_posture(model)
     base = arguments.node or int(model.number("controller.node_id")) or 1
     if base + arguments.limbs - 1 > 127:
         raise UsageError(

@@ -13,11 +13,12 @@ import numpy as np
 
 from brace.importing import names, numerals
 from brace.importing.mapping import CONSTANTS, ColumnUse, Constant, MappingTable
-from brace.importing.meaning import IGNORE, OPEN, TARGETS, quantity_of, target_of
+from brace.importing.meaning import IGNORE, OPEN, TARGETS, UNKNOWN_NAME, WHICH_ANGLE, quantity_of, target_of
 from brace.importing.part import Part
 from brace.units import OWN, unit_of
 
 FULL_TURN = 2 * math.pi
+_PERHAPS_ANGLE = f"an angle of the posture? {UNKNOWN_NAME}"
 RAW = ("v", "mv", "volt", "volts", "mv/v", "ma", "a", "counts", "count", "ticks", "lsb", "%", "digits", "raw")
 AXES = {"x": "x", "z": "z", "horizontal": "x", "vertical": "z", "waagrecht": "x", "waagerecht": "x", "senkrecht": "z",
         "vertikal": "z", "hor": "x", "ver": "z", "vert": "z", "h": "x", "v": "z"}  # fmt: skip
@@ -61,6 +62,7 @@ def _columns(layout: Sequence[Part], kind: str, file: str) -> list[ColumnUse]:
         found.append(_one(index, header, first, cells, kind, file))
     found = _without_rivals(found, first, kind)
     found = _angles_by_size(found, layout)
+    found = _perhaps_angles(found, layout) if kind == "loading" else found
     return found if kind == "stiffness_table" else _signs_and_zeros(found, layout, kind)
 
 
@@ -170,6 +172,24 @@ def _angles_by_size(columns: list[ColumnUse], layout: Sequence[Part]) -> list[Co
     return changed
 
 
+def _perhaps_angles(columns: list[ColumnUse], layout: Sequence[Part]) -> list[ColumnUse]:
+    """No angle is known, and numbers of an unknown name stay for some rows and then change, as postures do: asked.
+    Left out, they would let one angle be said for a record of several postures."""
+    known = {target for use in columns for target in use.targets}
+    if {"theta1_rad", "theta2_rad"} <= known or not layout[0].has_names:
+        return columns
+    changed = list(columns)
+    for at, use in enumerate(columns):
+        if use.targets[0] != IGNORE or use.why != UNKNOWN_NAME:
+            continue
+        values = np.array([numerals.number(cell, part.decimal) for part in layout for cell in part.cells(at)])
+        values = values[np.isfinite(values)]
+        changes = np.count_nonzero(np.diff(values))
+        if 0 < 2 * changes <= values.size and np.abs(values).max() <= 360.0:
+            changed[at] = replace(use, targets=(OPEN,), why=_PERHAPS_ANGLE)
+    return changed
+
+
 _SIGNED = {
     "loading": (("dx_mm", "fx_n"), ("dz_mm", "fz_n"), ("d_mm", "f_n")),
     "joint_test": (("angle_rad", "torque_n_mm"),),
@@ -238,12 +258,22 @@ def _constants(parts: Sequence[Part], table: MappingTable) -> list[Constant]:
         }
         if len(parts) > 1 and "t_s" in have and table.kind == "loading" and not (_MOVES & have and _PUSHES & have):
             continue  # one of two instruments: the other file says the rest
+        asked = sum(
+            1
+            for index, name in enumerate(part.names, start=1)
+            if (use := table.column(part.path.name, name, index))
+            and OPEN in use.targets
+            and use.why in (WHICH_ANGLE, _PERHAPS_ANGLE)
+        )
         for target in CONSTANTS[table.kind]:
             given = _from_remarks(part, target, table.kind)
             if target in have or target == "dwell_s":
                 continue
             if target == "axis" and not _needs_axis(have):
                 continue
+            if given is None and target in ("theta1_rad", "theta2_rad") and asked:
+                asked -= 1
+                continue  # the column's question stands for it
             if given is None and target == "axis":
                 given = _axis_of_name(part)
             if given is None and target == "temp_degc":

@@ -216,10 +216,11 @@ def _displacements(table: Table, axis: np.ndarray, rows: int, notes: list[str]) 
             next_step="measure dx_mm and dz_mm under each weight; or hold the tip sideways and read the force there",
         )
     if lacking:
+        were = "was" if len(lacking) == 1 else "were"
         notes.append(
-            f"{table.part.path.name}: {' and '.join(lacking)} {'is' if len(lacking) == 1 else 'are'} 0 across the "
-            "axis: a "
-            "rig that displaces the tip along one axis holds it on the other"
+            f"{table.part.path.name}: {' and '.join(lacking)} {were} not measured and taken as 0 across the axis: the "
+            "rig is taken to hold the tip there. If the tip was free to move that way, this record gives a wrong K: "
+            "measure both displacements"
         )
     return out
 

@@ -24,6 +24,8 @@ TARGETS: dict[str, dict[str, str]] = {
     },
 }  # fmt: skip
 IGNORE, OPEN = "ignore", "?"
+UNKNOWN_NAME = "the name says nothing that is known here"
+WHICH_ANGLE = "which joint's angle?"
 _QUANTITIES = ("force", "length", "angle", "torque", "time", "temperature", "stiffness")
 
 
@@ -83,7 +85,9 @@ def _of_loading(name: Name, quantity: str) -> tuple[str, str]:
                 return word, "name"
         if "test" in words:
             return "run", "name"
-        return IGNORE, "a counter" if "count" in words else "the name says nothing that is known here"
+        if words & {"femur", "tibia"} and words <= {"femur", "tibia", "joint", "actual"}:
+            return OPEN, WHICH_ANGLE
+        return IGNORE, "a counter" if "count" in words else UNKNOWN_NAME
     if quantity == "time":
         return "t_s", "name"
     if quantity == "temperature":
@@ -118,7 +122,7 @@ def _of_loading(name: Name, quantity: str) -> tuple[str, str]:
             )
         if "z" in words:
             return OPEN, "an angle from the vertical: theta1 counts from +x, so sign and offset must be said"
-        return (f"theta{joint}_rad", "name") if joint in ("1", "2") else (OPEN, "which joint's angle?")
+        return (f"theta{joint}_rad", "name") if joint in ("1", "2") else (OPEN, WHICH_ANGLE)
     if quantity == "torque":
         return IGNORE, "a loading record has no torques"
     return OPEN, "name and unit contradict each other"
@@ -139,7 +143,7 @@ def _of_joint_test(name: Name, quantity: str) -> tuple[str, str]:
     if not quantity:
         if words & {"test", "run", "config"}:
             return "test", "name"
-        return IGNORE, "a counter" if words & {"count", "step", "rep"} else "the name says nothing that is known here"
+        return IGNORE, "a counter" if words & {"count", "step", "rep"} else UNKNOWN_NAME
     return IGNORE, "a joint test has time, angle and torque"
 
 
@@ -162,4 +166,4 @@ def _of_table(name: Name, quantity: str) -> tuple[str, str]:
         return f"theta{joint}_rad", "name"
     if "count" in words:
         return "row", "name"
-    return IGNORE, "the name says nothing that is known here"
+    return IGNORE, UNKNOWN_NAME

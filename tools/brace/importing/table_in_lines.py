@@ -208,6 +208,10 @@ def _header(lines: Sequence[Line], first: int, width: int, short: str) -> tuple[
     return named, units, header_from
 
 
+# Behind the last name: nothing, or the column of remarks of which LabVIEW writes the name alone.
+_COMMENT = ("", "comment", "comments", "remark", "remarks", "note", "notes", "bemerkung", "kommentar", "commentaire")
+
+
 def _header_cells(line: Line, width: int, short: str) -> list[str] | None:
     """The cells of a line that may name columns; None for one that cannot. short: which column may have no name."""
     marked = line.text.lstrip()
@@ -216,7 +220,7 @@ def _header_cells(line: Line, width: int, short: str) -> list[str] | None:
         cells[0] = re.sub(r"^\s*(?:#+|%+|//+)\s*", "", cells[0])
         if not cells[0] and len(cells) == width + 1:
             cells = cells[1:]
-    while len(cells) > width and not cells[-1].strip():
+    while len(cells) > width and cells[-1].strip().lower() in _COMMENT:
         cells.pop()
     if len(cells) == width - 1 and short:
         cells = [*cells, ""] if short == "last" else ["", *cells]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from brace.errors import UsageError, did_you_mean
@@ -12,6 +13,7 @@ from brace.newlimb.beams import ALIASES, MATERIALS, Compliances, Material, of_mo
 from brace.units import unit_of
 
 _NUMBER = re.compile(r"\s*([-+]?\d*\.?\d+(?:[eE][-+]?\d+)?)\s*(.*?)\s*")
+_COMMA = re.compile(r"(?<![\d.])(\d+),(\d+)(?![\d.])")
 UNKNOWN = "unknown"
 LENGTH_MM = (10.0, 3000.0)  # of a link
 STIFFNESS_N_M_PER_RAD = (1.0, 1e6)  # of a joint
@@ -143,6 +145,7 @@ def link(text: str, length: float) -> Link:
     """'tube 20 16 aluminium', 'rod 12 70GPa', 'measured 0.06', 'rigid'."""
     words = text.replace(",", " ").replace("/", " ").split()
     kind = words[0].lower() if words else ""
+    _refuse_decimal_comma(text, kind, words)
     if kind == "rigid" and len(words) == 1:
         return Link(Compliances(0.0, 0.0, 0.0, 0.0), False, 0.0, "rigid")
     if kind == "measured" and len(words) in (2, 3):
@@ -181,6 +184,14 @@ def link(text: str, length: float) -> Link:
         LINK_FORMS,
         f"did you mean {near}?" if near and near != kind else "'tube 20 16 aluminium'",
     )
+
+
+def _refuse_decimal_comma(text: str, kind: str, words: Sequence[str]) -> None:
+    """Commas may stand between the numbers, too: 'tube 20,16,alu'. One within a number leaves a number too many."""
+    first = {"tube": 3, "rod": 2}.get(kind, len(words))  # of the material's words
+    too_many = len(words) > first + 1 and re.fullmatch(r"[\d.]+", words[first])
+    if _COMMA.search(text) and (kind == "measured" or too_many):
+        raise refusal(f"{text!r}: a comma is in a number", "the decimal sign is a point", _COMMA.sub(r"\1.\2", text))
 
 
 def _diameter(text: str, what: str) -> float:

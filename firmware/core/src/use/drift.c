@@ -458,7 +458,7 @@ brace_status_t brace_drift_report(const brace_drift_t *drift, const brace_limb_t
         report->baseline_sigmas = off > report->baseline_sigmas ? off : report->baseline_sigmas;
         report->evidence = drift->evidence[i] > report->evidence ? drift->evidence[i] : report->evidence;
     }
-    const int cause = report->cause;
+    const int cause = (int)report->cause;
     report->could_be = 1u << cause;
     report->since_steps = drift->since[cause];
     const float share[BRACE_DRIFT_CAUSE_COUNT] = {1.0f, c.tibia_share, 1.0f};

@@ -1,4 +1,5 @@
 /* How one mode follows another: from every mode, with sound joints and without, with and without faults. */
+#include "mode/faults.h"
 #include "mode/mode.h"
 
 #include "unity.h"
@@ -101,6 +102,66 @@ static void test_in_which_modes_k_is_told(void)
     TEST_ASSERT_FALSE(mode_tells_k(BRACE_MODE_FAULT));
 }
 
+/* --- how long a fault lasts ----------------------------------------------------------------------------------- */
+
+/* Each fault that comes and goes stands for 100 ms after its cause, TICK_LATE for 1 s; a cause that comes back begins
+ * that anew. Faults do not touch one another. */
+static void test_a_fault_lasts_a_while_after_its_cause(void)
+{
+    const uint32_t stands = BRACE_FAULT_PARAMETERS | BRACE_FAULT_STORE | BRACE_FAULT_MODEL_DRIFT | BRACE_FAULT_CRASHED;
+    for (uint32_t bit = 0; bit < (uint32_t)BRACE_FAULT_COUNT; bit++) {
+        const uint32_t fault = 1u << bit, another = 1u << (bit == 0u ? 1u : 0u);
+        const int over = fault == (uint32_t)BRACE_FAULT_TICK_LATE ? 1000 : 100;
+        if ((fault & stands) != 0u) {
+            continue;
+        }
+        faults_t faults = {.now = 0u};
+        faults_update(&faults, fault, 0u, false, TICK_US);
+        TEST_ASSERT_EQUAL_HEX32(0u, faults.now); /* none begins yet */
+        for (int round = 0; round < 2; round++) {
+            faults_update(&faults, fault | another, 0u, true, TICK_US);
+            TEST_ASSERT_EQUAL_HEX32(fault | another, faults.now);
+            for (int i = 1; i < over; i++) {
+                faults_update(&faults, another, 0u, i % 2 == 0, TICK_US);
+                TEST_ASSERT_EQUAL_HEX32(fault | another, faults.now);
+            }
+            if (round == 0) { /* its cause comes back in time */
+                faults_update(&faults, fault | another, 0u, false, TICK_US);
+            }
+        }
+        faults_update(&faults, another, 0u, true, TICK_US);
+        TEST_ASSERT_EQUAL_HEX32(another, faults.now);
+    }
+}
+
+/* Ticks that do not divide the 100 ms: the first one beyond ends it. */
+static void test_a_fault_ends_with_the_first_tick_beyond(void)
+{
+    faults_t faults = {.now = 0u};
+    faults_update(&faults, BRACE_FAULT_MEMORY, 0u, true, 3000u);
+    for (int i = 1; i <= 33; i++) {
+        faults_update(&faults, 0u, 0u, true, 3000u);
+        TEST_ASSERT_EQUAL_HEX32(BRACE_FAULT_MEMORY, faults.now);
+    }
+    faults_update(&faults, 0u, 0u, true, 3000u);
+    TEST_ASSERT_EQUAL_HEX32(0u, faults.now);
+}
+
+static void test_some_faults_stand_as_long_as_somebody_says_so(void)
+{
+    static const uint32_t stands[] = {BRACE_FAULT_PARAMETERS, BRACE_FAULT_STORE, BRACE_FAULT_MODEL_DRIFT,
+                                      BRACE_FAULT_CRASHED};
+    for (int i = 0; i < 4; i++) {
+        faults_t faults = {.now = 0u};
+        faults_update(&faults, 0u, stands[i], false, TICK_US);
+        TEST_ASSERT_EQUAL_HEX32(stands[i], faults.now);
+        faults_update(&faults, BRACE_FAULT_MEMORY, stands[i], true, 10u * TICK_US);
+        TEST_ASSERT_EQUAL_HEX32(stands[i] | BRACE_FAULT_MEMORY, faults.now);
+        faults_update(&faults, BRACE_FAULT_MEMORY, 0u, true, TICK_US);
+        TEST_ASSERT_EQUAL_HEX32(BRACE_FAULT_MEMORY, faults.now);
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -109,5 +170,8 @@ int main(void)
     RUN_TEST(test_without_K_whatever_moves_ends);
     RUN_TEST(test_configuration_ends_by_hand);
     RUN_TEST(test_in_which_modes_k_is_told);
+    RUN_TEST(test_a_fault_lasts_a_while_after_its_cause);
+    RUN_TEST(test_a_fault_ends_with_the_first_tick_beyond);
+    RUN_TEST(test_some_faults_stand_as_long_as_somebody_says_so);
     return UNITY_END();
 }

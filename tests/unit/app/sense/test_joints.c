@@ -71,6 +71,12 @@ static void test_the_mean_begins_as_the_median_of_three(void)
 static void test_the_mean_follows_what_two_samples_agree_on(void)
 {
     const joint_t *joint = &joints.joint[BRACE_FEMUR];
+    (void)read_at(1.0f, NAN, 100.0f);
+    (void)read_at(1.0f, NAN, 100.0f);
+    TEST_ASSERT_EQUAL_FLOAT(100.0f, read_at(1.0f, NAN, 2100.0f)->torque_n_mm);
+    joint = read_at(1.0f, NAN, 2200.0f); /* already the fourth */
+    TEST_ASSERT_FLOAT_WITHIN(1.0f, 100.0f + 2000.0f / 21.0f, joint->torque_n_mm);
+    joints_start(&joints, &hal);
     for (int i = 0; i < 4; i++) {
         joint = read_at(1.0f, NAN, 100.0f);
     }
@@ -85,6 +91,41 @@ static void test_the_mean_follows_what_two_samples_agree_on(void)
         joint = read_at(1.0f, NAN, 2100.0f);
     }
     TEST_ASSERT_FLOAT_WITHIN(1.0f, 2100.0f, joint->torque_n_mm);
+}
+
+/* Two wild samples agree only if they follow one another. */
+/* Femur and tibia joint take the other's temperature where they have no sensor; the coxa joint has its own or none. */
+static void test_temperatures_of_joints(void)
+{
+    static const float given[][3] = {{33.0f, 30.0f, 40.0f}, {NAN, 30.0f, NAN}, {33.0f, NAN, 40.0f}, {NAN, NAN, NAN}};
+    static const float told[][3] = {{33.0f, 30.0f, 40.0f}, {NAN, 30.0f, 30.0f}, {33.0f, 40.0f, 40.0f}, {NAN, NAN, NAN}};
+    for (int i = 0; i < 4; i++) {
+        float temp_degc[BRACE_LINK_COUNT] = {-1.0f, -1.0f, -1.0f};
+        for (int j = 0; j < BRACE_LINK_COUNT; j++) {
+            joints.joint[j].sample.temp_degc = given[i][j];
+        }
+        joints_temperatures(&joints, temp_degc);
+        for (int j = 0; j < BRACE_LINK_COUNT; j++) {
+            TEST_ASSERT_TRUE(isnan(told[i][j]) ? isnan(temp_degc[j]) : temp_degc[j] == told[i][j]);
+        }
+        const float warmest = i == 1 ? 30.0f : 40.0f;
+        TEST_ASSERT_TRUE(i == 3 ? isnan(joints_warmest_degc(&joints)) : joints_warmest_degc(&joints) == warmest);
+    }
+}
+
+static void test_a_sound_sample_between_two_wild_ones_parts_them(void)
+{
+    (void)read_at(1.0f, NAN, 100.0f);
+    for (int i = 0; i < 4; i++) {
+        const joint_t *joint = read_at(1.5f, NAN, 100.0f);
+        TEST_ASSERT_EQUAL_FLOAT(1.0f, joint->sample.motor_rad);
+        TEST_ASSERT_TRUE(joint->has_wild);
+        joint = read_at(1.0f, NAN, 100.0f);
+        TEST_ASSERT_EQUAL_FLOAT(1.0f, joint->sample.motor_rad);
+        TEST_ASSERT_FALSE(joint->has_wild);
+    }
+    (void)read_at(1.5f, NAN, 100.0f);
+    TEST_ASSERT_EQUAL_FLOAT(1.5f, read_at(1.5f, NAN, 100.0f)->sample.motor_rad);
 }
 
 static void test_an_angle_that_no_joint_could_have_reached_is_refused_once(void)
@@ -186,6 +227,8 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_the_mean_begins_as_the_median_of_three);
     RUN_TEST(test_the_mean_follows_what_two_samples_agree_on);
+    RUN_TEST(test_temperatures_of_joints);
+    RUN_TEST(test_a_sound_sample_between_two_wild_ones_parts_them);
     RUN_TEST(test_an_angle_that_no_joint_could_have_reached_is_refused_once);
     RUN_TEST(test_link_angles_are_watched_too);
     RUN_TEST(test_absurd_samples_are_counted_and_grow_old);

@@ -241,6 +241,29 @@ static void test_idle_is_who_has_nothing_to_mind(void)
     TEST_ASSERT_TRUE(ownership_is_idle(&ownership));
 }
 
+/* Each silence is held for as long as any other before it lets go. */
+static void test_every_silence_is_held_as_long(void)
+{
+    enum { LET_GO_TICKS = 40 };
+    for (int round = 0; round < 3; round++) {
+        int held = 0;
+        asks(we);
+        lives(we);
+        TEST_ASSERT_EQUAL(OWNERSHIP_GOES_ON, moves(LET_GO_TICKS * TICK_US));
+        TEST_ASSERT_FALSE(ownership.is_held);
+        ownership_step_t step = OWNERSHIP_GOES_ON;
+        for (int i = 0; i < 500 && step == OWNERSHIP_GOES_ON; i++) {
+            step = moves(LET_GO_TICKS * TICK_US);
+        }
+        TEST_ASSERT_EQUAL(OWNERSHIP_STOPS, step);
+        for (step = OWNERSHIP_GOES_ON; held < 500 && step == OWNERSHIP_GOES_ON; held++) {
+            step = moves(LET_GO_TICKS * TICK_US);
+        }
+        TEST_ASSERT_EQUAL(OWNERSHIP_LETS_GO, step);
+        TEST_ASSERT_EQUAL(LET_GO_TICKS, held);
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -257,5 +280,6 @@ int main(void)
     RUN_TEST(test_an_owner_that_goes_while_nothing_moves_is_no_silence);
     RUN_TEST(test_nothing_is_counted_beyond_a_word);
     RUN_TEST(test_idle_is_who_has_nothing_to_mind);
+    RUN_TEST(test_every_silence_is_held_as_long);
     return UNITY_END();
 }

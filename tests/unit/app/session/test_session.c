@@ -286,6 +286,39 @@ static void test_a_board_that_becomes_a_bench_is_open_to_all(void)
     TEST_ASSERT_TRUE(session_may_move(&session));
 }
 
+/* What becomes a bench needs no challenge, and its session is over. */
+static void test_a_bench_keeps_nothing_of_the_guard(void)
+{
+    TEST_ASSERT_TRUE(session.has_challenge);
+    session_become_bench(&session);
+    TEST_ASSERT_EQUAL(BRACE_SETTING_BENCH, session.setting);
+    TEST_ASSERT_FALSE(session.has_challenge || session.is_open || session.is_alive);
+    setUp();
+    TEST_ASSERT_EQUAL(BRACE_OK, life(we, 0));
+    session_become_bench(&session);
+    TEST_ASSERT_FALSE(session.has_challenge || session.is_open || session.is_alive);
+}
+
+/* An owner that comes back after it has hung up is there again: nobody else of its port goes on for it. */
+static void test_an_owner_that_comes_back_has_not_hung_up(void)
+{
+    for (int by_life = 0; by_life < 2; by_life++) {
+        session_start(&session, true, NULL);
+        TEST_ASSERT_EQUAL(BRACE_OK, session_command(&session, elsewhere, NULL, order, 8));
+        session_hang_up(&session);
+        TEST_ASSERT_TRUE(session.has_hung_up);
+        TEST_ASSERT_EQUAL(BRACE_OK, by_life != 0 ? session_life(&session, elsewhere, NULL)
+                                                 : session_command(&session, elsewhere, NULL, order, 8));
+        TEST_ASSERT_FALSE(session.has_hung_up);
+        const brace_who_t neighbour = {elsewhere.port, elsewhere.master + 1u};
+        TEST_ASSERT_EQUAL(BRACE_REFUSED_OWNED, session_life(&session, neighbour, NULL));
+        TEST_ASSERT_EQUAL(BRACE_REFUSED_OWNED, session_command(&session, neighbour, NULL, order, 8));
+        session_hang_up(&session);
+        TEST_ASSERT_EQUAL(BRACE_OK, session_life(&session, neighbour, NULL));
+        TEST_ASSERT_EQUAL(neighbour.master, session.owner.master);
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -306,5 +339,7 @@ int main(void)
     RUN_TEST(test_who_hangs_up_is_the_owner_no_longer);
     RUN_TEST(test_on_a_bench_another_connection_of_the_port_goes_on);
     RUN_TEST(test_a_board_that_becomes_a_bench_is_open_to_all);
+    RUN_TEST(test_a_bench_keeps_nothing_of_the_guard);
+    RUN_TEST(test_an_owner_that_comes_back_has_not_hung_up);
     return UNITY_END();
 }

@@ -1,9 +1,30 @@
 /* What is told where something of K is not known: no load, no K across the plane, no axis. */
 #include "app_bench.h"
+#include "stiffness/stiffness.h"
 
 void setUp(void) {}
 
 void tearDown(void) {}
+
+/* A joint that an encoder behind its gear measures does not yield any further; its spring counts in K all the same. */
+static void test_measured_joints_are_held(void)
+{
+    for (uint32_t measured = 0; measured < 8u; measured++) {
+        brace_loaded_joint_t springs[BRACE_LINK_COUNT];
+        posture_t posture;
+        posture_start(&posture);
+        for (uint32_t i = 0; i < (uint32_t)BRACE_LINK_COUNT; i++) {
+            posture.is_measured[i] = (measured >> i & 1u) != 0u;
+            springs[i] = (brace_loaded_joint_t){1e-5f * (float)(i + 1u), 2e-5f * (float)(i + 1u)};
+        }
+        stiffness_hold_measured_joints(&posture, springs);
+        for (uint32_t i = 0; i < (uint32_t)BRACE_LINK_COUNT; i++) {
+            const float yields = (measured >> i & 1u) != 0u ? 0.0f : 1e-5f * (float)(i + 1u);
+            TEST_ASSERT_EQUAL_FLOAT(yields, springs[i].yields_by_rad_per_n_mm);
+            TEST_ASSERT_EQUAL_FLOAT(2e-5f * (float)(i + 1u), springs[i].slope_rad_per_n_mm);
+        }
+    }
+}
 
 static void stand_at(const brace_parameters_t *p, bool has_coxa, float theta0_rad, float theta2_rad)
 {
@@ -131,6 +152,7 @@ static void test_a_round_K_has_no_known_axis(void)
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(test_measured_joints_are_held);
     RUN_TEST(test_a_straight_limb_tells_K_without_its_load);
     RUN_TEST(test_beyond_the_range_of_the_coxa_joint_K_is_of_the_plane);
     RUN_TEST(test_a_straight_limb_that_yields_one_way_only_has_no_K);

@@ -157,6 +157,24 @@ static void test_who_closes_the_channel_owns_the_limb_no_longer(void)
     TEST_ASSERT_EQUAL(BRACE_OWNER_NONE, report.owner);
 }
 
+/* A snapshot is long: where both ports tell process data, one takes its snapshot in a tick, and both get theirs. */
+static void test_the_two_ports_take_their_snapshots_in_different_ticks(void)
+{
+    int on_bus = 0, as_text = 0;
+    say("O\r");
+    for (int i = 0; i < 400; i++) {
+        ticks(1);
+        (void)heard();
+        drain();
+        const bool bus_takes = app.wires.can.bus_port.process.taken_us == fake.now_us;
+        const bool text_takes = app.wires.can.text_port.process.taken_us == fake.now_us;
+        TEST_ASSERT_FALSE(bus_takes && text_takes);
+        on_bus += bus_takes, as_text += text_takes;
+    }
+    TEST_ASSERT_GREATER_THAN(10, on_bus);
+    TEST_ASSERT_GREATER_THAN(10, as_text);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -164,5 +182,6 @@ int main(void)
     RUN_TEST(test_a_channel_that_is_opened_again_begins_anew);
     RUN_TEST(test_a_commit_as_text_is_answered_as_text);
     RUN_TEST(test_who_closes_the_channel_owns_the_limb_no_longer);
+    RUN_TEST(test_the_two_ports_take_their_snapshots_in_different_ticks);
     return UNITY_END();
 }

@@ -3,6 +3,7 @@
 #include <stddef.h>
 
 #include "modbus_master.h"
+#include "brace/questions.h"
 #include "wire/modbus/pdu.h"
 #include "wire/modbus/refusal.h"
 
@@ -126,6 +127,103 @@ static void test_what_comes_over_tcp_is_counted_once(void)
     TEST_ASSERT_EQUAL(served + 7u - 1u, counted_over_tcp(0x0e)); /* but that for another unit */
 }
 
+/* Each counter of function 08 counts its own, all of them by one, and one request clears them. */
+static void test_every_counter_counts_its_own(void)
+{
+    enum { MESSAGES = 0x0b, BROKEN = 0x0c, REFUSED = 0x0d, SERVED = 0x0e, UNANSWERED = 0x0f, BUSY = 0x11 };
+    modbus_server_t *server = &app.wires.modbus.server;
+    const uint8_t clear[] = {8, 0, 0x0a, 0, 0};
+    TEST_ASSERT_EQUAL(5, tcp_asks(UNIT, clear, sizeof clear).count);
+    static const uint8_t codes[] = {MESSAGES, BROKEN, REFUSED, SERVED, UNANSWERED, BUSY, 0x10, 0x12};
+    for (uint32_t i = 0; i < sizeof codes; i++) {
+        server->messages = 100, server->broken = 200, server->refused = 300;
+        server->served = 400, server->unanswered = 500, server->busy = 600;
+        const uint32_t told = counted_over_tcp(codes[i]); /* the request that asks may count itself */
+        TEST_ASSERT_EQUAL(i < 6u ? 100u * (i + 1u) : 0u, told / 10u * 10u);
+    }
+    server->busy = 6, server->refused = 5;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_enter(&app)); /* a store that works refuses as busy */
+    brace_parameters_t p = *brace_app_parameters(&app);
+    p.limb.femur_mm = 190.0f;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_parameters_commit(&app, &p));
+    const uint8_t write[] = {16, 0, 2, 0, 2, 4, 0x43, 0, 0, 0};
+    const reply_t reply = tcp_asks(UNIT, write, sizeof write);
+    TEST_ASSERT_EQUAL_HEX8(0x90, reply.byte[0]);
+    TEST_ASSERT_EQUAL(MODBUS_E_BUSY, reply.byte[1]);
+    TEST_ASSERT_EQUAL(7, counted_over_tcp(BUSY));
+    TEST_ASSERT_EQUAL(6, counted_over_tcp(REFUSED));
+    server->messages = server->broken = server->refused = server->served = server->unanswered = server->busy = 700;
+    TEST_ASSERT_EQUAL(5, tcp_asks(UNIT, clear, sizeof clear).count);
+    for (uint32_t i = 0; i < sizeof codes; i++) {
+        TEST_ASSERT_LESS_THAN(10, counted_over_tcp(codes[i]));
+    }
+}
+
+/* Function 08 without a whole word behind its number is none. */
+static void test_a_diagnosis_has_its_length(void)
+{
+    static const uint8_t pdu[] = {8, 0, 0, 1, 2, 3, 4, 5, 6};
+    for (uint32_t length = 1; length <= sizeof pdu; length++) {
+        const reply_t reply = tcp_asks(UNIT, pdu, length);
+        if (length >= 5u && length % 2u == 1u) { /* an echo of whole words */
+            TEST_ASSERT_EQUAL(length, reply.count);
+            TEST_ASSERT_EQUAL_HEX8_ARRAY(pdu, reply.byte, length);
+        } else {
+            TEST_ASSERT_EQUAL(2, reply.count);
+            TEST_ASSERT_EQUAL_HEX8(0x88, reply.byte[0]);
+            TEST_ASSERT_EQUAL(MODBUS_E_VALUE, reply.byte[1]);
+        }
+    }
+}
+
+/* Requests of one length have no other. */
+static void test_a_request_of_another_length_is_none(void)
+{
+    static const uint8_t functions[] = {3, 4, 6};
+    for (uint32_t f = 0; f < sizeof functions; f++) {
+        for (uint32_t length = 1; length <= 9u; length++) {
+            const uint8_t pdu[9] = {functions[f], 0, 0, 0, 1, 0, 1, 0, 1};
+            const reply_t reply = tcp_asks(UNIT, pdu, length);
+            if (length != 5u) {
+                TEST_ASSERT_EQUAL(2, reply.count);
+                TEST_ASSERT_EQUAL_HEX8(functions[f] | 0x80, reply.byte[0]);
+                TEST_ASSERT_EQUAL(MODBUS_E_VALUE, reply.byte[1]);
+            }
+        }
+    }
+}
+
+/* However a request over TCP is cut, it is answered once when it is whole, and so is the one behind it. */
+static void test_a_request_over_tcp_may_come_in_pieces(void)
+{
+    static const uint8_t adu[] = {0, 1, 0, 0, 0, 6, UNIT, 4, 0, 0, 0, 2};
+    for (uint32_t piece = 1; piece <= sizeof adu; piece++) {
+        for (int round = 0; round < 2; round++) {
+            for (uint32_t at = 0; at < sizeof adu; at += piece) {
+                const uint32_t count = sizeof adu - at < piece ? (uint32_t)sizeof adu - at : piece;
+                uint8_t sink[16];
+                TEST_ASSERT_EQUAL(0, brace_fake_bytes_take(&fake, BRACE_SERIAL_MODBUS_TCP, sink, sizeof sink));
+                TEST_ASSERT_EQUAL(count, brace_fake_bytes_arrive(&fake, BRACE_SERIAL_MODBUS_TCP, adu + at, count));
+                ticks(1);
+            }
+            TEST_ASSERT_EQUAL(13, heard(BRACE_SERIAL_MODBUS_TCP).count);
+        }
+    }
+}
+
+/* Nothing has been asked yet, and every register of a question and of its answer says that it is not known. */
+static void test_questions_that_nobody_asked_read_as_not_known(void)
+{
+    for (uint32_t q = 0; q < (uint32_t)BRACE_QUESTION_COUNT; q++) {
+        const brace_question_t *question = &brace_questions[q];
+        for (uint32_t i = 0; i < question->count; i++) {
+            uint32_t wanted;
+            memcpy(&wanted, (const uint8_t *)&brace_commands_unknown + 4u * (question->first + i), 4);
+            TEST_ASSERT_EQUAL_HEX32(wanted, told_by(4u * (question->first + i)));
+        }
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -134,5 +232,10 @@ int main(void)
     RUN_TEST(test_the_server_says_who_it_is);
     RUN_TEST(test_what_a_command_s_register_reads);
     RUN_TEST(test_what_comes_over_tcp_is_counted_once);
+    RUN_TEST(test_every_counter_counts_its_own);
+    RUN_TEST(test_a_diagnosis_has_its_length);
+    RUN_TEST(test_a_request_of_another_length_is_none);
+    RUN_TEST(test_a_request_over_tcp_may_come_in_pieces);
+    RUN_TEST(test_questions_that_nobody_asked_read_as_not_known);
     return UNITY_END();
 }

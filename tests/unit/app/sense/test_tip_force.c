@@ -1,0 +1,144 @@
+/* The tip's sensor alone: its model undone, whatever it is; readings at saturation; how long an old one counts. */
+#include <math.h>
+#include <string.h>
+
+#include "sense/tip_force.h"
+#include "unity.h"
+
+enum { TICK_US = 1000 };
+
+static tip_force_t force;
+static brace_parameters_t parameters;
+static float x_n, z_n;
+static int32_t answer;
+
+static int32_t tip_force_read_fake(void *context, float *told_x_n, float *told_z_n)
+{
+    (void)context;
+    *told_x_n = x_n, *told_z_n = z_n;
+    return answer;
+}
+
+static const brace_hal_t hal = {.tip_force_read = tip_force_read_fake};
+static const brace_hal_t none = {.tip_force_read = NULL};
+
+void setUp(void)
+{
+    memset(&parameters, 0, sizeof parameters);
+    parameters.sensor = (brace_sensor_t){.gain = 1.0f, .saturation_n = INFINITY};
+    parameters.controller.tick_us = TICK_US;
+    parameters.controller.age_limit_us = 5000;
+    x_n = 3.0f, z_n = -4.0f, answer = BRACE_HAL_OK;
+    tip_force_configure(&force, &hal, &parameters.sensor);
+}
+
+void tearDown(void) {}
+
+/* reading = bias + gain R [[1, xz], [zx, 1]] force, R a turn: docs/physics.md. */
+static void test_the_sensor_s_model_is_undone(void)
+{
+    for (int i = 0; i < 200; i++) {
+        const float turn = -3.0f + 0.03f * (float)i;
+        const float xz = 0.3f * sinf(1.7f * (float)i), zx = 0.3f * cosf(2.9f * (float)i);
+        parameters.sensor = (brace_sensor_t){.bias_x_n = 2.0f * sinf((float)i), .bias_z_n = -1.5f + 0.02f * (float)i,
+                                             .gain = 0.5f + 0.01f * (float)i, .rotation_rad = turn,
+                                             .crosstalk_xz = xz, .crosstalk_zx = zx, .saturation_n = INFINITY};
+        tip_force_configure(&force, &hal, &parameters.sensor);
+        TEST_ASSERT_TRUE(force.fitted && !force.known);
+        const double is_x = 7.0 * cos(0.3 * i), is_z = 7.0 * sin(0.3 * i);
+        const double mixed_x = is_x + (double)xz * is_z, mixed_z = (double)zx * is_x + is_z;
+        const double c = cos((double)turn), s = sin((double)turn), gain = (double)parameters.sensor.gain;
+        x_n = (float)((double)parameters.sensor.bias_x_n + gain * (c * mixed_x - s * mixed_z));
+        z_n = (float)((double)parameters.sensor.bias_z_n + gain * (s * mixed_x + c * mixed_z));
+        tip_force_read(&force, &hal, &parameters);
+        TEST_ASSERT_TRUE(force.known);
+        TEST_ASSERT_DOUBLE_WITHIN(2e-5, is_x, (double)force.x_n);
+        TEST_ASSERT_DOUBLE_WITHIN(2e-5, is_z, (double)force.z_n);
+    }
+}
+
+static void test_without_a_sensor_or_an_inverse_there_is_no_force(void)
+{
+    tip_force_configure(&force, &none, &parameters.sensor);
+    TEST_ASSERT_FALSE(force.fitted);
+    tip_force_read(&force, &none, &parameters);
+    TEST_ASSERT_FALSE(force.known);
+    parameters.sensor.crosstalk_xz = parameters.sensor.crosstalk_zx = 1.0f; /* both axes tell the same */
+    tip_force_configure(&force, &hal, &parameters.sensor);
+    TEST_ASSERT_FALSE(force.fitted);
+    parameters.sensor = (brace_sensor_t){.gain = 1.0f, .saturation_n = INFINITY, .rotation_rad = NAN};
+    tip_force_configure(&force, &hal, &parameters.sensor);
+    TEST_ASSERT_FALSE(force.fitted);
+    tip_force_read(&force, &hal, &parameters);
+    TEST_ASSERT_FALSE(force.known);
+    /* a determinant of a thousandth is the least; a gain of 0.04 has 1.6e-3, one of 0.03 has 9e-4 */
+    parameters.sensor = (brace_sensor_t){.gain = -0.04f, .saturation_n = INFINITY};
+    tip_force_configure(&force, &hal, &parameters.sensor);
+    TEST_ASSERT_TRUE(force.fitted);
+    parameters.sensor.gain = 0.03f;
+    tip_force_configure(&force, &hal, &parameters.sensor);
+    TEST_ASSERT_FALSE(force.fitted);
+}
+
+static void test_a_saturated_reading_is_not_known(void)
+{
+    float *const axes[] = {&x_n, &z_n};
+    for (int i = 0; i < 8; i++) {
+        const float sign = i % 2 == 0 ? 1.0f : -1.0f, saturation_n = i < 4 ? 50.0f : INFINITY;
+        setUp();
+        parameters.sensor.saturation_n = saturation_n;
+        const float most_n = i < 4 ? 50.0f : 1e6f;
+        float *const axis = axes[i / 2 % 2];
+        *axis = sign * nextafterf(most_n, 0.0f);
+        tip_force_read(&force, &hal, &parameters);
+        TEST_ASSERT_TRUE(force.known);
+        *axis = sign * most_n;
+        tip_force_read(&force, &hal, &parameters);
+        TEST_ASSERT_FALSE(force.known);
+        *axis = sign * 2.0f * most_n;
+        tip_force_read(&force, &hal, &parameters);
+        TEST_ASSERT_FALSE(force.known);
+        *axis = NAN;
+        tip_force_read(&force, &hal, &parameters);
+        TEST_ASSERT_FALSE(force.known);
+    }
+}
+
+/* A sensor that has nothing new repeats its reading, which counts for as long as the limit says. One that fails tells
+ * nothing in that tick. */
+static void test_how_long_an_old_reading_counts(void)
+{
+    answer = BRACE_HAL_AGAIN;
+    tip_force_read(&force, &hal, &parameters);
+    TEST_ASSERT_FALSE(force.known); /* there has been none yet */
+    answer = BRACE_HAL_OK;
+    tip_force_read(&force, &hal, &parameters);
+    TEST_ASSERT_TRUE(force.known);
+    TEST_ASSERT_EQUAL_UINT32(0, force.age_us);
+    answer = BRACE_HAL_AGAIN;
+    for (uint32_t tick = 1; tick <= 7u; tick++) {
+        tip_force_read(&force, &hal, &parameters);
+        TEST_ASSERT_EQUAL(tick <= 5u, force.known);
+        TEST_ASSERT_EQUAL_UINT32(tick * TICK_US, force.age_us);
+    }
+    answer = BRACE_HAL_OK;
+    tip_force_read(&force, &hal, &parameters);
+    TEST_ASSERT_TRUE(force.known);
+    answer = BRACE_HAL_E_DEVICE;
+    tip_force_read(&force, &hal, &parameters);
+    TEST_ASSERT_FALSE(force.known);
+    TEST_ASSERT_EQUAL_UINT32(TICK_US, force.age_us);
+    answer = BRACE_HAL_AGAIN; /* and what it told before is still young */
+    tip_force_read(&force, &hal, &parameters);
+    TEST_ASSERT_TRUE(force.known);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_the_sensor_s_model_is_undone);
+    RUN_TEST(test_without_a_sensor_or_an_inverse_there_is_no_force);
+    RUN_TEST(test_a_saturated_reading_is_not_known);
+    RUN_TEST(test_how_long_an_old_reading_counts);
+    return UNITY_END();
+}
