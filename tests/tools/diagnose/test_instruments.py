@@ -215,8 +215,8 @@ def test_a_late_sensor_is_a_lag_and_no_friction(tmp_path: Path, limb: Path) -> N
 
 
 def test_a_lag_is_no_noise_of_a_record_without_repeats(tmp_path: Path, limb: Path) -> None:
-    """The believed limb leaves the lag, and nothing else tells the noise. A play at the contact comes near, and would do
-    as well if what the lag makes were noise."""
+    """The believed limb leaves the lag, and nothing else tells the noise. A play at the contact comes near, and would
+    do as well if what the lag makes were noise."""
     found = spoiled(tmp_path / "record", limb, lambda columns: reads_late(columns, 0.48), values={}, repeats=1)
     assert found.effects[0].label == "lag@sensor"
     assert found.effects[0].confidence > 0.9

@@ -67,4 +67,4 @@ def _between_changes(values: np.ndarray, step: float) -> np.ndarray:
     ]
     rows, at = (np.concatenate(parts) for parts in zip(*knots))
     order = np.argsort(rows, kind="stable")
-    return np.interp(np.arange(values.size), rows[order], at[order])
+    return np.asarray(np.interp(np.arange(values.size), rows[order], at[order]))
