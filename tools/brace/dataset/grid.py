@@ -1,4 +1,4 @@
-"""The step by which an instrument rounded what it read."""
+"""The step by which an instrument rounded what it read, and what it read before."""
 
 from __future__ import annotations
 
@@ -33,3 +33,38 @@ def step_of(values: np.ndarray) -> float:
     moved = np.rint(np.abs(np.diff(values)) / step)
     alike = np.bincount(moved.astype(int), minlength=2)[1:].max()
     return step if alike < PLANNED * moved.size else 0.0
+
+
+def unrounded(values: np.ndarray, parts: np.ndarray, step: float) -> np.ndarray:
+    """Readings that were rounded to `step`, as far as the instants tell at which they changed: there the value stood
+    half-way between two steps. In between it is taken to move evenly; where it turns back within a step, as far as that
+    step's middle. `parts` numbers the stretches between which nothing is known. Readings that move by more than a step
+    at once, and single ones, stay."""
+    result = values.astype(float)
+    begins = np.flatnonzero(np.diff(parts, prepend=parts[0] - 1) != 0)
+    for first, last in zip(begins, np.append(begins[1:], values.size)):
+        result[first:last] = _between_changes(values[first:last], step)
+    return result
+
+
+def _between_changes(values: np.ndarray, step: float) -> np.ndarray:
+    begins = np.flatnonzero(np.diff(values, prepend=np.nan) != 0.0)
+    ends = np.append(begins[1:], values.size) - 1
+    level = values[begins]
+    change = np.diff(level)
+    crossed = np.abs(np.abs(change) - step) < ON_GRID * step
+    jumped = np.flatnonzero(~crossed)
+    passes = np.zeros(level.size, dtype=bool)  # its neighbours stand on either side of it
+    passes[1:-1] = change[:-1] * change[1:] > 0.0
+    stays = np.zeros(level.size, dtype=bool)  # beside a jump
+    stays[jumped] = stays[jumped + 1] = True
+    turns = ~passes & ~stays
+    knots = [
+        (0.5 * (ends[:-1] + begins[1:])[crossed], (0.5 * (level[:-1] + level[1:]))[crossed]),
+        (0.5 * (begins + ends)[turns], level[turns]),
+        (ends[jumped], level[jumped]),
+        (begins[jumped + 1], level[jumped + 1]),
+    ]
+    rows, at = (np.concatenate(parts) for parts in zip(*knots))
+    order = np.argsort(rows, kind="stable")
+    return np.asarray(np.interp(np.arange(values.size), rows[order], at[order]))

@@ -13,6 +13,7 @@ from itertools import product
 import numpy as np
 
 from brace.dataset import Dataset
+from brace.dataset.grid import step_of, unrounded
 from brace.errors import BadFileError
 from brace.identify.fit import Fit, Nuisances, columns_of, fit
 from brace.effects.catalogue import FRICTION_TURN, MOST_GAP, USUAL_LOAD_RATIO
@@ -69,7 +70,7 @@ class JointProblem:
                 why=f"at least {MIN_ROWS} readings are needed",
                 next_step="record more",
             )
-        self.dataset = dataset = apart(dataset)
+        self.dataset = dataset = apart(_as_it_stood(dataset))
         self.position_count = count(dataset)
         self.joint = dataset.meta.joint
         self.columns, self._counts = averaged(dataset, max(1, dataset.rows // block_rows))
@@ -286,7 +287,7 @@ def as_read(torque: np.ndarray, nuisances: Nuisances, moved: Motion) -> np.ndarr
 
 def averaged(dataset: Dataset, block: int) -> tuple[dict[str, np.ndarray], np.ndarray]:
     """Means over `block` rows, never across tests, and how many rows are in each."""
-    test = dataset["test"] if "test" in dataset else np.zeros(dataset.rows, np.int32)
+    test = _tests(dataset)
     starts = np.concatenate([[0], np.flatnonzero(np.diff(test)) + 1, [test.size]])
     edges = np.concatenate([np.arange(first, last, block) for first, last in zip(starts[:-1], starts[1:])])
     counts = np.diff(np.append(edges, test.size))
@@ -296,6 +297,22 @@ def averaged(dataset: Dataset, block: int) -> tuple[dict[str, np.ndarray], np.nd
     }
     result["test"] = test[edges]
     return result, counts
+
+
+def _tests(dataset: Dataset) -> np.ndarray:
+    """The number of each row's test; a record that numbers none is one."""
+    return dataset["test"] if "test" in dataset else np.zeros(dataset.rows, np.int32)
+
+
+def _as_it_stood(dataset: Dataset) -> Dataset:
+    """The record with its angle as it stood before the encoder rounded it, where the torque is read so well that this
+    shows."""
+    angle, torque = dataset["angle_rad"], dataset["torque_n_mm"]
+    step = step_of(angle)
+    spring_n_mm_per_rad = float(np.ptp(torque)) / max(float(np.ptp(angle)), 1e-30)
+    if spring_n_mm_per_rad * step / np.sqrt(12.0) <= noise(torque):
+        return dataset
+    return dataset.with_columns({"angle_rad": unrounded(angle, _tests(dataset), step)})
 
 
 def smoothed(values: np.ndarray, test: np.ndarray, counts: np.ndarray) -> np.ndarray:

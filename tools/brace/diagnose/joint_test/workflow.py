@@ -48,6 +48,7 @@ ROUNDS_A_GAP = ("soft_middle", "end_stop")
 STOPS = ("backlash", "coulomb_friction")  # what holds the joint somewhere inside a range of angles
 GONE = 1e-3  # of the first step of a fit: a number smaller than this share counts as zero
 LEAST = 1e-3  # of the swing: a smaller range is below the linearity of encoders and torque cells
+LEAST_OF_STEP = 0.2  # of an encoder's: how the joint moved within a step is known no better
 SUREST = 0.99  # one joint's test never makes a name surer than this
 
 
@@ -149,11 +150,7 @@ def _told(
     tried = [*choice.sets, *choice.shaped]
     others = rivals(fitter, by_rows, best, frozenset(term.name for term in found), tried)
     effects = _named(fitter, by_rows, best, exported, found, others, choice.count, random)
-    small = [
-        term.name
-        for term in found
-        if term.name in STOPS and _lost_rad(term, exported.values, record) < LEAST * record.size.angle_rad
-    ]
+    small = [term.name for term in found if _is_small(term, exported.values, record)]
 
     def is_weak(one: NamedEffect) -> bool:
         told = {**exported.values, **{key: size.value for key, size in one.parameters.items()}}
@@ -366,6 +363,14 @@ def _lost_rad(term: Term, values: Mapping[str, float], record: JointRecord) -> f
     compliance = f"joint.{record.joint}.compliance_rad_per_n_mm"
     spring = values.get(compliance, record.size.angle_rad / record.size.torque_n_mm)
     return term.shows.lost_rad(term.by_leaf(values), record.size, spring)
+
+
+def _is_small(term: Term, values: Mapping[str, float], record: JointRecord) -> bool:
+    """Whether the effect moves the joint by less than instruments can tell."""
+    lost_rad = _lost_rad(term, values, record)
+    if term.name in STOPS and lost_rad < LEAST * record.size.angle_rad:
+        return True
+    return 0.0 < lost_rad < LEAST_OF_STEP * record.angle_step_rad
 
 
 def _gaps(

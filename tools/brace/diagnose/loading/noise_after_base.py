@@ -7,7 +7,7 @@ import numpy as np
 from brace.dataset.enough import enough_rows
 from brace.diagnose.loading.fit import Fit, fit
 from brace.diagnose.loading.space import Trust, space_of
-from brace.identify.noise import FORCES, GROWING, ChannelNoise, growth_of
+from brace.identify.noise import FORCES, GROWING, ChannelNoise, growth_of, rounding_of
 from brace.identify.noise_after_base import (
     LEAST_DIFFERENCES,
     REPEATED,
@@ -16,6 +16,8 @@ from brace.identify.noise_after_base import (
     without_repeats,
 )
 from brace.identify.record import NOT_MEASURED, Record
+
+QUIETER = 0.7  # of the noise before
 
 
 def with_known_noise(record: Record, trust: Trust) -> Record:
@@ -26,6 +28,24 @@ def with_known_noise(record: Record, trust: Trust) -> Record:
     part = record if keep.all() else record.select(keep)
     space = space_of(trust, ())
     return with_noise_after(record, part, fit(part, space, space.mean).residual)
+
+
+def with_less(record: Record, fitted: Fit) -> Record | None:
+    """The record with the noise that a fit leaves, of channels whose noise no repeats have told; None where that is not
+    far less. What the believed limb leaves has a missing effect, or a trouble, in it. All that the fit leaves counts,
+    not what scatters from reading to reading alone, so that nothing is found in it afterwards."""
+    left = fitted.residual.reshape(record.measured.shape) * record.sigma
+    taken = record.sigma < NOT_MEASURED
+    share = fitted.x.size / max(int(np.count_nonzero(taken)), 1)
+    noise = dict(record.noise)
+    for place, name in enumerate(record.channels):
+        if record.noise[name].source.startswith(REPEATED) or np.count_nonzero(taken[place]) < LEAST_DIFFERENCES:
+            continue
+        floor = float(np.sqrt(np.mean(left[place][taken[place]] ** 2) / max(1.0 - share, 0.5)))
+        if floor < QUIETER * record.noise[name].floor:
+            least = max(floor, rounding_of(record.dataset, name), 1e-12)
+            noise[name] = ChannelNoise(least, 0.0, "what the best set of effects leaves", record.noise[name].freedom)
+    return with_noise(record, noise) if noise != record.noise else None
 
 
 def with_growth(record: Record, fitted: Fit) -> Record | None:

@@ -18,7 +18,7 @@ from brace.diagnose.loading.extensions import outside
 from brace.diagnose.loading.fit import fit
 from brace.diagnose.loading.data_faults.gate import gate
 from brace.diagnose.loading.troubles.likeliest import likeliest
-from brace.diagnose.loading.noise_after_base import with_growth, with_known_noise
+from brace.diagnose.loading.noise_after_base import with_growth, with_known_noise, with_less
 from brace.diagnose.loading.parts import locked_rows
 from brace.identify.record import Record, load_record, setting_of
 from brace.diagnose.loading.rounding import asked_for
@@ -90,7 +90,7 @@ def _searches(
 def search_pass(record: Record, trust: Trust, variants: Sequence[Variant], advance: Advance) -> Pass:
     """Search, then the best set fitted to the end, and what it leaves tested for structure. Readings that scatter more
     under load may look like troubles, and the other way round: the likelier of the two goes first."""
-    found = _searched(record, trust, variants, advance)
+    found = _with_less_noise(_searched(record, trust, variants, advance), variants, advance)
     noisier = _with_growing_noise(found, variants, advance)
     if noisier is not found:
         trouble = likeliest(found.record, found.sets)
@@ -100,6 +100,14 @@ def search_pass(record: Record, trust: Trust, variants: Sequence[Variant], advan
     if cleaner is found:
         return noisier
     return _with_growing_noise(cleaner, variants, advance)
+
+
+def _with_less_noise(found: Pass, variants: Sequence[Variant], advance: Advance) -> Pass:
+    """The search again with the noise that its best set leaves; as it was where that is not far less."""
+    if found.decision.verdict == "none":
+        return found
+    quieter = with_less(found.record, found.decision.chosen.best.fit)
+    return found if quieter is None else _searched(quieter, found.trust, variants, advance)
 
 
 def _with_growing_noise(found: Pass, variants: Sequence[Variant], advance: Advance) -> Pass:
