@@ -4,9 +4,9 @@ A joint is a hinge with a servo of its stiffness: torque = (command + zero offse
 ellipsoid is two slides at its end; a beam is two hinges at the Gauss points L (1/2 -+ 1/(2 sqrt 3)), each of compliance
 3 b/(2 L^2), which have the uniform beam's three tip compliances exactly, and a slide along it at its root. The base has
 slides and a hinge.
-Each spring has an armature: an inertia of its own motion alone, which weighs nothing and moves no K. It keeps the spring
-slower than the time step can follow. No mode of the whole is faster than its fastest spring on its own armature, because
-masses only add inertia; without it the springs of a light limb make the engine diverge in its first steps.
+Each spring has an armature: an inertia of its own motion alone, which weighs nothing and moves no K. It keeps the
+spring slower than the time step can follow. No mode of the whole is faster than its fastest spring on its own armature,
+for masses only add inertia; without it the springs of a light limb make the engine diverge in its first steps.
 SI units (m, N, N m/rad), x outwards, z up. Backlash, hardening, creep and temperature are not in it."""
 
 from __future__ import annotations
@@ -79,10 +79,8 @@ def _link(body: ET.Element, model: LimbModel, link: str, angle: str) -> ET.Eleme
             next_step="moment_transfer = false, or tilt_rad = 0",
         )
     side = {"theta1": "femur", "theta2": "tibia"}[angle]
-    joint = ET.SubElement(
-        body, "joint", name=angle, type="hinge", axis=_ACROSS[angle],
-        **_slowed(_servo_n_m_per_rad(model, side), SERVO_DAMPING_N_M_S),
-    )  # fmt: skip
+    slowed = _slowed(_servo_n_m_per_rad(model, side), SERVO_DAMPING_N_M_S)
+    joint = ET.SubElement(body, "joint", slowed, name=angle, type="hinge", axis=_ACROSS[angle])
     if has_travel(model, side):
         low, high = travel_rad(model, side)
         offset = model.number(f"joint.{side}.zero_offset_rad")
@@ -156,6 +154,4 @@ def _hinge_spring(body: ET.Element, name: str, compliance_rad_per_n_mm: float, a
 
 
 def _spring(body: ET.Element, name: str, kind: str, axis: str, stiffness: float) -> None:
-    ET.SubElement(
-        body, "joint", name=name, type=kind, axis=axis, stiffness=repr(stiffness), **_slowed(stiffness)
-    )
+    ET.SubElement(body, "joint", _slowed(stiffness), name=name, type=kind, axis=axis, stiffness=repr(stiffness))

@@ -39,11 +39,15 @@ def read_chain(path: Path, tip: str = "") -> dict[str, object]:
     *yaw, hip, knee = hinges
     if abs(float(hip.axis @ knee.axis)) < PARALLEL:
         raise _refused(
-            path, f"{hip.name} and {knee.name} do not turn in one plane", "the hip's and the knee's axis must be parallel"
+            path,
+            f"{hip.name} and {knee.name} do not turn in one plane",
+            "the hip's and the knee's axis must be parallel",
         )
     across, up = hip.axis, np.array([0.0, 0.0, 1.0])
     if abs(float(across @ up)) > 0.1:
-        raise _refused(path, f"{hip.name}'s axis is not level", "the limb's plane stands upright, so its axes must lie level")
+        raise _refused(
+            path, f"{hip.name}'s axis is not level", "the limb's plane stands upright, so its axes must lie level"
+        )
     out = _outwards(yaw, hip, foot, np.cross(across, up))
     left = np.cross(up, out)  # x, left, z are right-handed; theta1 grows from x to z, about -left
     sign = {hinge.name: -float(np.sign(hinge.axis @ left)) for hinge in (hip, knee)}
