@@ -4,9 +4,8 @@ A joint is a hinge with a servo of its stiffness: torque = (command + zero offse
 ellipsoid is two slides at its end; a beam is two hinges at the Gauss points L (1/2 -+ 1/(2 sqrt 3)), each of compliance
 3 b/(2 L^2), which have the uniform beam's three tip compliances exactly, and a slide along it at its root. The base has
 slides and a hinge.
-Each spring has an armature: an inertia of its own motion alone, which weighs nothing and moves no K. It keeps the
-spring slower than the time step can follow. No mode of the whole is faster than its fastest spring on its own armature,
-for masses only add inertia; without it the springs of a light limb make the engine diverge in its first steps.
+Each spring is damped so that alone it comes to rest with a time constant of two time steps. The engine counts damping at
+the end of its step, so springs without mass stay stable; damped less, those of a limb without weights make it diverge.
 SI units (m, N, N m/rad), x outwards, z up. Backlash, hardening, creep and temperature are not in it."""
 
 from __future__ import annotations
@@ -21,7 +20,7 @@ from brace.model.travel import has_travel, travel_rad
 RIGID_N_M_PER_RAD = 1e7
 LEAST_KG, LEAST_KG_M2 = 1e-5, 1e-8
 TIME_STEP_S = 0.0005
-PERIOD_S = 2.0 * TIME_STEP_S  # of a spring on its armature, over 2 pi; the engine diverges at half a time step
+REST_S = 2.0 * TIME_STEP_S  # damping over stiffness; without mass the engine diverges below half a time step
 SERVO_DAMPING_N_M_S = 0.5
 G_M_PER_S2 = 9.80665
 _ACROSS = {"theta1": "0 -1 0", "theta2": "0 1 0"}  # about these the angles grow as ours do
@@ -79,8 +78,8 @@ def _link(body: ET.Element, model: LimbModel, link: str, angle: str) -> ET.Eleme
             next_step="moment_transfer = false, or tilt_rad = 0",
         )
     side = {"theta1": "femur", "theta2": "tibia"}[angle]
-    slowed = _slowed(_servo_n_m_per_rad(model, side), SERVO_DAMPING_N_M_S)
-    joint = ET.SubElement(body, "joint", slowed, name=angle, type="hinge", axis=_ACROSS[angle])
+    damping = repr(max(SERVO_DAMPING_N_M_S, _servo_n_m_per_rad(model, side) * REST_S))
+    joint = ET.SubElement(body, "joint", name=angle, type="hinge", axis=_ACROSS[angle], damping=damping)
     if has_travel(model, side):
         low, high = travel_rad(model, side)
         offset = model.number(f"joint.{side}.zero_offset_rad")
@@ -137,12 +136,6 @@ def _servo_n_m_per_rad(model: LimbModel, joint: str) -> float:
     return min(1e-3 / compliance, RIGID_N_M_PER_RAD) if compliance > 0.0 else RIGID_N_M_PER_RAD
 
 
-def _slowed(stiffness: float, least_damping: float = 0.0) -> dict[str, str]:
-    """The armature that gives a spring its period, and half of its critical damping."""
-    damping = max(stiffness * PERIOD_S, least_damping)
-    return {"damping": repr(damping), "armature": repr(stiffness * PERIOD_S**2)}
-
-
 def _slide(body: ET.Element, name: str, axis: str, compliance_mm_per_n: float) -> None:
     if compliance_mm_per_n > 0.0:
         _spring(body, name, "slide", axis, 1e3 / compliance_mm_per_n)
@@ -154,4 +147,6 @@ def _hinge_spring(body: ET.Element, name: str, compliance_rad_per_n_mm: float, a
 
 
 def _spring(body: ET.Element, name: str, kind: str, axis: str, stiffness: float) -> None:
-    ET.SubElement(body, "joint", _slowed(stiffness), name=name, type=kind, axis=axis, stiffness=repr(stiffness))
+    ET.SubElement(
+        body, "joint", name=name, type=kind, axis=axis, stiffness=repr(stiffness), damping=repr(stiffness * REST_S)
+    )
