@@ -4,8 +4,8 @@ A joint is a hinge with a servo of its stiffness: torque = (command + zero offse
 ellipsoid is two slides at its end; a beam is two hinges at the Gauss points L (1/2 -+ 1/(2 sqrt 3)), each of compliance
 3 b/(2 L^2), which have the uniform beam's three tip compliances exactly, and a slide along it at its root. The base has
 slides and a hinge.
-Each spring is damped so that alone it comes to rest with a time constant of two time steps. The engine counts damping at
-the end of its step, so springs without mass stay stable; damped less, those of a limb without weights make it diverge.
+Each spring is damped so that alone it comes to rest with a time constant of two time steps. The engine counts damping
+at the end of its step, so springs without mass stay stable; damped less, those of a limb without weights diverge.
 SI units (m, N, N m/rad), x outwards, z up. Backlash, hardening, creep and temperature are not in it."""
 
 from __future__ import annotations
