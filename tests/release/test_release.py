@@ -90,6 +90,17 @@ def test_man_pages_have_one_date_in_every_time_zone(monkeypatch: pytest.MonkeyPa
         time.tzset()
 
 
+def test_no_line_of_a_man_page_is_a_request_by_chance() -> None:
+    """`.log, .mcap` at the start of a line would be left out."""
+    pytest.importorskip("argparse_manpage")
+    from release.man_pages import man_pages
+
+    pages = man_pages("0.1.0")
+    assert "\n\\&.log, .mcap" in pages["brace-record.1"]
+    starts = {line.split()[0] for page in pages.values() for line in page.splitlines() if line[:1] in (".", "'")}
+    assert starts <= {".TH", ".SH", ".SS", ".PP", ".TP", ".B", ".BR", ".sp", ".nf", ".fi", ".br"}
+
+
 def test_the_source_distribution_has_what_its_build_needs(tmp_path: Path) -> None:
     """Every folder that the top CMakeLists.txt takes in for the wheel, and the licence; no board, no test."""
     pytest.importorskip("build")

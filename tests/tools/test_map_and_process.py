@@ -82,6 +82,12 @@ def test_map_under_a_load(tmp_path: Path, brace: Callable[..., Outcome], paper_l
         assert not (tmp_path / "n").exists()
 
 
+def test_map_takes_no_force_across_the_plane(tmp_path: Path, brace: Callable[..., Outcome], paper_limb: Path) -> None:
+    """Its K is in the plane: such a force would be left out in silence."""
+    outcome = brace("map", "--model", paper_limb, "--out", tmp_path / "m", "--fx", 1, "--fy", 5)
+    assert outcome.code == 2 and "--fy" in outcome.err and not (tmp_path / "m").exists()
+
+
 def test_map_is_the_same_every_time(tmp_path: Path, brace: Callable[..., Outcome], paper_limb: Path) -> None:
     for name in ("a", "b"):
         assert brace("map", "--model", paper_limb, "--out", tmp_path / name, "--postures", 400).code == 0

@@ -53,4 +53,6 @@ def test_the_command_writes_it_and_refuses_one_node_twice(brace: Callable[..., O
     assert loaded(brace("dbc", "--fd").out).messages
     twice = brace("dbc", "--nodes", 3, 3)
     assert twice.code == 2 and "3 twice" in twice.err
+    commas = brace("dbc", "--nodes", "1,2")
+    assert commas.code == 2 and "--nodes 1 2" in commas.err
     assert brace("dbc", "--nodes", 128).code == 2

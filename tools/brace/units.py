@@ -25,7 +25,7 @@ _TABLE: dict[str, dict[str, float]] = {
         "mm": 1.0, "cm": 10.0, "m": 1e3, "um": 1e-3, "in": 25.4, "mil": 0.0254, "ft": 304.8,
     },
     "force": {
-        "N": 1.0, "kN": 1e3, "mN": 1e-3, "daN": 10.0, "lbf": LBF_N, "ozf": LBF_N / 16, "kgf": G_M_PER_S2,
+        "N": 1.0, "kN": 1e3, "mN": 1e-3, "cN": 1e-2, "daN": 10.0, "lbf": LBF_N, "ozf": LBF_N / 16, "kgf": G_M_PER_S2,
         "gf": G_M_PER_S2 * 1e-3,
     },
     "angle": {

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import re
 import time
 from pathlib import Path
 
@@ -11,6 +12,8 @@ from argparse_manpage.manpage import Manpage
 
 from brace.cli.command_line import build_parser
 
+# A line of text that begins with a point or an apostrophe is a request to man, unknown, and left out of the page.
+_REQUEST_BY_CHANCE = re.compile(r"^(?:\.(?!(?:TH|SH|SS|PP|TP|BR?|sp|nf|fi|br)\b)|')", re.MULTILINE)
 ABOUT = {"project_name": "Brace", "manual_title": "Brace", "manual_section": "1"}
 
 
@@ -40,7 +43,7 @@ def man_pages(version: str) -> dict[str, str]:
 def _page(parser: argparse.ArgumentParser, prog: str, about: str, version: str) -> str:
     page = Manpage(parser, {**ABOUT, "description": about, "version": version})
     page.prog = prog
-    return str(page)
+    return _REQUEST_BY_CHANCE.sub(r"\\&\g<0>", str(page))
 
 
 def write(folder: Path, version: str) -> None:

@@ -77,6 +77,8 @@ def test_a_file_without_names_is_asked_for_all_of_them(brace: Brace, tmp_path: P
         (LOADING.replace("theta2", "interior knee angle"), "180 deg for a straight leg"),
         (LOADING.replace("theta1", "femur from vertical"), "an angle from the vertical"),
         (LOADING.replace("dz [mm]", "deflection down z [mm]"), "its name says down, and z is up"),
+        (LOADING.replace("Fz [N]", "Load down [N]"), "'Load down [N]': is its sign turned? its name says down"),
+        (LOADING.replace("theta2", "shank angle"), "the knee's angle, or the shank's own?"),
     ],
 )
 def test_what_a_header_leaves_open_is_asked(brace: Brace, tmp_path: Path, header: str, words: str) -> None:
@@ -112,6 +114,67 @@ def test_displacements_that_begin_elsewhere_are_asked_and_taken_off(brace: Brace
     mapping.write_text(mapping.read_text().replace('relative = "?"', "relative = true"))
     assert brace("import", path, "--mapping", mapping, "--out", tmp_path / "out").code == 0
     assert load_dataset(tmp_path / "out")["dx_mm"] == pytest.approx(r["dx"], abs=1e-3)
+
+
+def test_places_of_the_tip_at_several_postures(brace: Brace, tmp_path: Path) -> None:
+    """Places differ from posture to posture by more than the tip is displaced: each posture has a zero of its own."""
+    r = Record()
+    place = 100.0 + 7.0 * r["pose"]
+    path = saved(tmp_path, loading(dx=shown(r["dx"] + place), dz=shown(r["dz"] - 2.0 * place)))
+    mapping = tmp_path / "m.toml"
+    brace("import", path, "--draft", mapping)
+    mapping.write_text(mapping.read_text().replace('relative = "?"', "relative = true"))
+    done = brace("import", path, "--mapping", mapping, "--out", tmp_path / "out")
+    assert done.code == 0, done.err
+    data = load_dataset(tmp_path / "out")
+    assert data["dx_mm"] == pytest.approx(r["dx"], abs=1e-3) and data["dz_mm"] == pytest.approx(r["dz"], abs=1e-3)
+    assert np.array_equal(data["axis"] == 1, r["axis"] == "z") and data["run"].max() == 12
+
+
+def test_an_axis_that_the_readings_contradict_is_refused(brace: Brace, tmp_path: Path) -> None:
+    """x and z by turns, all said to be x; the tip held sideways, and the tip free under a force along one axis."""
+    r = Record(poses=((42.5, 57.25),))
+    words = "loaded rows are loaded along z"
+    refused = brace("import", saved(tmp_path, loading_of(r)), "--set", "axis=x", "--out", tmp_path / "out", "--yes")
+    assert refused.code == 3 and words in refused.err, refused.err
+    compliance = np.linalg.inv(physics_k(math.radians(42.5), math.radians(57.25)))
+    force = 0.5 * np.array([r["dx"], r["dz"]])
+    moved = compliance @ force
+    free = saved(tmp_path, loading_of(r, dx=moved[0], dz=moved[1], fx=force[0], fz=force[1]), "free.csv")
+    refused = brace("import", free, "--set", "axis=x", "--out", tmp_path / "out", "--yes")
+    assert refused.code == 3 and words in refused.err, refused.err
+    only_x = r["axis"] == "x"
+    held = "\n".join(line for line, keep in zip(free.read_text().splitlines(), [True, *only_x]) if keep) + "\n"
+    taken = brace("import", saved(tmp_path, held), "--set", "axis=x", "--out", tmp_path / "out", "--yes")
+    assert taken.code == 0, taken.err
+    assert np.all(load_dataset(tmp_path / "out")["axis"] == 0)
+
+
+def loading_of(r: Record, **changed: np.ndarray) -> str:
+    names = ("t", "theta1", "theta2", "dx", "dz", "fx", "fz")
+    return text([LOADING], [shown(changed.get(name, r[name])) for name in names], ",")
+
+
+def test_a_knee_that_is_negative_throughout_is_asked(brace: Brace, tmp_path: Path) -> None:
+    """Its sign is another posture's, of another K."""
+    r = Record()
+    path = saved(tmp_path, loading(theta2=shown(-r["theta2"])))
+    asked = brace("import", path, "--out", tmp_path / "out", "--yes")
+    assert asked.code == 2 and "'theta2 [deg]': is its sign turned? all its entries are negative" in asked.err
+    mapping = tmp_path / "m.toml"
+    brace("import", path, "--draft", mapping)
+    mapping.write_text(mapping.read_text().replace('sign = "?"', "sign = -1"))
+    assert brace("import", path, "--mapping", mapping, "--out", tmp_path / "out").code == 0
+    assert load_dataset(tmp_path / "out")["theta2_rad"] == pytest.approx(np.radians(r["theta2"]), abs=1e-6)
+
+
+def test_what_stands_open_in_a_mapping_is_named_without_empty_words(brace: Brace, tmp_path: Path) -> None:
+    path = saved(tmp_path, loading(LOADING.replace("theta2 [deg]", "inner knee angle [deg]").replace(" [N]", "")))
+    mapping = tmp_path / "m.toml"
+    draft = brace("import", path, "--draft", mapping)
+    assert "theta2_rad" not in draft.err.split("to be said")[1].replace("is = theta2_rad", ""), "asked once"
+    asked = brace("import", path, "--mapping", mapping, "--out", tmp_path / "out")
+    assert asked.code == 2 and "()" not in asked.err and "go from \n" not in asked.err, asked.err
 
 
 def test_hung_weights(brace: Brace, tmp_path: Path) -> None:

@@ -93,6 +93,11 @@ def test_degrees_celsius_and_fahrenheit_have_an_offset() -> None:
         ("speed [mm/s]", "", "ignore", None),
         ("dial gauge base x [mm]", "", "base_x_mm", "mm"),
         ("enc2 [mrad]", "", "enc2_rad", "mrad"),
+        ("X_Value", "", "t_s", None),
+        ("Down stage (mil)", "", "dz_mm", "mil"),
+        ("downward load [cN]", "", "fz_n", "cN"),
+        ("shank angle [deg]", "", "?", "deg"),
+        ("shank joint angle [deg]", "", "theta2_rad", "deg"),
     ],
 )
 def test_names_of_a_loading_record(name: str, row: str, target: str, unit: str | None) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import tomllib
 from collections.abc import Callable
 from pathlib import Path
@@ -70,6 +71,32 @@ def test_k_is_the_reference_s(brace: Brace, tmp_path: Path, theta1: float, theta
     text = text.replace("bending_mm_per_n = 0.25", f"bending_mm_per_n = 0.25\nmoment_transfer = {beam}")
     k, _ = k_of(*loaded(exported(brace, tmp_path, text, theta1, theta2)))
     assert k == pytest.approx(physics_k(theta1, theta2, moment_transfer=beam), rel=2e-5, abs=2e-6)
+
+
+@pytest.mark.parametrize("beam", [0.0, 1.0])
+@pytest.mark.parametrize("force_n", [(0.2, 0.0), (0.0, 0.2)])
+def test_a_weightless_limb_stands_still_under_a_push(
+    brace: Brace, tmp_path: Path, beam: float, force_n: tuple[float, float]
+) -> None:
+    """Step after step, as people run the engine: the tip comes to rest where the limb's compliance has it."""
+    text = LIMB.replace("bending_mm_per_n = 0.06", f"bending_mm_per_n = 0.06\nmoment_transfer = {beam}")
+    text = text.replace("bending_mm_per_n = 0.25", f"bending_mm_per_n = 0.25\nmoment_transfer = {beam}")
+    text = re.sub(r"axial_mm_per_n = \S+", "axial_mm_per_n = 2e-5", text)  # a tube's: the stiffest spring of a limb
+    model, data = loaded(exported(brace, tmp_path, text))
+    k, rest_mm = k_of(model, data)
+    mujoco.mj_resetDataKeyframe(model, data, 0)
+    for _ in range(4000):
+        mujoco.mj_fwdPosition(model, data)
+        pushed = np.zeros(model.nv)
+        push, no_moment = np.array([force_n[0], 0.0, force_n[1]]), np.zeros(3)
+        mujoco.mj_applyFT(model, data, push, no_moment, data.site_xpos[0], model.site_bodyid[0], pushed)
+        data.qfrc_applied[:] = pushed
+        mujoco.mj_step(model, data)
+    assert not any(warning.number for warning in data.warning)
+    expected = np.linalg.solve(k, force_n)
+    # 0.2 N turn the limb by 0.02 rad at most, and so change its compliance by as much of itself
+    size = float(np.linalg.norm(expected))
+    assert 1e3 * data.site_xpos[0][[0, 2]] - rest_mm == pytest.approx(expected, abs=0.02 * size)
 
 
 def test_with_base_offsets_and_a_tilted_link_as_brace_k(brace: Brace, tmp_path: Path) -> None:

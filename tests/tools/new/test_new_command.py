@@ -228,6 +228,18 @@ def test_a_robot_without_such_a_leg_is_refused(brace: Brace, tmp_path: Path) -> 
         ("<robot", "no URDF"),
         ('<robot name="x"><link name="base"/></robot>', "0 chains"),
         (URDF.format(yaw=0, down=0, hip=1, knee=1).replace('xyz="0 1 0"', 'xyz="1 0 0"', 1), "one plane"),
+        (
+            URDF.format(yaw=0, down=0, hip=1, knee=1).replace('lower="0.2" upper="2.4"', 'lower="2.4" upper="0.2"'),
+            "lower 2.4 is above upper 0.2",
+        ),
+        (
+            URDF.format(yaw=0, down=0, hip=1, knee=1).replace('lower="0.2" upper="2.4"', 'lower="10" upper="140"'),
+            "in degrees they would be 0.1745 and 2.443",
+        ),
+        (
+            URDF.format(yaw=0, down=0, hip=1, knee=1).replace('xyz="0.3135 0 0"', 'xyz="313.5 0 0"'),
+            "313.5 mm are 0.3135 there",
+        ),
     ):
         robot.write_text(text)
         outcome = brace("new", "--out", tmp_path / "limb.toml", "--urdf", robot, *TUBES[4:])

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 
 from brace.cli import common
-from brace.cli.options import Subcommands
+from brace.cli.options import Subcommands, refused
 from brace.cli.subcommands import SUBCOMMANDS
 
 
@@ -20,12 +20,20 @@ def add(commands: Subcommands) -> None:
         "messages and senders end in the node's number: stiffness_a_3.",
     )
     parser.add_argument(
-        "--nodes", type=common.count(1, NODE_MOST), nargs="+", default=[1], metavar="N",
+        "--nodes", type=_node, nargs="+", default=[1], metavar="N",
         help=f"their numbers, 1 to {NODE_MOST}; default 1",
     )  # fmt: skip
     parser.add_argument("--fd", action="store_true", help="the frames of CAN FD; read it beside the one without")
     parser.add_argument("--out", type=common.path, metavar="FILE.dbc", help="default: standard output")
     parser.set_defaults(run=run)
+
+
+def _node(text: str) -> int:
+    from brace.wire.dbc import NODE_MOST
+
+    if "," in text:
+        raise refused(f"{text!r} is not one number", "blanks part the numbers", f"OPTION {text.replace(',', ' ')}")
+    return common.count(1, NODE_MOST)(text)
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -40,10 +40,10 @@ def add(commands: Subcommands) -> None:
         help="compliances free, lengths, zeros and gain within their trust (default for tables)",
     )
     parser.add_argument(
-        "--fit", action="append", default=[], metavar="KEY", help="also fit this key of limb.toml, free"
+        "--fit", action="append", default=[], metavar="KEY", help="also fit this key of limb.toml, free; repeatable"
     )
     parser.add_argument(
-        "--only", action="append", default=[], metavar="KEY", help="fit these keys and no others, free"
+        "--only", action="append", default=[], metavar="KEY", help="fit this key and no others, free; repeatable"
     )
     parser.add_argument(
         "--faults",

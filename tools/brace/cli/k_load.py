@@ -11,11 +11,12 @@ from brace.limits import FORCE_MOST_N
 SOFTENED = 3.0  # of the buckling factor: below it a limb is much softer than without load, and a controller flags its K
 
 
-def add_load(parser: OptionParser) -> None:
-    """Declares --fx, --fy and --fz."""
+def add_load(parser: OptionParser, in_space: bool = True) -> None:
+    """Declares --fx and --fz, and --fy of a command that tells K in space."""
     meaning = "force of the ground on the tip {}; K is then K under this load, at the equilibrium"
     parser.add_argument("--fx", type=force, metavar="N", help=meaning.format("outwards in the limb's plane"))
-    parser.add_argument("--fy", type=force, metavar="N", help="across the plane, to the left; only with --theta0")
+    if in_space:
+        parser.add_argument("--fy", type=force, metavar="N", help="across the plane, to the left; only with --theta0")
     parser.add_argument("--fz", type=force, metavar="N", help="upwards in the plane")
 
 
@@ -29,7 +30,7 @@ def force(text: str) -> float:
 
 def fill_in(arguments: argparse.Namespace) -> None:
     """One component alone: the others are 0."""
-    given = [value is not None for value in (arguments.fx, arguments.fy, arguments.fz)]
+    given = [value is not None for value in (arguments.fx, getattr(arguments, "fy", None), arguments.fz)]
     arguments.is_loaded = any(given)
     if arguments.is_loaded:
         arguments.fx, arguments.fz = arguments.fx or 0.0, arguments.fz or 0.0

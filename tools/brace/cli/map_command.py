@@ -55,7 +55,7 @@ def add(commands: Subcommands) -> None:
         metavar=("LOW", "HIGH"),
         help="range of the true knee angle [rad]; default: its travel, or 0 pi",
     )
-    k_load.add_load(parser)
+    k_load.add_load(parser, in_space=False)
     parser.add_argument(
         "--npy", action="store_true", help="also every posture, as postures.npy (float32, named columns)"
     )

@@ -4,6 +4,8 @@ A joint is a hinge with a servo of its stiffness: torque = (command + zero offse
 ellipsoid is two slides at its end; a beam is two hinges at the Gauss points L (1/2 -+ 1/(2 sqrt 3)), each of compliance
 3 b/(2 L^2), which have the uniform beam's three tip compliances exactly, and a slide along it at its root. The base has
 slides and a hinge.
+Each spring is damped so that alone it comes to rest with a time constant of two time steps. The engine counts damping
+at the end of its step, so springs without mass stay stable; damped less, those of a limb without weights diverge.
 SI units (m, N, N m/rad), x outwards, z up. Backlash, hardening, creep and temperature are not in it."""
 
 from __future__ import annotations
@@ -17,6 +19,9 @@ from brace.model.travel import has_travel, travel_rad
 
 RIGID_N_M_PER_RAD = 1e7
 LEAST_KG, LEAST_KG_M2 = 1e-5, 1e-8
+TIME_STEP_S = 0.0005
+REST_S = 2.0 * TIME_STEP_S  # damping over stiffness; without mass the engine diverges below half a time step
+SERVO_DAMPING_N_M_S = 0.5
 G_M_PER_S2 = 9.80665
 _ACROSS = {"theta1": "0 -1 0", "theta2": "0 1 0"}  # about these the angles grow as ours do
 
@@ -25,7 +30,7 @@ def model_xml(model: LimbModel, theta1_rad: float, theta2_rad: float) -> str:
     """The MJCF text; its keyframe `posture` stands at these commanded angles. Refuses a tilted link that is a beam."""
     root = ET.Element("mujoco", model=model.name)
     ET.SubElement(root, "compiler", angle="radian", autolimits="true")
-    ET.SubElement(root, "option", gravity=f"0 0 {-G_M_PER_S2}", integrator="implicitfast", timestep="0.0005")
+    ET.SubElement(root, "option", gravity=f"0 0 {-G_M_PER_S2}", integrator="implicitfast", timestep=f"{TIME_STEP_S}")
     at = ET.SubElement(ET.SubElement(root, "worldbody"), "body", name="base")
     _mass(at, 0.0)
     for axis, name in (("1 0 0", "x_mm_per_n"), ("0 0 1", "z_mm_per_n")):
@@ -37,8 +42,7 @@ def model_xml(model: LimbModel, theta1_rad: float, theta2_rad: float) -> str:
     actuators = ET.SubElement(root, "actuator")
     angles = {"theta1": theta1_rad, "theta2": theta2_rad}
     for joint, name in (("femur", "theta1"), ("tibia", "theta2")):
-        compliance = model.number(f"joint.{joint}.compliance_rad_per_n_mm")
-        stiffness = min(1e-3 / compliance, RIGID_N_M_PER_RAD) if compliance > 0.0 else RIGID_N_M_PER_RAD
+        stiffness = _servo_n_m_per_rad(model, joint)
         offset = model.number(f"joint.{joint}.zero_offset_rad")
         ET.SubElement(
             actuators,
@@ -73,8 +77,9 @@ def _link(body: ET.Element, model: LimbModel, link: str, angle: str) -> ET.Eleme
             why="the MuJoCo model has no such part",
             next_step="moment_transfer = false, or tilt_rad = 0",
         )
-    joint = ET.SubElement(body, "joint", name=angle, type="hinge", axis=_ACROSS[angle], damping="0.5")
     side = {"theta1": "femur", "theta2": "tibia"}[angle]
+    damping = repr(max(SERVO_DAMPING_N_M_S, _servo_n_m_per_rad(model, side) * REST_S))
+    joint = ET.SubElement(body, "joint", name=angle, type="hinge", axis=_ACROSS[angle], damping=damping)
     if has_travel(model, side):
         low, high = travel_rad(model, side)
         offset = model.number(f"joint.{side}.zero_offset_rad")
@@ -126,13 +131,22 @@ def _bar(body: ET.Element, name: str, length_m: float) -> None:
     )
 
 
+def _servo_n_m_per_rad(model: LimbModel, joint: str) -> float:
+    compliance = model.number(f"joint.{joint}.compliance_rad_per_n_mm")
+    return min(1e-3 / compliance, RIGID_N_M_PER_RAD) if compliance > 0.0 else RIGID_N_M_PER_RAD
+
+
 def _slide(body: ET.Element, name: str, axis: str, compliance_mm_per_n: float) -> None:
     if compliance_mm_per_n > 0.0:
-        stiffness = repr(1e3 / compliance_mm_per_n)
-        ET.SubElement(body, "joint", name=name, type="slide", axis=axis, stiffness=stiffness, damping="5")
+        _spring(body, name, "slide", axis, 1e3 / compliance_mm_per_n)
 
 
 def _hinge_spring(body: ET.Element, name: str, compliance_rad_per_n_mm: float, axis: str) -> None:
     if compliance_rad_per_n_mm > 0.0:
-        stiffness = repr(1e-3 / compliance_rad_per_n_mm)
-        ET.SubElement(body, "joint", name=name, type="hinge", axis=axis, stiffness=stiffness, damping="0.05")
+        _spring(body, name, "hinge", axis, 1e-3 / compliance_rad_per_n_mm)
+
+
+def _spring(body: ET.Element, name: str, kind: str, axis: str, stiffness: float) -> None:
+    ET.SubElement(
+        body, "joint", name=name, type=kind, axis=axis, stiffness=repr(stiffness), damping=repr(stiffness * REST_S)
+    )

@@ -13,11 +13,12 @@ import numpy as np
 
 from brace.importing import names, numerals
 from brace.importing.mapping import CONSTANTS, ColumnUse, Constant, MappingTable
-from brace.importing.meaning import IGNORE, OPEN, TARGETS, UNKNOWN_NAME, WHICH_ANGLE, quantity_of, target_of
+from brace.importing.meaning import IGNORE, OPEN, OPEN_ANGLES, TARGETS, UNKNOWN_NAME, quantity_of, target_of
 from brace.importing.part import Part
 from brace.units import OWN, unit_of
 
 FULL_TURN = 2 * math.pi
+BENT_BACK = "all its entries are negative, and theta2 is the femur's angle from +x less the tibia's"
 _PERHAPS_ANGLE = f"an angle of the posture? {UNKNOWN_NAME}"
 RAW = ("v", "mv", "volt", "volts", "mv/v", "ma", "a", "counts", "count", "ticks", "lsb", "%", "digits", "raw")
 AXES = {"x": "x", "z": "z", "horizontal": "x", "vertical": "z", "waagrecht": "x", "waagerecht": "x", "senkrecht": "z",
@@ -89,6 +90,8 @@ def _one(index: int, header: str, part: Part, cells: list[str], kind: str, file:
     unit, why_unit = _unit(name, quantity, values[readable], label)
     if "down" in name.words and target in ("dz_mm", "fz_n", "base_z_mm"):
         return replace(use, unit=unit, sign=OPEN, why="its name says down, and z is up")
+    if target == "theta2_rad" and readable.any() and values[readable].max() < 0.0:
+        return replace(use, unit=unit, sign=OPEN, why=BENT_BACK)
     return replace(use, unit=unit, why=why_unit or why)
 
 
@@ -263,7 +266,7 @@ def _constants(parts: Sequence[Part], table: MappingTable) -> list[Constant]:
             for index, name in enumerate(part.names, start=1)
             if (use := table.column(part.path.name, name, index))
             and OPEN in use.targets
-            and use.why in (WHICH_ANGLE, _PERHAPS_ANGLE)
+            and use.why in (*OPEN_ANGLES, _PERHAPS_ANGLE)
         )
         for target in CONSTANTS[table.kind]:
             given = _from_remarks(part, target, table.kind)

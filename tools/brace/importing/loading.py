@@ -18,6 +18,10 @@ Columns: TypeAlias = dict[str, np.ndarray]
 SAME_RAD = 1e-3
 HELD_RAD = 0.06  # a commanded angle that is read back moves by so much at most while the limb is loaded
 OPTIONAL = ("enc1_rad", "enc2_rad", "base_x_mm", "base_z_mm")
+LOADED_RATIO = 0.05  # of the largest work along an axis: less is a row at rest
+SOFT_AXIS_RATIO = 3e-3  # of the largest work on the tip: less is noise at a displacement, or friction at rest
+OTHER_AXIS_RATIO = 10.0  # work across over work along: a limb that is free across its axis has no force there
+FEW_RATIO = 0.05  # of the rows: so many may be slips
 SIDEWAYS_RATIO = 0.3  # of a step along the axis: what a gauge across it may read of a tip that does not move there
 
 
@@ -127,7 +131,6 @@ def _piece(table: Table, mapping: MappingTable, notes: list[str]) -> Columns:
     out["t_s"] = columns["t_s"] if "t_s" in columns else _constant(table, mapping, "dwell_s") * np.arange(rows)
     if "t_s" not in columns:
         notes.append(f"{table.part.path.name}: t_s is counted, row number times dwell_s")
-    axis = _axis(table, mapping, rows)
     given = np.zeros(rows, bool)
     given[0] = True
     for name in ("run", "rep", "config"):
@@ -136,16 +139,45 @@ def _piece(table: Table, mapping: MappingTable, notes: list[str]) -> Columns:
             given[1:] |= np.array([a != b for a, b in zip(texts[:-1], texts[1:])], bool)
     for name in ("theta1_rad", "theta2_rad"):
         given[1:] |= np.abs(np.diff(out[name])) > ANGLE_JUMP_RAD
-    given[1:] |= np.diff(axis) != 0
     given[1:] |= np.diff(out["t_s"]) < 0.0
+    axis = _axis(table, mapping, rows, np.cumsum(given) if "yes" in _relatives(mapping) else np.ones(rows, int))
+    given[1:] |= np.diff(axis) != 0
     out |= _displacements(table, axis, rows, notes)
     along = np.where(axis == 1, out["dz_mm"], out["dx_mm"])
-    middle = along - along[0] if "yes" in _relatives(mapping) else along
+    group = np.cumsum(given)
+    middle = along - along[np.searchsorted(group, group)] if "yes" in _relatives(mapping) else along
     numbered = len(set(table.texts.get("run", ()))) > 1
     out["begins"] = given if numbered else boundaries(middle, given)
     out["axis"] = axis
     out |= _forces(table, axis, rows, notes)
+    if len({"dx_mm", "dz_mm", "d_mm"} & set(columns)) > 1 and "weight_n" not in columns:
+        _loaded_as_said(table, axis, out, group)
     return out
+
+
+def _loaded_as_said(table: Table, axis: np.ndarray, out: Columns, group: np.ndarray) -> None:
+    """Refuses an axis that the readings contradict. A load does its work along its own axis, whether the tip is held
+    or free across it; a limb that is loaded along x and z by turns does it along the other in the other's rows."""
+    efforts = []
+    unread = any(np.isnan(out[name]).any() for name in ("fx_n", "fz_n"))
+    firsts = np.searchsorted(group, group)  # the first row of each row's group, where it was unloaded
+    for moved, pushed in (("dx_mm", "fx_n"), ("dz_mm", "fz_n")):
+        d = out[moved] - out[moved][firsts]
+        efforts.append(d * d if unread else np.abs(d * (out[pushed] - out[pushed][firsts])))
+    along, across = (np.where((axis == 1) == way, efforts[1], efforts[0]) for way in (True, False))
+    other = (across > OTHER_AXIS_RATIO * along) & (across > LOADED_RATIO * float(across.max()))
+    other &= across > SOFT_AXIS_RATIO * max(float(np.max(efforts)), 1e-12)
+    loaded = other | (along > LOADED_RATIO * float(along.max()))
+    if np.count_nonzero(other) < 3 or np.count_nonzero(other) <= FEW_RATIO * np.count_nonzero(loaded):
+        return
+    said = "z" if axis[np.flatnonzero(other)[0]] else "x"
+    raise BadFileError(
+        f"the axis is said to be {said}, and {np.count_nonzero(other)} of {np.count_nonzero(loaded)} loaded rows are "
+        f"loaded along {'x' if said == 'z' else 'z'}",
+        where=table.part.where,
+        why="a run is loaded along one axis",
+        next_step="a column that says x or z in each row, or one file for each axis with --set FILE:axis=x",
+    )
 
 
 def _relatives(mapping: MappingTable) -> list[str]:
@@ -170,7 +202,8 @@ def _constant(table: Table, mapping: MappingTable, target: str) -> float:
     return value if unit is None else unit.factor * value + unit.offset
 
 
-def _axis(table: Table, mapping: MappingTable, rows: int) -> np.ndarray:
+def _axis(table: Table, mapping: MappingTable, rows: int, group: np.ndarray) -> np.ndarray:
+    """0 (x) or 1 (z) a row. group: rows between which displacements may count from another place."""
     if "axis" in table.texts:
         wrong = next((text for text in table.texts["axis"] if text not in ("x", "z")), None)
         if wrong is not None:
@@ -186,7 +219,8 @@ def _axis(table: Table, mapping: MappingTable, rows: int) -> np.ndarray:
         return np.full(rows, constant.value == "z", np.int32)
     have = table.columns
     if "dx_mm" in have and "dz_mm" in have:
-        found = driven_axis(have["dx_mm"] - have["dx_mm"][0], have["dz_mm"] - have["dz_mm"][0])
+        firsts = np.searchsorted(group, group)
+        found = driven_axis(have["dx_mm"] - have["dx_mm"][firsts], have["dz_mm"] - have["dz_mm"][firsts])
         if found is not None:
             return found.astype(np.int32)
         if "weight_n" in have:

@@ -18,6 +18,7 @@ CONSTANTS = {
     "stiffness_table": (),
 }
 WORDS = {"dwell_s": "time", "theta1_rad": "angle", "theta2_rad": "angle", "temp_degc": "temperature"}
+PUSHES = ("fx_n", "fz_n", "f_n", "torque_n_mm")
 
 
 @dataclass(frozen=True)
@@ -45,16 +46,22 @@ class ColumnUse:
         """What has to be said about it."""
         told = []
         if OPEN in self.targets:
-            told.append(f"{self.name!r}: what is it? ({self.why})")
+            told.append(f"{self.name!r}: what is it?" + (f" ({self.why})" if self.why else ""))
         elif self.used:
             if self.unit == OPEN:
-                told.append(f"{self.name!r}: in which unit? Its entries go from {self.span}")
+                told.append(
+                    f"{self.name!r}: in which unit?" + (f" Its entries go from {self.span}" if self.span else "")
+                )
             if self.sign == OPEN:
                 told.append(
-                    f"{self.name!r}: is its sign turned? {self.why}; a limb pushes back. sign = -1 turns it (many "
-                    "sensors read "
-                    "the force of the limb on them); if it is the other column that is turned, turn that one"
+                    f"{self.name!r}: is its sign turned? {self.why + '. ' if self.why else ''}"
+                    "sign = -1 turns it, sign = 1 keeps it"
                 )
+                if self.targets[0] in PUSHES:
+                    told[-1] += (
+                        ". A limb pushes back, but many sensors read the force of the limb on them; if it is the other "
+                        "column that is turned, turn that one"
+                    )
             if self.relative == OPEN:
                 told.append(
                     f"{self.name!r}: does its zero mean unloaded? It begins far from 0; relative = true takes each "
@@ -77,7 +84,7 @@ class Constant:
     def questions(self) -> list[str]:
         of = f" of {self.file}" if self.file else ""
         if self.value == OPEN:
-            return [f"{self.target}{of}: {self.why}"]
+            return [f"{self.target}{of}: {self.why or 'what is it?'}"]
         return [f"{self.target}{of} = {self.value}: in which unit?"] if self.unit == OPEN else []
 
 

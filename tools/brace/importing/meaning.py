@@ -26,6 +26,13 @@ TARGETS: dict[str, dict[str, str]] = {
 IGNORE, OPEN = "ignore", "?"
 UNKNOWN_NAME = "the name says nothing that is known here"
 WHICH_ANGLE = "which joint's angle?"
+INNER_ANGLE = "an inner angle is 180 deg for a straight leg: then is = theta2_rad, sign = -1, offset = 3.14159265"
+FROM_VERTICAL = "an angle from the vertical: theta1 counts from +x, so sign and offset must be said"
+SHANKS_ANGLE = (
+    "the knee's angle, or the shank's own? The knee's: is = theta2_rad. The shank's own is no column of a record: "
+    "theta2 is the thigh's less it; work it out in your file"
+)
+OPEN_ANGLES = (WHICH_ANGLE, INNER_ANGLE, FROM_VERTICAL, SHANKS_ANGLE)  # questions that stand for one of both angles
 _QUANTITIES = ("force", "length", "angle", "torque", "time", "temperature", "stiffness")
 
 
@@ -61,7 +68,7 @@ def target_of(name: Name, kind: str) -> tuple[str, str]:
 
 
 def _axis(words: frozenset[str]) -> str:
-    letters = [axis for axis in "xyz" if axis in words]
+    letters = [axis for axis in "xyz" if axis in words] or (["z"] if "down" in words else [])
     return letters[0] if len(letters) == 1 else OPEN if letters else ""
 
 
@@ -116,12 +123,11 @@ def _of_loading(name: Name, quantity: str) -> tuple[str, str]:
         if joint == "0":
             return IGNORE, "the coxa's angle: a record is of the limb's plane"
         if "interior" in words:
-            return (
-                OPEN,
-                "an inner angle is 180 deg for a straight leg: then is = theta2_rad, sign = -1, offset = 3.14159265",
-            )
+            return OPEN, INNER_ANGLE
+        if "shank" in words and "joint" not in words:
+            return OPEN, SHANKS_ANGLE
         if "z" in words:
-            return OPEN, "an angle from the vertical: theta1 counts from +x, so sign and offset must be said"
+            return OPEN, FROM_VERTICAL
         return (f"theta{joint}_rad", "name") if joint in ("1", "2") else (OPEN, WHICH_ANGLE)
     if quantity == "torque":
         return IGNORE, "a loading record has no torques"

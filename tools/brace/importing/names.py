@@ -13,6 +13,7 @@ _LAST_BRACKETS = re.compile(r"[\[({<]([^\])}>]*)[\])}>]\s*$")
 _BEHIND = re.compile(r"(?:\s+in\s+|\s*/\s*|,\s*|\s+)([^\s,/]+(?:[ *\u00b7][^\s,/]+)?(?:/[a-z]+)?)\s*$")
 _TAIL = re.compile(r"_([A-Za-z\u00b0\u00b5\u03bc]+(?:_mm|_m|_per_mm|_per_m)?)$")
 
+LABVIEW_TIME = "x_value"  # of its .lvm files: neither a place nor along x
 _CAMEL = re.compile(r"(?<=[a-zA-Z0-9])([A-Z][a-z]*)$")  # tSec, thetaFemurDeg, forceXN
 _CAMEL_UNITS = {"Sec": "s", "Ms": "ms", "Deg": "deg", "Rad": "rad", "Mm": "mm", "N": "N", "Lbf": "lbf", "Inch": "in",
                 "Nm": "N m", "Nmm": "N mm"}  # fmt: skip
@@ -55,6 +56,7 @@ _WORDS: dict[str, tuple[str, ...]] = {
               "cadera", "quadril", "upper", "theta1", "q1"),
     "tibia": ("tibia", "knee", "knie", "kniegelenk", "shank", "unterschenkel", "genou", "rodilla", "joelho",
               "ginocchio", "lower", "theta2", "q2"),
+    "shank": ("shank", "unterschenkel"),
     "coxa": ("coxa", "yaw", "theta0", "q0"),
     "x": ("x", "horizontal", "horiz", "waagrecht", "waagerecht", "fore", "hor"),
     "y": ("y",),
@@ -92,6 +94,8 @@ def read(name: str, units_row: str = "") -> Name:
     bare, unit, text = _without_unit(name)
     if units_row:
         unit, text = unit_of(units_row), units_row
+    if bare.strip().lower() == LABVIEW_TIME:
+        return Name(frozenset({"time"}), unit, None, "", text)
     words, number, entry = _meanings(bare)
     return Name(frozenset(words), unit, number, entry, text)
 

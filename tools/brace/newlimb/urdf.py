@@ -17,6 +17,7 @@ from brace.files import TOML_LIMIT_BYTES, read_text
 WHAT = "URDF"
 PARALLEL = 0.9995
 LEAST_MM = 1.0
+MOST_MM = 3000.0
 
 
 @dataclass(frozen=True)
@@ -33,19 +34,31 @@ def read_chain(path: Path, tip: str = "") -> dict[str, object]:
     """Options of `brace new` that the file answers: femur, tibia, coxa, their travel. tip: the link whose origin is the
     foot; by default the only end of a chain of two or three hinges."""
     hinges, foot, end = _chain(path, tip)
+    for hinge in hinges:
+        _travel_can_be(path, hinge)
     *yaw, hip, knee = hinges
     if abs(float(hip.axis @ knee.axis)) < PARALLEL:
         raise _refused(
-            path, f"{hip.name} and {knee.name} do not turn in one plane", "the hip's and the knee's axis are parallel"
+            path,
+            f"{hip.name} and {knee.name} do not turn in one plane",
+            "the hip's and the knee's axis must be parallel",
         )
     across, up = hip.axis, np.array([0.0, 0.0, 1.0])
     if abs(float(across @ up)) > 0.1:
-        raise _refused(path, f"{hip.name}'s axis is not level", "the limb's plane stands upright, its axes lie level")
+        raise _refused(
+            path, f"{hip.name}'s axis is not level", "the limb's plane stands upright, so its axes must lie level"
+        )
     out = _outwards(yaw, hip, foot, np.cross(across, up))
     left = np.cross(up, out)  # x, left, z are right-handed; theta1 grows from x to z, about -left
     sign = {hinge.name: -float(np.sign(hinge.axis @ left)) for hinge in (hip, knee)}
     thigh, shank = ((vector @ out, vector @ up) for vector in (knee.place - hip.place, foot - knee.place))
     femur_mm, tibia_mm = (1e3 * math.hypot(*vector) for vector in (thigh, shank))
+    if max(femur_mm, tibia_mm) > MOST_MM:
+        longest = max(femur_mm, tibia_mm) * 1e-3
+        raise _refused(
+            path, f"a link of {longest:.6g} m", "lengths of a URDF are in metres",
+            f"{longest:.6g} mm are {longest * 1e-3:.6g} there; or give the lengths as options",
+        )  # fmt: skip
     if min(femur_mm, tibia_mm) < LEAST_MM:
         raise _refused(
             path, f"{end} lies on an axis", f"femur {femur_mm:.3g} mm, tibia {tibia_mm:.3g} mm: name the foot's link"
@@ -65,6 +78,22 @@ def read_chain(path: Path, tip: str = "") -> dict[str, object]:
         if hinge.travel:
             found[option] = [f"{end:.6g}rad" for end in sorted(zero + way * limit for limit in hinge.travel)]
     return found
+
+
+def _travel_can_be(path: Path, hinge: _Hinge) -> None:
+    """MuJoCo reads a travel that ends before it begins as none at all."""
+    low, high = hinge.travel or (0.0, 0.0)
+    if low > high:
+        raise _refused(
+            path, f"{hinge.name}: lower {low:g} is above upper {high:g}", "no angle lies between",
+            "exchange the two if they are turned",
+        )  # fmt: skip
+    if max(abs(low), abs(high)) > 2.0 * math.pi:
+        raise _refused(
+            path, f"{hinge.name}: its travel of {low:g} to {high:g} rad is more than a turn",
+            "angles of a URDF are in radians",
+            f"in degrees they would be {math.radians(low):.4g} and {math.radians(high):.4g} there",
+        )  # fmt: skip
 
 
 def _outwards(yaw: list[_Hinge], hip: _Hinge, foot: np.ndarray, level: np.ndarray) -> np.ndarray:
@@ -131,7 +160,7 @@ def _walk(mujoco: object, body: object) -> tuple[list[_Hinge], np.ndarray]:
             hinges.append(
                 _Hinge(
                     joint.name, place + turn @ np.asarray(joint.pos), axis / np.linalg.norm(axis),
-                    (low, high) if low < high else None,
+                    (low, high) if low != high else None,
                 )
             )  # fmt: skip
     return hinges, place

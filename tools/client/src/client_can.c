@@ -8,7 +8,8 @@
 #include "brace/can_messages.h"
 #include "brace/refusals.h"
 
-enum { STATUS_MS = 250, FIRST_TRY_MS = 250, AGAIN_MS = 1000, OLD_US = 100000, APART_US = 32000, LIFE_MS = 5 };
+enum { STATUS_MS = 250, FIRST_TRY_MS = 250, AGAIN_MS = 1000, OLD_US = 100000, APART_US = 32000, MOST_APART_US = 1024000,
+       LIFE_MS = 5 };
 
 /* What a call waits for. */
 typedef struct {
@@ -347,10 +348,11 @@ brace_client_status_t brace_can_command(brace_client_t *client, brace_question_t
     return ask(client, question, is_once ? COMMANDS_ONCE : COMMANDS, deadline_us);
 }
 
-/* Listens for some time, which is another one in each client: two that disturb each other must not do so in step. */
-static brace_client_status_t pause_apart(brace_client_t *client, uint64_t deadline_us)
+/* Listens for some time up to most_us, which is another one in each client: two that disturb each other must not do so
+ * in step. */
+static brace_client_status_t pause_apart(brace_client_t *client, uint64_t most_us, uint64_t deadline_us)
 {
-    const uint64_t now_us = brace_bus_now_us(), end_us = now_us + (now_us ^ (uint64_t)getpid()) % APART_US;
+    const uint64_t now_us = brace_bus_now_us(), end_us = now_us + (now_us ^ (uint64_t)getpid()) % most_us;
     const uint64_t until_us = end_us < deadline_us ? end_us : deadline_us;
     while (brace_bus_left_ms(until_us) > 0) {
         const brace_client_status_t status = listen(client, brace_bus_left_ms(until_us), NULL);
@@ -373,7 +375,8 @@ brace_client_status_t brace_can_ask_under_force(brace_client_t *client, brace_qu
                                                 brace_question_t *question, uint64_t deadline_us)
 {
     begin(client, deadline_us);
-    for (;;) {
+    /* Pauses that double leave room for the others however slow the machine or the bus is. */
+    for (uint64_t most_us = APART_US;; most_us = most_us < MOST_APART_US ? 2u * most_us : most_us) {
         client->force_is_taken = false;
         brace_client_status_t status = ask(client, force, ASKS, deadline_us);
         if (status == BRACE_CLIENT_OK) {
@@ -386,7 +389,7 @@ brace_client_status_t brace_can_ask_under_force(brace_client_t *client, brace_qu
         if (!is_told || (!is_used_up && !client->force_is_taken)) {
             return status;
         }
-        status = pause_apart(client, deadline_us);
+        status = pause_apart(client, most_us, deadline_us);
         if (status != BRACE_CLIENT_OK) {
             return status;
         }

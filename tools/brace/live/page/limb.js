@@ -204,7 +204,7 @@ export class Limb {
     const values = this.history.flatMap((one) => [one.least, one.most]).filter((value) => value !== null && value > 0);
     pen.clearRect(0, 0, canvas.width, canvas.height);
     if (values.length === 0) {
-      text(this.find("figcaption"), "no valid K in the last minute");
+      text(this.find("figcaption"), "no K above zero in the last minute");
       return;
     }
     const low = Math.log(Math.min(...values) / 1.2);
