@@ -27,7 +27,7 @@ PRINT_K = BUILD / "tools" / "client" / "print_k"
 LIMB = PROJECT / "tools" / "brace" / "data" / "paper-limb.toml"
 sys.path.insert(0, str(Path(__file__).parent))
 TELLING_S = 3.0
-PROMISED_MS = 2500  # with this time-out every failure is told within TELLING_S
+PROMISED_MS = 2500  # given this time-out, the client tells every failure within TELLING_S
 # The guest kernel stands still for seconds when the machine is busy, and what is tested there is not its speed.
 ANSWER_MS = 20000 if os.environ.get("BRACE_TEST_CAN") else PROMISED_MS
 

@@ -34,7 +34,7 @@ static void test_parameters_are_stored_in_configuration_only(void)
     TEST_ASSERT_EQUAL(BRACE_E_MODE, brace_app_parameters_rollback(&app));
 }
 
-/* A set that has come in force is no copy in waiting; nor is one that was refused gone. */
+/* A set that is in force no longer waits as a copy. A set that was refused stays in waiting. */
 static void test_what_was_staged_ends_when_it_comes_in_force(void)
 {
     const float femur_mm = 191.0f;
@@ -54,7 +54,7 @@ static void test_what_was_staged_ends_when_it_comes_in_force(void)
     TEST_ASSERT_EQUAL_PTR(brace_app_parameters(&app), brace_app_parameters_staged(&app));
 }
 
-/* How long nobody has asked for anything; a store at work is asked for. */
+/* The job counts how long nobody has asked for anything. A store at work counts as asked for. */
 static void test_idle_time_counts_from_the_start_and_from_each_request(void)
 {
     static parameter_job_t job;
@@ -82,7 +82,7 @@ static void test_idle_time_counts_from_the_start_and_from_each_request(void)
     TEST_ASSERT_EQUAL_UINT32(0, parameter_job_wait_ms(&job));
 }
 
-/* How long a master may be silent: 130 ms, or what the board's door says. */
+/* A master may be silent for 130 ms, or for as long as the board's HAL says. */
 static void test_how_long_a_master_may_be_silent(void)
 {
     TEST_ASSERT_EQUAL_UINT32(130000, app.controller.ownership.session.life_us);
@@ -94,7 +94,7 @@ static void test_how_long_a_master_may_be_silent(void)
     TEST_ASSERT_EQUAL_UINT32(130000, app.controller.ownership.session.life_us);
 }
 
-/* Before its first tick a controller already says what the store has told it. */
+/* A controller reports what it read from the store even before its first tick. */
 static void test_faults_are_told_before_the_first_tick(void)
 {
     brace_fake_start(&fake);

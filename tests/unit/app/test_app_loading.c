@@ -65,7 +65,7 @@ static void test_the_model_is_compared_in_sigmas(void)
     TEST_ASSERT_TRUE(result()->z_x < -3.0f);
 }
 
-/* The model's K is that under the mean of the forces, which has little of the noise of a single one. */
+/* The model's K is worked out under the mean of the forces, which has less noise than a single force. */
 static void test_the_model_is_that_under_the_mean_force(void)
 {
     const brace_parameters_t p = bench_parameters();

@@ -380,7 +380,7 @@ static void test_down_is_set_over_Modbus_too(void)
     assert_down(2.0f, 0.5f);
 }
 
-/* Whoever stops asking is forgotten after six ticks; who asks again in time, is not. */
+/* A port that stops asking is forgotten after six ticks. A port that asks again in time is not. */
 static void test_a_question_is_kept_for_six_ticks(void)
 {
     static question_job_t job;

@@ -586,8 +586,8 @@ static void arrives_commit(uint32_t token)
     arrives(0x600u + NODE, data, 8);
 }
 
-/* Two push at once: whenever the second one's commit comes, the first hears of its own in two parts, and the second that
- * it is refused. */
+/* Two push at once: whenever the second one's commit comes, the first hears of its own in two parts, and the second
+ * that it is refused. */
 static void test_two_commits_are_two_answers_whenever_the_second_comes(void)
 {
     enum { FIRST = 21, SECOND = 22, STORED_WITHIN = 150 };
@@ -624,7 +624,7 @@ static void test_two_commits_are_two_answers_whenever_the_second_comes(void)
     TEST_ASSERT_EQUAL(0, stored);
 }
 
-/* Only who speaks over a connection of Modbus TCP can hang up, and only a connection that is closed is hung up. */
+/* Only a client over Modbus TCP can hang up, and it does so by closing its connection. */
 static void test_who_hangs_up(void)
 {
     for (int port = 0; port < (int)BRACE_ASKER_COUNT; port++) {

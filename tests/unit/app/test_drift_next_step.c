@@ -84,7 +84,8 @@ static void test_learning_anew_forgets_what_was_kept(void)
     TEST_ASSERT_EQUAL_FLOAT(0.0f, job.kept_evidence[BRACE_DRIFT_CAUSE_COUNT]);
 }
 
-/* A set that has just been written has an empty journal behind it: nothing is searched. Any other one is. */
+/* Behind a set that has just been written the journal is empty, so the job does not search it. It searches the journal
+ * behind any other set. */
 static void test_the_journal_of_a_fresh_set_is_not_searched(void)
 {
     const brace_parameters_t p = bench_parameters();
@@ -93,7 +94,7 @@ static void test_the_journal_of_a_fresh_set_is_not_searched(void)
                                    .origin = BRACE_PARAMETERS_SLOT_A, .may_work = true, .may_write = false};
     for (int is_fresh = 0; is_fresh < 2; is_fresh++) {
         memset(&job, 0, sizeof job);
-        job.is_erased = is_fresh == 0; /* of the set before, like all that waits */
+        job.is_erased = is_fresh == 0; /* this belongs to the set before, like all that waits */
         job.opens = job.scans = job.has_reading = job.looks = job.foresees = job.has_outlook = true;
         drift_job_configure(&job, is_fresh != 0);
         TEST_ASSERT_TRUE(job.learns_anew);
@@ -112,7 +113,7 @@ static void test_the_journal_of_a_fresh_set_is_not_searched(void)
     }
 }
 
-/* A write may take a whole tick: the memory is asked for one in eight ticks at most. */
+/* A write may take a whole tick, so the job asks the memory for one write in eight ticks at most. */
 static void test_the_journal_is_written_in_one_tick_of_eight(void)
 {
     const brace_parameters_t p = bench_parameters();

@@ -132,9 +132,9 @@ static void be_soft(bool is_spatial)
     model_configure(&model, &parameters, is_spatial);
 }
 
-/* The core's own equilibrium, in the application's words: a knee's turn has the sense of its angle, which is the other
- * one; a limb that moves far is not promised. Without an FPU the application asks the integers, which are apart by the
- * third order of what the load bends. */
+/* The application tells the core's equilibrium by its own conventions: its knee turns with the sense of theta2, the
+ * core's with the opposite one. Nothing is promised of a limb that moves far. Without an FPU the application asks the
+ * integers, which differ by the third order of the bend. */
 static void test_a_limb_in_space_is_told_as_the_core_finds_it(void)
 {
     static const float unbent_rad[] = {0.0f, 1.0f, 1.4f};

@@ -90,7 +90,7 @@ static void test_a_force_across_is_told_by_the_coxa_joint(void)
     ASSERT_CLOSE(-100.0 / (double)tip_mm, across_n, 1e-5);
 }
 
-/* What a load moves is added to where the limb stands; and nothing of it is left when the load is not known. */
+/* The posture contains how far the load moves the limb. When the load is no longer known, the posture drops that. */
 static void test_a_load_takes_the_limb_where_it_says(void)
 {
     const posture_bend_t bend = {.tip_mm = {3.0f, -2.0f},
@@ -112,7 +112,7 @@ static void test_a_load_takes_the_limb_where_it_says(void)
         ASSERT_CLOSE((double)before.unbent_rad[i] + (double)bend.joint_turn_rad[i], posture.theta_rad[i], 1e-6);
         TEST_ASSERT_EQUAL_FLOAT(before.unbent_rad[i], posture.unbent_rad[i]);
     }
-    /* a motor holds what turns its joint: the levers are those of the bent limb, turned by a quarter */
+    /* The motor holds the moment on its joint. Its lever is the bent limb's, turned by a quarter. */
     ASSERT_CLOSE(-(double)posture.pose.tip.z_mm, posture.pose.lever_femur.x_mm, 1e-3);
     ASSERT_CLOSE(posture.pose.tip.x_mm, posture.pose.lever_femur.z_mm, 1e-3);
     posture_settle(&posture, NULL);
@@ -123,8 +123,8 @@ static void test_a_load_takes_the_limb_where_it_says(void)
     TEST_ASSERT_EQUAL_FLOAT(0.0f, posture.yaw_turn_rad);
 }
 
-/* With the limb leaning over and its tip beside the plane: the moments about the coxa joint's axis, all of them, are
- * in balance with the force that is told. In a plane that the load has turned, outwards is turned too. */
+/* The limb leans over, and its tip stands beside its plane. All moments about the coxa joint's axis must balance the
+ * force that the posture tells. When the load has turned the plane, the direction outwards turns with it. */
 static void test_moments_about_the_coxa_joint_are_in_balance(void)
 {
     static const float leans[] = {0.0f, 0.4f, -0.7f}, coxas_n_mm[] = {100.0f, -350.0f}, x_ns[] = {4.0f, -9.0f};
@@ -144,7 +144,7 @@ static void test_moments_about_the_coxa_joint_are_in_balance(void)
         const float told_n = posture_force_across_n(&posture, &parameters, leaning, coxa_n_mm, is_turned, &x_n);
         const double coxa = (double)parameters.limb.coxa_mm, knee = coxa + (double)posture.pose.knee.x_mm;
         const double tip = coxa + (double)posture.pose.tip.x_mm, knee_aside = 5.0, tip_aside = 12.0;
-        /* each weight at the middle of its own: its place outwards and aside */
+        /* each weight acts at the middle of its link: how far that is outwards and aside */
         const double weight[3] = {2.0, 1.5, 1.0}, out[3] = {0.5 * (coxa + knee), knee, 0.5 * (knee + tip)};
         const double aside[3] = {0.5 * knee_aside, knee_aside, 0.5 * (knee_aside + tip_aside)};
         double about = (double)coxa_n_mm + tip * (double)told_n - tip_aside * (double)x_n;
@@ -178,7 +178,7 @@ static void test_down_is_as_told_until_it_is_told_no_more(void)
     expect_down(&gravity, -1.0, 0.3);
     TEST_ASSERT_EQUAL(BRACE_OK, gravity_tell(&gravity, &said, 2.0f, -0.5f));
     expect_down(&gravity, 2.0, -0.5);
-    gravity_configure(&gravity, &said); /* parameters come in force: what was told holds */
+    gravity_configure(&gravity, &said); /* new parameters leave the direction that was told */
     expect_down(&gravity, 2.0, -0.5);
     TEST_ASSERT_EQUAL(BRACE_OK, gravity_tell(&gravity, &said, NAN, NAN));
     expect_down(&gravity, -1.0, 0.3);

@@ -107,7 +107,8 @@ static void test_the_last_joint_is_let_go_first(void)
     TEST_ASSERT_EQUAL(BRACE_OK, takeup_request(&takeup, &flank, BRACE_FEMUR, 1));
 }
 
-/* The first joint has failed in the tick in which the second was taken back: it is the last one again, and counts. */
+/* The first joint fails in the tick in which the second one is taken back. Then the first joint is again the last one,
+ * and its failure counts. */
 static void test_a_failure_counts_when_the_joint_behind_is_forgotten(void)
 {
     TEST_ASSERT_EQUAL(BRACE_OK, takeup_request(&takeup, &flank, BRACE_TIBIA, 1));
@@ -123,7 +124,7 @@ static void test_a_failure_counts_when_the_joint_behind_is_forgotten(void)
     TEST_ASSERT_FALSE(takeup.letting_go);
 }
 
-/* The same while both are being let go, and that is taken back. */
+/* The same happens while both joints are being let go and the letting go is taken back. */
 static void test_a_failure_counts_when_letting_go_is_forgotten(void)
 {
     TEST_ASSERT_EQUAL(BRACE_OK, takeup_request(&takeup, &flank, BRACE_TIBIA, 1));
@@ -131,7 +132,7 @@ static void test_a_failure_counts_when_letting_go_is_forgotten(void)
     TEST_ASSERT_EQUAL(BRACE_OK, takeup_request(&takeup, &flank, BRACE_FEMUR, 1));
     goes_to(BRACE_TIBIA, BRACE_TAKEUP_IDLE, BRACE_TAKEUP_E_TRAVEL);
     takeup_step(&takeup, &flank);
-    flank.joint[BRACE_FEMUR].machine.requested = false; /* its machine has dropped what was asked */
+    flank.joint[BRACE_FEMUR].machine.requested = false; /* the machine has dropped the request */
     takeup_step(&takeup, &flank);
     TEST_ASSERT_EQUAL(1, takeup.count);
     takeup_forget(&takeup, &flank);
@@ -139,7 +140,7 @@ static void test_a_failure_counts_when_letting_go_is_forgotten(void)
     TEST_ASSERT_FALSE(takeup_runs(&takeup));
 }
 
-/* A joint on its way back holds no more, though nobody has let it go. */
+/* A joint on its way back no longer holds, although nobody has let it go. */
 static void test_only_holding_is_holding(void)
 {
     TEST_ASSERT_EQUAL(BRACE_OK, takeup_request(&takeup, &flank, BRACE_TIBIA, 1));

@@ -203,7 +203,8 @@ static void inertia_is_taken_off(void)
     ASSERT_CLOSE(1000.0 + FRICTION_N_MM + 100.0, joint.torque_n_mm, 1.0);
 }
 
-/* A motor that goes on the same way within 8 ms has not turned round meanwhile; one that stood longer may have. */
+/* A motor that moves on in the same direction within 8 ms has not turned round in between. A motor that stood longer
+ * may have. */
 static void a_short_stop_leaves_the_direction_sure(void)
 {
     const double unsure = FRICTION_N_MM * (1.0 + TOLERANCE), sure = FRICTION_N_MM * TOLERANCE;
@@ -221,8 +222,8 @@ static void a_short_stop_leaves_the_direction_sure(void)
     }
 }
 
-/* The link lags behind the motor by no more than half the gap, either way: where it began in the gap, it may be between
- * the two that began at its ends. */
+/* The link is at most half the gap away from the motor. Wherever in the gap the link began, it stands between a link
+ * that began at the one end and a link that began at the other. */
 static void where_the_link_may_be_in_its_gap(void)
 {
     const double half = 0.005;
@@ -238,11 +239,11 @@ static void where_the_link_may_be_in_its_gap(void)
         ASSERT_CLOSE(low, joint.play_low_rad, 1e-5);
         ASSERT_CLOSE(high, joint.play_high_rad, 1e-5);
     }
-    TEST_ASSERT_TRUE(high - low < 1e-6); /* a motion through the whole gap leaves no doubt */
+    TEST_ASSERT_TRUE(high - low < 1e-6); /* after a motion through the whole gap the place is certain */
 }
 
-/* A take-up has to bring the least preload, and friction on top, with less than its greatest torque. The least preload
- * is friction at its worst, the bias, and what the noise may make of the fast mean. */
+/* A take-up must reach the least preload and overcome friction with less than its greatest torque. The least preload is
+ * the sum of the worst friction, the bias, and the error that noise may cause in the fast mean. */
 static void a_takeup_needs_more_torque_than_friction_hides(void)
 {
     brace_backlash_params_t params = joint.params;
@@ -257,7 +258,7 @@ static void a_takeup_needs_more_torque_than_friction_hides(void)
     TEST_ASSERT_EQUAL_MEMORY(&before, &joint, sizeof joint);
 }
 
-/* Each time and each size at its least and most, and just beyond. */
+/* Each time and each size is tried at its least and its most, and just beyond both. */
 static void every_parameter_has_its_bounds(void)
 {
     const brace_backlash_params_t sound = joint.params;
@@ -296,7 +297,7 @@ static void every_parameter_has_its_bounds(void)
             } else if (i < 4) {
                 TEST_ASSERT_EQUAL_INT(BRACE_OK, status);
             } else {
-                TEST_ASSERT_NOT_EQUAL(BRACE_E_RANGE, status); /* what cannot go together is refused for that */
+                TEST_ASSERT_NOT_EQUAL(BRACE_E_RANGE, status); /* a combination that cannot work has another status */
             }
         }
     }
@@ -311,7 +312,7 @@ static brace_backlash_out_t tick_at(double motor_rad, double torque_n_mm)
     return out;
 }
 
-/* What is known of the link's place in its gap outlasts every state but FAULT, behind which it may be anywhere. */
+/* The link's place in its gap stays known in every state but FAULT. After FAULT the link may be anywhere. */
 static void only_a_fault_forgets_where_the_link_is(void)
 {
     int states = 0, last = -1;
@@ -322,7 +323,7 @@ static void only_a_fault_forgets_where_the_link_is(void)
         TEST_ASSERT_NOT_EQUAL(BRACE_BACKLASH_FAULT, out.state);
         states += (int)out.state != last ? 1 : 0;
         last = (int)out.state;
-        if (i > 110) { /* through the gap of 10 mrad: it lies at its end */
+        if (i > 110) { /* the motor has gone through the gap of 10 mrad, so the link lies at its end */
             ASSERT_CLOSE(0.005, joint.play_low_rad, 1e-5);
             ASSERT_CLOSE(0.005, joint.play_high_rad, 1e-5);
         }
@@ -336,7 +337,7 @@ static void only_a_fault_forgets_where_the_link_is(void)
     ASSERT_CLOSE(0.005, joint.play_high_rad, 1e-6);
 }
 
-/* What accelerates the motor is taken off the torque, and a quarter of it may be wrong. */
+/* The machine takes the motor's inertial torque off, and allows for a quarter of it being wrong. */
 static void acceleration_widens_the_doubt(void)
 {
     const double accel = 40.0, inertial = 20.0 * accel, dt = 1e-3; /* N mm: 20 N mm s2/rad */

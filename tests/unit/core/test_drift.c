@@ -192,7 +192,7 @@ static void check_loss(int link, brace_drift_cause_t cause)
     TEST_ASSERT_EQUAL(1u << cause, now.could_be & 1u << cause);
     ASSERT_CLOSE(0.1, now.loss_ratio, 4.0f * now.loss_sigma_ratio);
     TEST_ASSERT_TRUE(now.loss_sigma_ratio < 0.02f);
-    TEST_ASSERT_UINT32_WITHIN(20u, drift.steps - steps_before, now.since_steps); /* it knows when that began */
+    TEST_ASSERT_UINT32_WITHIN(20u, drift.steps - steps_before, now.since_steps); /* when the change began */
     rounds(12); /* by now the estimates have taken up much of it */
     ASSERT_CLOSE(0.1, report().loss_ratio, 0.015);
 }

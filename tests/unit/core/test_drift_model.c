@@ -1,5 +1,5 @@
-/* The force that the drift check expects, and how it shifts with each estimate: against K of the changed limb by the
- * formulas of docs/physics.md in double precision. */
+/* Tests of the force that the drift check expects, and of how that force shifts with each estimate. The reference is K
+ * of the changed limb by the formulas of docs/physics.md in double precision. */
 #include <math.h>
 #include <string.h>
 

@@ -1,8 +1,8 @@
-/* The words of the integer paths under a load: products, quotients and floats, against the same in double precision;
- * and every bound that is noted, at it and just within. The bounds are those that fixed_vec.h and number.h name. */
+/* Tests of the arithmetic of the integer paths under a load: products, quotients and conversions to float against
+ * double precision, and every bound that fixed_vec.h and number.h name, at the bound and just within it. */
 #include <math.h>
 
-#pragma GCC diagnostic ignored "-Wunused-function" /* what else the header has */
+#pragma GCC diagnostic ignored "-Wunused-function" /* this suite does not call all functions of the header */
 #include "fixed_space/invert.h"
 #include "unity.h"
 
@@ -34,7 +34,7 @@ static void expect_whole(double wanted, int32_t is)
 
 /* --- sums and products ---------------------------------------------------------------------------------------- */
 
-/* Shifted sums are rounded down; coarse ones drop what the low word holds. Doubles are exact up to 2^53. */
+/* Shifted sums are rounded down; coarse sums drop the low word. Doubles are exact up to 2^53. */
 static void test_sums_of_products(void)
 {
     for (int i = 0; i < 2000; i++) {
@@ -55,7 +55,7 @@ static void test_sums_of_products(void)
     }
 }
 
-/* What leaves a word wraps, in both directions. */
+/* A value that does not fit into a word wraps, in both directions. */
 static void test_sums_that_wrap(void)
 {
     TEST_ASSERT_EQUAL_INT32(INT32_MIN, wrapped_plus(INT32_MAX, 1));
@@ -104,7 +104,7 @@ static void test_floats_from_and_to_words(void)
     for (int i = 0; i < 20000; i++) {
         const int32_t number = any_number(), format = (int32_t)(any_word() % 80u) - 40;
         const double right = ldexp((double)number, -format);
-        /* truncated, and a negative word by its last place */
+        /* the result is truncated; a negative word may be off by its last place */
         const double last = fabs(right) * 0x1p-23 + ldexp(1.0, -format);
         TEST_ASSERT_DOUBLE_WITHIN(last, right, (double)float_from(number, format));
     }
@@ -146,7 +146,7 @@ static void test_a_word_is_noted_from_its_bits_on(void)
         note(&noted, -most - 2, bits);
         TEST_ASSERT_TRUE(is_refused(noted));
         note(&noted, 0, bits);
-        TEST_ASSERT_TRUE(is_refused(noted)); /* and stays so */
+        TEST_ASSERT_TRUE(is_refused(noted)); /* later values do not take the refusal back */
     }
 }
 
@@ -223,7 +223,7 @@ static void test_products_are_noted_from_their_most_on(void)
     }
 }
 
-/* 1 and a product: from a sixteenth, with some to spare, to 9. */
+/* 1 plus a product: from a sixteenth, with a margin, to 9. */
 static void test_pivots_are_noted_outside_their_range(void)
 {
     for (int n = 0; n < 4000; n++) {
@@ -250,7 +250,7 @@ static void test_the_inverse_in_space(void)
                                         {1.0, 0.5, 1e-9}, {1.0, 1e-9, 1e-9}, {1.0, 0.5, -0.1}, {1.0, -0.2, -0.3}};
     for (int i = 0; i < 160; i++) {
         const double *lambda = lambdas[i % 8];
-        const int size = 56 - i / 8 % 20; /* the format of C's entries is 54, of any size */
+        const int size = 56 - i / 8 % 20; /* the format of C's entries is 54; the size varies */
         const double a = 0.37 * i, b = 1.1 * sin(2.3 * i);
         const double axis[3][3] = {{-sin(a), cos(a), 0.0},
                                    {-sin(b) * cos(a), -sin(b) * sin(a), cos(b)},

@@ -1,5 +1,6 @@
-/* The bounds of the four paths under a load, each at, just within and just beyond: angles, force, how far the limb may
- * be from rest after two steps, how little it may resist, how slender K may be. The four agree on what they refuse. */
+/* Tests of the bounds of the four paths under a load, each at the bound, just within and just beyond: angles, force,
+ * how far the limb may be from rest after two steps, the least resistance, and the smallest ratio of K's eigenvalues.
+ * The four paths refuse the same inputs. */
 #include <math.h>
 #include <string.h>
 
@@ -97,7 +98,7 @@ static void be_stiff(void)
 
 static void test_angles_up_to_their_bound(void)
 {
-    /* the squares' sum is 31 at 5 and the root of 6 */
+    /* at 5 and the root of 6 the sum of the squares is 31 */
     static const float at[][3] = {{5.0f, 2.4494f, 2.4496f}, {2.0f, 5.1961f, 5.1963f}, {0.0f, 5.5677f, 5.5679f}};
     be_stiff();
     for (int path = 0; path < PATHS; path++) {
@@ -115,7 +116,7 @@ static void test_angles_up_to_their_bound(void)
     }
 }
 
-/* 10 kN, its parts' magnitudes added. A float just above has 2^-10 N more. */
+/* The magnitudes of the force's parts add up to 10 kN. The next float above is 2^-10 N more. */
 static void test_forces_up_to_their_bound(void)
 {
     be_stiff();
@@ -137,7 +138,8 @@ static void test_forces_up_to_their_bound(void)
     }
 }
 
-/* Integers check the direction too, which is a unit vector or shorter: a thousandth of rounding is let through. */
+/* The integer path also checks the direction, which must not be longer than a unit vector. It allows a thousandth for
+ * rounding. */
 static void test_directions_up_to_their_bound(void)
 {
     const float most = 1.0f + 0x1p-10f, beyond = 1.0f + 0x1p-10f + 0x1p-23f;
@@ -158,7 +160,7 @@ static void test_directions_up_to_their_bound(void)
     }
 }
 
-/* Rigid links straight out; the hip joint alone yields, by c. returns its lever */
+/* A limb of rigid links, stretched out; only its hip joint yields, by c. returns the lever */
 static float only_the_hip_yields(float c)
 {
     limb.base = (brace_base_t){0.0f, 0.0f, 0.0f};
@@ -170,9 +172,9 @@ static float only_the_hip_yields(float c)
     return limb.femur_mm + limb.tibia_mm;
 }
 
-/* A hinge under a force that would turn it by `whole` if it kept across. Two steps of Newton's method, by hand: the
- * first leaves it at `whole`. In the plane it is told while the second goes back by at most 0.14 rad, and by less the
- * less the limb resists, which here it does more and more. */
+/* One hinge under a force that would turn it by `whole` if the force stayed across the link. Two steps of Newton's
+ * method worked out by hand: the first step ends at `whole`, the second goes back. In the plane the core tells K while
+ * the second step is at most 0.14 rad; the bound is smaller for a limb that resists less. Here the resistance grows. */
 static void test_in_the_plane_two_steps_settle_up_to_a_bound(void)
 {
     const float c = 1e-5f, lever = only_the_hip_yields(c);
@@ -193,8 +195,9 @@ static void test_in_the_plane_two_steps_settle_up_to_a_bound(void)
     }
 }
 
-/* A hinge pressed along its link by a share of the force that buckles it keeps 1 less that share: refused below a
- * thousandth, and in integers where one over it leaves its word, below a sixteenth at the latest. */
+/* A hinge is pressed along its link by a share of its buckling force. It keeps the rest, 1 - share, of its stiffness.
+ * The float paths refuse a rest below a thousandth. The integer paths refuse where the inverse of the rest does not
+ * fit into its word, at the latest below a sixteenth. */
 static void test_what_resists_no_more_is_refused(void)
 {
     const float c = 1e-5f, lever = only_the_hip_yields(c), buckles_n = 1.0f / (c * lever);
@@ -233,8 +236,9 @@ static brace_status_t put_in_plane(bool is_fixed, const brace_k3_t *k)
     return status;
 }
 
-/* In space by the least over the largest eigenvalue, 1e-4; in the plane by the determinant over the squared mean, 2e-5,
- * so by an eigenvalue of 5e-6. Of that determinant integers compare the high word, which is some twenty there. */
+/* In space the bound is on the least eigenvalue over the largest one, 1e-4. In the plane the bound is on the
+ * determinant over the squared mean, 2e-5, which is an eigenvalue of 5e-6 here. The integer path compares the
+ * determinant's high word only, which is about twenty at the bound. */
 static void test_slender_K_is_flagged_from_its_bound_on(void)
 {
     for (int is_fixed = 0; is_fixed < 2; is_fixed++) {
@@ -256,7 +260,7 @@ static void test_slender_K_is_flagged_from_its_bound_on(void)
     }
 }
 
-/* Integers tell K in the plane down to the last place that a word has left of it. */
+/* The integer path tells K in the plane down to the last place that its word keeps. */
 static void test_slender_K_is_told_down_to_the_last_place(void)
 {
     for (int axis = 0; axis < 3; axis += 2) {

@@ -351,9 +351,10 @@ static const struct {
             {1773296794u, 2}, {3992481812u, 1}, {1316552449u, 2}, {233524246u, 2}};
 enum { RARE = sizeof rare / sizeof *rare };
 
-/* Loads near and beyond what bends the limb out of its range, or buckles it: it is refused, or the float path tells it
- * too, and the same. Their compliances differ by a million, and of the small ones a word keeps few bits. The factor's
- * search ends on a parabola, which the two lay through other loads where limbs bend so far. */
+/* Loads near and beyond those that bend the limb out of its range or buckle it. Either the integer path refuses the
+ * load, or the float path tells K too, and both agree. The limbs' compliances differ by a factor of a million, so that
+ * a word keeps few bits of the small ones. The search for the buckling factor ends on a parabola; where limbs bend so
+ * far, the two paths lay the parabola through different loads. */
 static void test_soft_limbs_near_their_buckling(void)
 {
     int told = 0, refused = 0, factors = 0, near = 0, nearest = 0;
@@ -398,7 +399,7 @@ static void test_soft_limbs_near_their_buckling(void)
     }
     TEST_ASSERT_TRUE(told > SOFT_LIMBS / 6 && refused > SOFT_LIMBS / 6);
     TEST_ASSERT_TRUE(factors > SOFT_LIMBS / 8 && 4 * near > 3 * factors);
-    TEST_ASSERT_TRUE(8 * nearest > 3 * factors); /* both have met the same loads */
+    TEST_ASSERT_TRUE(8 * nearest > 3 * factors); /* both paths told a factor for enough of the same loads */
 }
 
 /* Joints whose links are measured hold their angles in the equilibrium and yield to what comes on top: up to the spring
@@ -436,8 +437,8 @@ static void test_measured_joints_up_to_what_folds_the_limb(void)
     TEST_ASSERT_TRUE(told > SOFT_LIMBS / 60 && refused > SOFT_LIMBS / 60);
 }
 
-/* Within a part in 8 million, one over every pivot that the solver lets through: powers of two, their neighbours, and what
- * lies between. */
+/* Within a part in 8 million, one over every pivot that the solver lets through: powers of two, their neighbours, and
+ * what lies between. */
 static void assert_inverse(int64_t pivot_q27)
 {
     if (pivot_q27 >= LEAST_PIVOT_Q27 && pivot_q27 <= INT32_MAX) {

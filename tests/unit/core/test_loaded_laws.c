@@ -1,7 +1,7 @@
-/* What every elastic limb under a load obeys, asked of the four paths, in the plane and in space, of floats and of
- * integers: K is the slope of the force over the tip's place; what a weight at the knee does to the tip, a force at the
- * tip does to the knee; limbs of hinges stand where their moments balance; a straight limb buckles at the load that its
- * energy names, whatever load it is asked at. None of it knows how the paths reckon. */
+/* Laws that every elastic limb under a load obeys, checked on the four paths (in the plane and in space, floats and
+ * integers). K is the slope of the force over the tip's place. A weight at the knee moves the tip as a force at the tip
+ * moves the knee (Maxwell). A limb of hinges stands where its moments balance. A straight limb buckles at the load that
+ * its energy gives, whatever load it bears now. No law uses the paths' own formulas. */
 #include <math.h>
 #include <string.h>
 

@@ -403,8 +403,8 @@ static void test_erases_are_counted(void)
     TEST_ASSERT_EQUAL_HEX32(UINT32_MAX, store.erases);
 }
 
-/* A mark that is not kept takes a place each time. When no place is left, an update goes on without: the old set counts as
- * long as the memory keeps nothing, and the new one when it does. */
+/* A mark that is not kept takes a place each time. When no place is left, an update goes on without: the old set
+ * counts as long as the memory keeps nothing, and the new one when it does. */
 static void test_marks_that_are_not_kept_use_up_their_places(void)
 {
     update(1);

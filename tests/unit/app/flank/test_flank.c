@@ -1,5 +1,5 @@
-/* The flanks' watch around the backlash machine: its bounds, the load that it is told to expect, what a joint without
- * play or without a watch says, and how far a load lags. */
+/* Tests of the watch over the flanks (flank/flank.h): the bounds that it gives the backlash machine, the load that it
+ * tells the machine to expect, what it says of a joint without play or without a watch, and how far the load lags. */
 #include <math.h>
 #include <string.h>
 
@@ -106,7 +106,7 @@ static void test_what_has_play_and_is_watched(void)
 {
     parameters.limb.joint[BRACE_COXA].gap_rad = 0.99e-5f;
     parameters.limb.joint[BRACE_FEMUR].gap_rad = 1.01e-5f;
-    parameters.drive[BRACE_FEMUR].torque_range_n_mm = 0.0f; /* a drive that tells no torque cannot be watched */
+    parameters.drive[BRACE_FEMUR].torque_range_n_mm = 0.0f; /* the watch needs the drive's torque */
     configure();
     TEST_ASSERT_FALSE(flank.joint[BRACE_COXA].has_play || flank.joint[BRACE_COXA].watched);
     TEST_ASSERT_TRUE(flank.joint[BRACE_FEMUR].has_play && !flank.joint[BRACE_FEMUR].watched);
@@ -127,9 +127,10 @@ static void test_joints_that_are_not_watched(void)
             joints.joint[i].sound = sound != 0;
         }
         tick();
-        TEST_ASSERT_EQUAL(sound != 0, flank.joint[BRACE_COXA].out.valid); /* no play: it stands where it is */
+        /* the coxa joint has no play, so its place is known */
+        TEST_ASSERT_EQUAL(sound != 0, flank.joint[BRACE_COXA].out.valid);
         TEST_ASSERT_EQUAL_FLOAT(50.0f, flank.joint[BRACE_COXA].out.load_n_mm);
-        TEST_ASSERT_FALSE(flank.joint[BRACE_FEMUR].out.valid); /* anywhere in its gap */
+        TEST_ASSERT_FALSE(flank.joint[BRACE_FEMUR].out.valid); /* the joint may stand anywhere in its gap */
         TEST_ASSERT_EQUAL_FLOAT(0.01f, flank.joint[BRACE_FEMUR].out.offset_off_rad);
         TEST_ASSERT_EQUAL_FLOAT(100.0f, flank.joint[BRACE_FEMUR].out.load_n_mm);
         TEST_ASSERT_FALSE(flank.joint[BRACE_TIBIA].out.valid);

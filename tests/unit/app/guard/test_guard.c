@@ -85,7 +85,7 @@ static void test_what_is_made_anew_is_right(void)
     }
 }
 
-/* What lies behind a span is not its own. */
+/* The bytes behind a span do not belong to it. */
 static void test_words_behind_a_span_do_not_count(void)
 {
     memory[1][1] ^= 1u;

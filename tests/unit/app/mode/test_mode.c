@@ -117,7 +117,7 @@ static void test_a_fault_lasts_a_while_after_its_cause(void)
         }
         faults_t faults = {.now = 0u};
         faults_update(&faults, fault, 0u, false, TICK_US);
-        TEST_ASSERT_EQUAL_HEX32(0u, faults.now); /* none begins yet */
+        TEST_ASSERT_EQUAL_HEX32(0u, faults.now); /* no fault stands yet */
         for (int round = 0; round < 2; round++) {
             faults_update(&faults, fault | another, 0u, true, TICK_US);
             TEST_ASSERT_EQUAL_HEX32(fault | another, faults.now);
@@ -125,7 +125,7 @@ static void test_a_fault_lasts_a_while_after_its_cause(void)
                 faults_update(&faults, another, 0u, i % 2 == 0, TICK_US);
                 TEST_ASSERT_EQUAL_HEX32(fault | another, faults.now);
             }
-            if (round == 0) { /* its cause comes back in time */
+            if (round == 0) { /* the cause comes back in time */
                 faults_update(&faults, fault | another, 0u, false, TICK_US);
             }
         }

@@ -74,7 +74,7 @@ static void test_the_mean_follows_what_two_samples_agree_on(void)
     (void)read_at(1.0f, NAN, 100.0f);
     (void)read_at(1.0f, NAN, 100.0f);
     TEST_ASSERT_EQUAL_FLOAT(100.0f, read_at(1.0f, NAN, 2100.0f)->torque_n_mm);
-    joint = read_at(1.0f, NAN, 2200.0f); /* already the fourth */
+    joint = read_at(1.0f, NAN, 2200.0f); /* this is the fourth wild sample */
     TEST_ASSERT_FLOAT_WITHIN(1.0f, 100.0f + 2000.0f / 21.0f, joint->torque_n_mm);
     joints_start(&joints, &hal);
     for (int i = 0; i < 4; i++) {

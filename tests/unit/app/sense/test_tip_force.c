@@ -1,4 +1,5 @@
-/* The tip's sensor alone: its model undone, whatever it is; readings at saturation; how long an old one counts. */
+/* Tests of the tip's sensor alone: the force comes back from its readings through any sensor model; readings at
+ * saturation are refused; an old reading counts for a limited time. */
 #include <math.h>
 #include <string.h>
 
@@ -34,7 +35,7 @@ void setUp(void)
 
 void tearDown(void) {}
 
-/* reading = bias + gain R [[1, xz], [zx, 1]] force, R a turn: docs/physics.md. */
+/* reading = bias + gain R [[1, xz], [zx, 1]] force, where R is a rotation (docs/physics.md). */
 static void test_the_sensor_s_model_is_undone(void)
 {
     for (int i = 0; i < 200; i++) {
@@ -63,7 +64,8 @@ static void test_without_a_sensor_or_an_inverse_there_is_no_force(void)
     TEST_ASSERT_FALSE(force.fitted);
     tip_force_read(&force, &none, &parameters);
     TEST_ASSERT_FALSE(force.known);
-    parameters.sensor.crosstalk_xz = parameters.sensor.crosstalk_zx = 1.0f; /* both axes tell the same */
+    /* both axes read the same, so the model has no inverse */
+    parameters.sensor.crosstalk_xz = parameters.sensor.crosstalk_zx = 1.0f;
     tip_force_configure(&force, &hal, &parameters.sensor);
     TEST_ASSERT_FALSE(force.fitted);
     parameters.sensor = (brace_sensor_t){.gain = 1.0f, .saturation_n = INFINITY, .rotation_rad = NAN};
@@ -71,7 +73,7 @@ static void test_without_a_sensor_or_an_inverse_there_is_no_force(void)
     TEST_ASSERT_FALSE(force.fitted);
     tip_force_read(&force, &hal, &parameters);
     TEST_ASSERT_FALSE(force.known);
-    /* a determinant of a thousandth is the least; a gain of 0.04 has 1.6e-3, one of 0.03 has 9e-4 */
+    /* The determinant must be at least 1e-3. A gain of 0.04 has 1.6e-3, a gain of 0.03 has 9e-4. */
     parameters.sensor = (brace_sensor_t){.gain = -0.04f, .saturation_n = INFINITY};
     tip_force_configure(&force, &hal, &parameters.sensor);
     TEST_ASSERT_TRUE(force.fitted);
@@ -110,7 +112,7 @@ static void test_how_long_an_old_reading_counts(void)
 {
     answer = BRACE_HAL_AGAIN;
     tip_force_read(&force, &hal, &parameters);
-    TEST_ASSERT_FALSE(force.known); /* there has been none yet */
+    TEST_ASSERT_FALSE(force.known); /* the sensor has told nothing yet */
     answer = BRACE_HAL_OK;
     tip_force_read(&force, &hal, &parameters);
     TEST_ASSERT_TRUE(force.known);
@@ -128,7 +130,7 @@ static void test_how_long_an_old_reading_counts(void)
     tip_force_read(&force, &hal, &parameters);
     TEST_ASSERT_FALSE(force.known);
     TEST_ASSERT_EQUAL_UINT32(TICK_US, force.age_us);
-    answer = BRACE_HAL_AGAIN; /* and what it told before is still young */
+    answer = BRACE_HAL_AGAIN; /* the reading before is still young enough */
     tip_force_read(&force, &hal, &parameters);
     TEST_ASSERT_TRUE(force.known);
 }

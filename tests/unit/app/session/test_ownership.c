@@ -180,7 +180,8 @@ static void test_what_was_held_stays_held_when_the_next_motion_is_forgotten(void
     TEST_ASSERT_FALSE(ownership.waits_for_life);
 }
 
-/* What stands already is not stopped: a loading test that is over, a take-up that holds. It is held, and not counted. */
+/* A loading test that is over and a take-up that holds are at rest already: the owner that goes stops neither, and no
+ * silence is counted. */
 static void test_an_owner_that_goes_while_nothing_moves_is_no_silence(void)
 {
     const ownership_inputs_t holds = {.runs = true, .since_us = SESSION_LIFE_US + TICK_US};
@@ -241,7 +242,7 @@ static void test_idle_is_who_has_nothing_to_mind(void)
     TEST_ASSERT_TRUE(ownership_is_idle(&ownership));
 }
 
-/* Each silence is held for as long as any other before it lets go. */
+/* The limb holds for the same time after every silence before it lets go. */
 static void test_every_silence_is_held_as_long(void)
 {
     enum { LET_GO_TICKS = 40 };

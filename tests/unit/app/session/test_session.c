@@ -286,7 +286,7 @@ static void test_a_board_that_becomes_a_bench_is_open_to_all(void)
     TEST_ASSERT_TRUE(session_may_move(&session));
 }
 
-/* What becomes a bench needs no challenge, and its session is over. */
+/* A board that becomes a bench needs no challenge, and its session ends. */
 static void test_a_bench_keeps_nothing_of_the_guard(void)
 {
     TEST_ASSERT_TRUE(session.has_challenge);
@@ -299,7 +299,7 @@ static void test_a_bench_keeps_nothing_of_the_guard(void)
     TEST_ASSERT_FALSE(session.has_challenge || session.is_open || session.is_alive);
 }
 
-/* An owner that comes back after it has hung up is there again: nobody else of its port goes on for it. */
+/* An owner that hung up may come back. Until then nobody else on its port acts in its place. */
 static void test_an_owner_that_comes_back_has_not_hung_up(void)
 {
     for (int by_life = 0; by_life < 2; by_life++) {

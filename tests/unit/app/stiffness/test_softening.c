@@ -1,4 +1,5 @@
-/* The search for a limb's buckling load in space, a step in three ticks: how old its result may be, and who goes first. */
+/* The search for a limb's buckling load in space, a step in three ticks: how old its result may be, and who goes
+ * first. */
 #include "stiffness/softening.h"
 
 #include "app_bench.h"
@@ -17,7 +18,7 @@ void setUp(void)
     parameters.limb = sample_limb[SAMPLE_BEAM];
     model_configure(&model, &parameters, true);
     softening_start(&softening);
-    rest.buckling_factor = 7.0f; /* of a limb in space the search tells it later */
+    rest.buckling_factor = 7.0f; /* for a limb in space the search finds the factor later */
     model_springs(&model, &parameters, load_n_mm, temp_degc, springs);
     TEST_ASSERT_EQUAL(BRACE_OK, model_loaded(&model, &parameters.limb, unbent_rad, springs, (brace_vec3_t){-8.0f, 1.0f, 20.0f},
                                              (brace_vec3_t){0.0f, 0.0f, -1.0f}, &softening.now, &rest));
@@ -31,7 +32,7 @@ static void step(bool is_counted, bool may_work)
     softening_step(&softening, &model, &parameters.limb, unbent_rad, is_counted, may_work);
 }
 
-/* Steps until the search has found a factor. returns how many steps that took */
+/* Runs the search until it has found a factor. returns how many steps that took */
 static int until_told(void)
 {
     int count = 0;

@@ -80,7 +80,8 @@ static void test_a_joint_that_rests_is_not_frozen(void)
     TEST_ASSERT_FALSE(looks(50));
 }
 
-/* told: by more than 5 mrad and ten steps, while neither angle nor torque moves by a bit; it has to last 250 ms. */
+/* Proof `told`: the controller tells the motor to move by more than 5 mrad and ten steps, and neither the angle nor the
+ * torque changes by a bit. This has to last 250 ms. */
 static void test_told_to_move(void)
 {
     for (int joint = 0; joint < BRACE_LINK_COUNT; joint++) {
@@ -91,7 +92,7 @@ static void test_told_to_move(void)
         told_rad[joint] = 0.0101f;
         TEST_ASSERT_FALSE(others_move(joint, 4, 0.0f));
         TEST_ASSERT_TRUE(others_move(joint, 1, 0.0f));
-        joints.joint[joint].sample.torque_n_mm += 0.001f; /* it measures */
+        joints.joint[joint].sample.torque_n_mm += 0.001f; /* the drive measures a change */
         TEST_ASSERT_FALSE(others_move(joint, 1, 0.0f));
         setUp();
         parameters.drive[joint].angle_step_rad = 1e-5f;
@@ -102,7 +103,7 @@ static void test_told_to_move(void)
         TEST_ASSERT_FALSE(others_move(joint, 4, 0.0f));
         TEST_ASSERT_TRUE(others_move(joint, 1, 0.0f));
         setUp();
-        joints.joint[joint].torque_n_mm = 0.81f * 1000.0f; /* no torque left: four fifths of its limit */
+        joints.joint[joint].torque_n_mm = 0.81f * 1000.0f; /* four fifths of the limit: the drive has no torque left */
         limit_n_mm[joint] = 1000.0f;
         TEST_ASSERT_FALSE(others_move(joint, 30, 0.01f));
         joints.joint[joint].torque_n_mm = -0.79f * 1000.0f;
@@ -110,7 +111,7 @@ static void test_told_to_move(void)
     }
 }
 
-/* One look counts for 60 ms at most, however long ago the last one was. */
+/* Each look adds 60 ms at most, however long ago the look before was. */
 static void test_a_look_counts_for_a_while(void)
 {
     looks(3);
@@ -130,11 +131,12 @@ static void press(float z_n)
     force.z_n = z_n;
 }
 
-/* loaded: by more than friction, there and back and uncertain by two, noise of both sensors and a fifth of the load. */
+/* Proof `loaded`: the load changes by more than four times friction (there and back, known to a factor of two), the
+ * noise of both sensors and a fifth of the load together. */
 static void test_a_load_that_is_not_felt(void)
 {
     parameters.sensor.noise_n = 0.1f;
-    /* 4 * 40 + 12 * (5 + 0.1 * 100) + 0.2 * the most = 340 N mm + a fifth: 425 N mm hide in it */
+    /* 4 * 40 + 12 * (5 + 0.1 * 100) = 340 N mm, and a fifth of the load itself: the bound is 425 N mm */
     for (int sign = -1; sign <= 1; sign += 2) {
         setUp();
         parameters.sensor.noise_n = 0.1f;
@@ -145,12 +147,13 @@ static void test_a_load_that_is_not_felt(void)
         press((float)sign * 4.3f);
         TEST_ASSERT_FALSE(others_move(BRACE_FEMUR, 4, 0.0f));
         TEST_ASSERT_TRUE(others_move(BRACE_FEMUR, 1, 0.0f));
-        force.known = false; /* what is not known proves nothing */
+        force.known = false; /* an unknown load proves nothing */
         TEST_ASSERT_FALSE(others_move(BRACE_FEMUR, 30, 0.0f));
     }
 }
 
-/* The angle stands, within half a step, and the torque swings: by a quarter of the range, and four frictions. */
+/* The angle stays within half a step while the torque swings by more than a quarter of its range and four times
+ * friction. */
 static void test_a_torque_that_swings(void)
 {
     for (int wide = 0; wide < 2; wide++) {
@@ -173,7 +176,7 @@ static void test_a_torque_that_swings(void)
     }
 }
 
-/* The link's own encoder leaves a motor that stands: by more than 5 mrad, its gap and what its spring gives way. */
+/* The link's encoder moves away from a motor that stands, by more than 5 mrad, the gap and the yield of the spring. */
 static void test_a_link_that_leaves_its_motor(void)
 {
     for (int beyond = 0; beyond < 2; beyond++) {
@@ -185,7 +188,7 @@ static void test_a_link_that_leaves_its_motor(void)
             for (int i = 0; i < 12; i++) {
                 joint_t *joint = &joints.joint[BRACE_FEMUR];
                 joint->torque_n_mm = pulls != 0 && i % 2 != 0 ? 1000.0f : 0.0f;
-                joint->sample.torque_n_mm = (float)i; /* it measures its torque */
+                joint->sample.torque_n_mm = (float)i; /* the drive measures its torque */
                 joint->sample.link_rad = i % 2 != 0 ? 1.0f + away_rad : 1.0f;
                 is_frozen = others_move(BRACE_FEMUR, 1, 0.0f);
             }
@@ -194,7 +197,7 @@ static void test_a_link_that_leaves_its_motor(void)
     }
 }
 
-/* The torque swings further than the load that is known and friction can hold: the motor must have turned. */
+/* The torque swings by more than the known load and friction explain, so the motor must have turned. */
 static void test_a_torque_that_nothing_holds(void)
 {
     for (int beyond = 0; beyond < 2; beyond++) {
@@ -218,10 +221,10 @@ static void test_all_is_forgotten(void)
     TEST_ASSERT_TRUE(looks(6));
     frozen_start(&frozen);
     TEST_ASSERT_FALSE(frozen_any(&frozen));
-    TEST_ASSERT_FALSE(looks(20)); /* it was told before */
+    TEST_ASSERT_FALSE(looks(20)); /* this was told already */
     told_rad[BRACE_COXA] = 0.04f;
     TEST_ASSERT_TRUE(looks(6));
-    joints.joint[BRACE_COXA].sound = false; /* without samples nothing is frozen */
+    joints.joint[BRACE_COXA].sound = false; /* a joint without samples is not called frozen */
     TEST_ASSERT_FALSE(looks(1));
 }
 

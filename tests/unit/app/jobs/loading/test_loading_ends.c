@@ -1,5 +1,5 @@
-/* What a loading test tells when it cannot be what was asked for: the limb folds or straightens meanwhile, play is lost,
- * the force of the ground is no longer known, or nothing is displaced. */
+/* What a loading test tells when it cannot be what was asked for: the limb folds or straightens meanwhile, play is
+ * lost, the force of the ground is no longer known, or nothing is displaced. */
 #include "loading_bench.h"
 
 void setUp(void)

@@ -114,7 +114,7 @@ static void test_every_change_of_the_mode_is_told_once(void)
     app.controller.mode.now = BRACE_MODE_FAULT;
     app.controller.faults.now = BRACE_FAULT_MEMORY; /* faults first */
     (void)emergency();
-    announce_skip(&announce, &tick); /* a channel that opens hears nothing of before */
+    announce_skip(&announce, &tick); /* a channel that has just opened is not told earlier changes */
     TEST_ASSERT_TRUE(is_silent());
 }
 

@@ -40,7 +40,7 @@ void setUp(void)
     memset(&server, 0, sizeof server);
     memset(&counters, 0, sizeof counters);
     sent_count = takes = brings = 0;
-    tick.now_us = 0xfff00000u; /* the clock goes round in a while */
+    tick.now_us = 0xfff00000u; /* the clock wraps round soon */
 }
 
 void tearDown(void) {}
@@ -62,7 +62,7 @@ static void test_what_comes_is_gathered(void)
     TEST_ASSERT_EQUAL_UINT32(tick.now_us, link.active_us);
     const uint32_t before_us = tick.now_us;
     tick.now_us += 5000u;
-    TEST_ASSERT_EQUAL_UINT32(2, modbus_link_receive(&link, &tick, BRACE_SERIAL_MODBUS, 2)); /* no more has room */
+    TEST_ASSERT_EQUAL_UINT32(2, modbus_link_receive(&link, &tick, BRACE_SERIAL_MODBUS, 2)); /* the buffer is full */
     TEST_ASSERT_EQUAL(5, link.count);
     TEST_ASSERT_EQUAL_UINT32(before_us + 5000u, link.active_us);
     brings = 0;
@@ -77,7 +77,7 @@ static void test_what_comes_is_gathered(void)
 
 static void test_a_slow_reader_gets_all_of_its_answer(void)
 {
-    tick.now_us -= 3000000u; /* long after it has asked */
+    tick.now_us -= 3000000u; /* long after its request */
     link.active_us = tick.now_us - 2000000u;
     answer_of(10);
     takes = 1;

@@ -127,7 +127,7 @@ static void test_what_comes_over_tcp_is_counted_once(void)
     TEST_ASSERT_EQUAL(served + 7u - 1u, counted_over_tcp(0x0e)); /* but that for another unit */
 }
 
-/* Each counter of function 08 counts its own, all of them by one, and one request clears them. */
+/* Each counter of function 08 counts its own events one by one, and one request clears all counters. */
 static void test_every_counter_counts_its_own(void)
 {
     enum { MESSAGES = 0x0b, BROKEN = 0x0c, REFUSED = 0x0d, SERVED = 0x0e, UNANSWERED = 0x0f, BUSY = 0x11 };
@@ -138,11 +138,11 @@ static void test_every_counter_counts_its_own(void)
     for (uint32_t i = 0; i < sizeof codes; i++) {
         server->messages = 100, server->broken = 200, server->refused = 300;
         server->served = 400, server->unanswered = 500, server->busy = 600;
-        const uint32_t told = counted_over_tcp(codes[i]); /* the request that asks may count itself */
+        const uint32_t told = counted_over_tcp(codes[i]); /* the request that reads a counter may be counted too */
         TEST_ASSERT_EQUAL(i < 6u ? 100u * (i + 1u) : 0u, told / 10u * 10u);
     }
     server->busy = 6, server->refused = 5;
-    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_enter(&app)); /* a store that works refuses as busy */
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_enter(&app)); /* while the store works it refuses as busy */
     brace_parameters_t p = *brace_app_parameters(&app);
     p.limb.femur_mm = 190.0f;
     TEST_ASSERT_EQUAL(BRACE_OK, brace_app_parameters_commit(&app, &p));
@@ -159,13 +159,13 @@ static void test_every_counter_counts_its_own(void)
     }
 }
 
-/* Function 08 without a whole word behind its number is none. */
+/* Function 08 needs at least one whole word after its sub-function. */
 static void test_a_diagnosis_has_its_length(void)
 {
     static const uint8_t pdu[] = {8, 0, 0, 1, 2, 3, 4, 5, 6};
     for (uint32_t length = 1; length <= sizeof pdu; length++) {
         const reply_t reply = tcp_asks(UNIT, pdu, length);
-        if (length >= 5u && length % 2u == 1u) { /* an echo of whole words */
+        if (length >= 5u && length % 2u == 1u) { /* function 08/00 echoes whole words */
             TEST_ASSERT_EQUAL(length, reply.count);
             TEST_ASSERT_EQUAL_HEX8_ARRAY(pdu, reply.byte, length);
         } else {
@@ -176,7 +176,7 @@ static void test_a_diagnosis_has_its_length(void)
     }
 }
 
-/* Requests of one length have no other. */
+/* A request whose function has one length is refused at every other length. */
 static void test_a_request_of_another_length_is_none(void)
 {
     static const uint8_t functions[] = {3, 4, 6};
@@ -211,7 +211,7 @@ static void test_a_request_over_tcp_may_come_in_pieces(void)
     }
 }
 
-/* Nothing has been asked yet, and every register of a question and of its answer says that it is not known. */
+/* Before anybody has asked, every register of the question and of the answer says: not known. */
 static void test_questions_that_nobody_asked_read_as_not_known(void)
 {
     for (uint32_t q = 0; q < (uint32_t)BRACE_QUESTION_COUNT; q++) {
