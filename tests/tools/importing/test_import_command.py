@@ -28,8 +28,8 @@ def saved(folder: Path, content: str | bytes, name: str = "file.csv") -> Path:
 LOADING = "t [s],theta1 [deg],theta2 [deg],dx [mm],dz [mm],Fx [N],Fz [N]"
 
 
-def loading(header: str = LOADING, **changed: list[str]) -> str:
-    r = Record()
+def loading(header: str = LOADING, record: Record | None = None, **changed: list[str]) -> str:
+    r = Record() if record is None else record
     names = ("t", "theta1", "theta2", "dx", "dz", "fx", "fz")
     written: str = text([header], [changed.get(name, shown(r[name])) for name in names], ",")
     return written
@@ -135,12 +135,13 @@ def test_an_axis_that_the_readings_contradict_is_refused(brace: Brace, tmp_path:
     """x and z by turns, all said to be x; the tip held sideways, and the tip free under a force along one axis."""
     r = Record(poses=((42.5, 57.25),))
     words = "loaded rows are loaded along z"
-    refused = brace("import", saved(tmp_path, loading_of(r)), "--set", "axis=x", "--out", tmp_path / "out", "--yes")
+    refused = brace("import", saved(tmp_path, loading(record=r)), "--set", "axis=x", "--out", tmp_path / "out", "--yes")
     assert refused.code == 3 and words in refused.err, refused.err
     compliance = np.linalg.inv(physics_k(math.radians(42.5), math.radians(57.25)))
     force = 0.5 * np.array([r["dx"], r["dz"]])
     moved = compliance @ force
-    free = saved(tmp_path, loading_of(r, dx=moved[0], dz=moved[1], fx=force[0], fz=force[1]), "free.csv")
+    (dx, dz), (fx, fz) = map(shown, moved), map(shown, force)
+    free = saved(tmp_path, loading(record=r, dx=dx, dz=dz, fx=fx, fz=fz), "free.csv")
     refused = brace("import", free, "--set", "axis=x", "--out", tmp_path / "out", "--yes")
     assert refused.code == 3 and words in refused.err, refused.err
     only_x = r["axis"] == "x"
@@ -148,11 +149,6 @@ def test_an_axis_that_the_readings_contradict_is_refused(brace: Brace, tmp_path:
     taken = brace("import", saved(tmp_path, held), "--set", "axis=x", "--out", tmp_path / "out", "--yes")
     assert taken.code == 0, taken.err
     assert np.all(load_dataset(tmp_path / "out")["axis"] == 0)
-
-
-def loading_of(r: Record, **changed: np.ndarray) -> str:
-    names = ("t", "theta1", "theta2", "dx", "dz", "fx", "fz")
-    return text([LOADING], [shown(changed.get(name, r[name])) for name in names], ",")
 
 
 def test_a_knee_that_is_negative_throughout_is_asked(brace: Brace, tmp_path: Path) -> None:
