@@ -12,7 +12,8 @@ from argparse_manpage.manpage import Manpage
 
 from brace.cli.command_line import build_parser
 
-# A line of text that begins with a point or an apostrophe is a request to man, unknown, and left out of the page.
+# man takes a line of text that begins with a point or an apostrophe for a request that it does not know, and leaves the
+# line out.
 _REQUEST_BY_CHANCE = re.compile(r"^(?:\.(?!(?:TH|SH|SS|PP|TP|BR?|sp|nf|fi|br)\b)|')", re.MULTILINE)
 ABOUT = {"project_name": "Brace", "manual_title": "Brace", "manual_section": "1"}
 

@@ -32,7 +32,7 @@ def _node(text: str) -> int:
     from brace.wire.dbc import NODE_MOST
 
     if "," in text:
-        raise refused(f"{text!r} is not one number", "blanks part the numbers", f"OPTION {text.replace(',', ' ')}")
+        raise refused(f"{text!r} is not one number", "blanks separate numbers", f"OPTION {text.replace(',', ' ')}")
     return common.count(1, NODE_MOST)(text)
 
 

@@ -1,4 +1,4 @@
-"""The step by which an instrument rounded what it read, and what it read before."""
+"""The step to which an instrument rounded its readings, and the readings before they were rounded."""
 
 from __future__ import annotations
 
@@ -36,10 +36,12 @@ def step_of(values: np.ndarray) -> float:
 
 
 def unrounded(values: np.ndarray, parts: np.ndarray, step: float) -> np.ndarray:
-    """Readings that were rounded to `step`, as far as the instants tell at which they changed: there the value stood
-    half-way between two steps. In between it is taken to move evenly; where it turns back within a step, as far as that
-    step's middle. `parts` numbers the stretches between which nothing is known. Readings that move by more than a step
-    at once, and single ones, stay."""
+    """Readings as they stood before they were rounded to `step`; one a row, in their own unit.
+
+    Where a reading changes by one step, the value stood half-way between the two. Between two such changes the value is
+    taken to move evenly. Where it turns back within a step, it is taken to reach the step's middle. Readings beside a
+    change by more than one step stay as they are. `parts` has the number of each row's stretch; one stretch says
+    nothing about the next."""
     result = values.astype(float)
     begins = np.flatnonzero(np.diff(parts, prepend=parts[0] - 1) != 0)
     for first, last in zip(begins, np.append(begins[1:], values.size)):

@@ -300,13 +300,13 @@ def averaged(dataset: Dataset, block: int) -> tuple[dict[str, np.ndarray], np.nd
 
 
 def _tests(dataset: Dataset) -> np.ndarray:
-    """The number of each row's test; a record that numbers none is one."""
+    """The number of each row's test. A record that numbers no tests is one test."""
     return dataset["test"] if "test" in dataset else np.zeros(dataset.rows, np.int32)
 
 
 def _as_it_stood(dataset: Dataset) -> Dataset:
-    """The record with its angle as it stood before the encoder rounded it, where the torque is read so well that this
-    shows."""
+    """The record with its angle as it stood before the encoder rounded it. The record itself where the rounding changes
+    the torque by less than its noise."""
     angle, torque = dataset["angle_rad"], dataset["torque_n_mm"]
     step = step_of(angle)
     spring_n_mm_per_rad = float(np.ptp(torque)) / max(float(np.ptp(angle)), 1e-30)

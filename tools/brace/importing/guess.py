@@ -18,7 +18,7 @@ from brace.importing.part import Part
 from brace.units import OWN, unit_of
 
 FULL_TURN = 2 * math.pi
-BENT_BACK = "all its entries are negative, and theta2 is the femur's angle from +x less the tibia's"
+BENT_BACK = "all its entries are negative, and theta2 is the femur's angle from +x minus the tibia's"
 _PERHAPS_ANGLE = f"an angle of the posture? {UNKNOWN_NAME}"
 RAW = ("v", "mv", "volt", "volts", "mv/v", "ma", "a", "counts", "count", "ticks", "lsb", "%", "digits", "raw")
 AXES = {"x": "x", "z": "z", "horizontal": "x", "vertical": "z", "waagrecht": "x", "waagerecht": "x", "senkrecht": "z",

@@ -29,8 +29,8 @@ WHICH_ANGLE = "which joint's angle?"
 INNER_ANGLE = "an inner angle is 180 deg for a straight leg: then is = theta2_rad, sign = -1, offset = 3.14159265"
 FROM_VERTICAL = "an angle from the vertical: theta1 counts from +x, so sign and offset must be said"
 SHANKS_ANGLE = (
-    "the knee's angle, or the shank's own? The knee's: is = theta2_rad. The shank's own is no column of a record: "
-    "theta2 is the thigh's less it; work it out in your file"
+    "the knee's angle, or the shank's own? The knee's: is = theta2_rad. A record has no column for the shank's "
+    "own: theta2 is the thigh's angle minus the shank's; compute it in your file"
 )
 OPEN_ANGLES = (WHICH_ANGLE, INNER_ANGLE, FROM_VERTICAL, SHANKS_ANGLE)  # questions that stand for one of both angles
 _QUANTITIES = ("force", "length", "angle", "torque", "time", "temperature", "stiffness")

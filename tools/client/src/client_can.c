@@ -375,7 +375,7 @@ brace_client_status_t brace_can_ask_under_force(brace_client_t *client, brace_qu
                                                 brace_question_t *question, uint64_t deadline_us)
 {
     begin(client, deadline_us);
-    /* Pauses that double leave room for the others however slow the machine or the bus is. */
+    /* The pauses double, so that each client gets its turn on a slow machine or bus, too. */
     for (uint64_t most_us = APART_US;; most_us = most_us < MOST_APART_US ? 2u * most_us : most_us) {
         client->force_is_taken = false;
         brace_client_status_t status = ask(client, force, ASKS, deadline_us);

@@ -38,7 +38,7 @@ void tip_force_read(tip_force_t *force, const brace_hal_t *hal, const brace_para
 {
     const brace_sensor_t *sensor = &parameters->sensor;
     float x_n = 0.0f, z_n = 0.0f;
-    if (!force->fitted) { /* known stays false: tip_force_configure */
+    if (!force->fitted) { /* tip_force_configure has set known to false */
         return;
     }
     const int32_t answer = hal->tip_force_read(hal->context, &x_n, &z_n);

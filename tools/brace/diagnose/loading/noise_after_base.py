@@ -17,7 +17,7 @@ from brace.identify.noise_after_base import (
 )
 from brace.identify.record import NOT_MEASURED, Record
 
-QUIETER = 0.7  # of the noise before
+QUIETER = 0.7  # of the noise before: a floor below this share is far less
 
 
 def with_known_noise(record: Record, trust: Trust) -> Record:
@@ -30,10 +30,13 @@ def with_known_noise(record: Record, trust: Trust) -> Record:
     return with_noise_after(record, part, fit(part, space, space.mean).residual)
 
 
-def with_less(record: Record, fitted: Fit) -> Record | None:
-    """The record with the noise that a fit leaves, of channels whose noise no repeats have told; None where that is not
-    far less. What the believed limb leaves has a missing effect, or a trouble, in it. All that the fit leaves counts,
-    not what scatters from reading to reading alone, so that nothing is found in it afterwards."""
+def with_less_noise(record: Record, fitted: Fit) -> Record | None:
+    """The record with the noise that `fitted` leaves, in the channels whose noise no repeats have told. None where that
+    is not far less than before.
+
+    Their noise came from what the believed limb leaves, which a missing effect or a trouble of the instruments is in.
+    The rms of the whole residual counts, not only its scatter from reading to reading, so that the search after this
+    finds nothing in what `fitted` leaves."""
     left = fitted.residual.reshape(record.measured.shape) * record.sigma
     taken = record.sigma < NOT_MEASURED
     share = fitted.x.size / max(int(np.count_nonzero(taken)), 1)

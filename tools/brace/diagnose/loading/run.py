@@ -18,7 +18,7 @@ from brace.diagnose.loading.extensions import outside
 from brace.diagnose.loading.fit import fit
 from brace.diagnose.loading.data_faults.gate import gate
 from brace.diagnose.loading.troubles.likeliest import likeliest
-from brace.diagnose.loading.noise_after_base import with_growth, with_known_noise, with_less
+from brace.diagnose.loading.noise_after_base import with_growth, with_known_noise, with_less_noise
 from brace.diagnose.loading.parts import locked_rows
 from brace.identify.record import Record, load_record, setting_of
 from brace.diagnose.loading.rounding import asked_for
@@ -103,10 +103,10 @@ def search_pass(record: Record, trust: Trust, variants: Sequence[Variant], advan
 
 
 def _with_less_noise(found: Pass, variants: Sequence[Variant], advance: Advance) -> Pass:
-    """The search again with the noise that its best set leaves; as it was where that is not far less."""
+    """The search again, with the noise that its best set leaves. The first search where that noise is not far less."""
     if found.decision.verdict == "none":
         return found
-    quieter = with_less(found.record, found.decision.chosen.best.fit)
+    quieter = with_less_noise(found.record, found.decision.chosen.best.fit)
     return found if quieter is None else _searched(quieter, found.trust, variants, advance)
 
 
