@@ -25,7 +25,7 @@ from brace.diagnose.diagnosis import (
 )
 from brace.diagnose.joint_test import positions, words
 from brace.diagnose.joint_test.choose import SHAPES_SHRINK, Choice, at_an_end, choose, strained, without
-from brace.diagnose.joint_test.dead_zone import refusal
+from brace.diagnose.joint_test.dead_zone import is_friction_turning, refusal
 from brace.diagnose.joint_test.evidence import feigned, gain, intervals
 from brace.diagnose.joint_test.fit import Fitted, Fitter
 from brace.diagnose.joint_test.intake import blocking_faults, require_enough, spring_alone
@@ -96,7 +96,7 @@ def _searched(
 
     own = record_terms(record.size, record.speeds_differ or record.rests)
     choice = choose(fitter, effects, own, partial(_competing, record), random, trying)
-    refused = _refused_gap(record, choice.best)
+    refused = _refused_gap(fitter, choice.best)
     if refused:
         others = [term for term in effects if term.name != "backlash"]
         choice = choose(fitter, others, own, partial(_competing, record), random, trying)
@@ -126,10 +126,12 @@ def _faulty(dataset: Dataset, base: LimbModel, faults: Sequence[DataFault], opti
     )
 
 
-def _refused_gap(record: JointRecord, best: Fitted) -> str:
+def _refused_gap(fitter: Fitter, best: Fitted) -> str:
     if not any(term.name == "backlash" for term in best.terms):
         return ""
-    return refusal(record, best)
+    plain = tuple(term for term in best.terms if term.role in ("effect", "record"))
+    alone = best if len(plain) == len(best.terms) else fitter.fit(plain, best)
+    return refusal(fitter.record, best) or is_friction_turning(fitter.record, alone)
 
 
 def _told(
@@ -271,7 +273,7 @@ def _as_gears_are(by_rows: Fitter, search: _Found, exported: Fitted, have_names:
             afresh = by_rows.fit((*afresh.terms, other), afresh, other)
             before = by_rows.fit((*before.terms, other), before, other)
         more = [before, *(by_rows.fit((*near.terms, term), near, term) for near in (found, afresh))]
-        sound = [one for one in more if not strained(by_rows, one) and not _refused_gap(record, one)]
+        sound = [one for one in more if not strained(by_rows, one) and not _refused_gap(by_rows, one)]
         better = [one for one in sound if one.rss < (1.0 - SHAPES_SHRINK) ** 2 * found.rss
                   and one.held_rss <= found.held_rss]  # fmt: skip
         found = min(better, key=lambda one: one.rss, default=found)
