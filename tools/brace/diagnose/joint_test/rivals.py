@@ -45,7 +45,7 @@ class Rival:
         return " + ".join(term.label for term in self.fitted.terms) or "nothing"
 
 
-def doing_without(fitter: Fitter, chosen: Fitted, shapes: Shapes) -> list[Fitted]:
+def one_less(fitter: Fitter, chosen: Fitted, shapes: Shapes) -> list[Fitted]:
     """What was chosen with one effect less, each in turn. Beside a shape that bends the spring, hardening may be no more
     than the shape's own form, so that there a further shape takes its place, too."""
     effects = [term for term in chosen.terms if term.role == "effect"]
@@ -95,10 +95,9 @@ def _share(fitter: Fitter, chosen: Fitted, rival: Fitted) -> float:
     count = record.independent(chosen.off_n_mm) * kept / np.count_nonzero(record.fitted)
     floor = 1e-12 * kept * record.size.torque_n_mm**2
     odds = 0.5 * count * np.log((rival.held_rss + floor) / (chosen.held_rss + floor))
-    if _shapes(rival) > _shapes(chosen) == 0:
-        odds = np.log(SHAPE) + max(odds, -np.log(BY_CHOICE))
-    elif _shapes(rival) > _shapes(chosen):
-        odds += np.log(BY_CHOICE)
+    have = _shapes(chosen)
+    if _shapes(rival) > have:
+        odds = odds + np.log(BY_CHOICE) if have else np.log(SHAPE) + max(odds, -np.log(BY_CHOICE))
     return float(1.0 / (1.0 + np.exp(np.clip(odds, 0.0, 50.0))))  # what predicts better by luck is as good at most
 
 

@@ -31,7 +31,7 @@ from brace.diagnose.joint_test.fit import Fitted, Fitter
 from brace.diagnose.joint_test.intake import blocking_faults, require_enough, spring_alone
 from brace.diagnose.joint_test.localise import localise
 from brace.diagnose.joint_test.record import JointRecord
-from brace.diagnose.joint_test.rivals import Rival, beside, doing_without, ranges, rivals, surest
+from brace.diagnose.joint_test.rivals import Rival, beside, one_less, ranges, rivals, surest
 from brace.diagnose.joint_test.shapes import record_terms, shapes
 from brace.diagnose.joint_test.terms import Term, effects_of
 from brace.diagnose.options import Advance, Options
@@ -153,8 +153,7 @@ def _told(
     laws = [term for term in best.terms if term.role == "law"]
     exported = by_rows.fit((*found, *own), best)  # a shape is no physics, so no limb.toml gets it
     shapes_of = partial(_competing, record)
-    tried = [*choice.sets, *choice.shaped]
-    tried += doing_without(fitter, best, shapes_of)
+    tried = [*choice.sets, *choice.shaped, *one_less(fitter, best, shapes_of)]
     others = rivals(fitter, by_rows, best, frozenset(term.name for term in found), tried)
     effects = _named(fitter, by_rows, best, exported, found, others, choice.count, random)
     small = [term.name for term in found if _is_small(term, exported.values, record)]
@@ -170,7 +169,7 @@ def _told(
         tried = [one for one in tried if all(term.name != weak[0].name for term in one.terms)]
         best = fitter.fit((*found, *own, *left, *laws), best)
         exported = by_rows.fit((*found, *own), best)
-        tried += doing_without(fitter, best, shapes_of)
+        tried += one_less(fitter, best, shapes_of)
         others = [*first, *rivals(fitter, by_rows, best, frozenset(term.name for term in found), tried)]
         effects = _named(fitter, by_rows, best, exported, found, others, choice.count, random)
     own = [term for term in own if not _is_gone(term, best)]  # a lag may have served an effect now unnamed
