@@ -159,15 +159,19 @@ def test_a_shape_is_rare_only_where_there_is_none_yet() -> None:
 
 
 def test_a_gap_that_is_crossed_while_friction_turns_is_no_play(tmp_path: Path) -> None:
+    """The gap takes 2000 N mm from the spring: friction of 3000 N mm may stand for it, friction of 1500 N mm not."""
     torque = 8000.0 * triangle()
     tests = [(under_torque(size * torque, 0.008, 600.0, 2e-6), size * torque) for size in (0.5, 1.0, 0.52, 0.98)]
     fitter, terms = fitter_of(tmp_path, tests)
     fitted = fitter.fit(())
     for name in ("coulomb_friction", "backlash"):
         fitted = fitter.fit((*fitted.terms, terms[name]), fitted, terms[name])
+    keys, x = fitted.parameters.keys, fitted.x.copy()
     assert fitted.values["joint.femur.gap_rad"] == pytest.approx(0.008, rel=0.1)
-    assert not is_friction_turning(fitter.record, fitted)
     assert not _refused_gap(fitter, fitted)
-    slow = fitted.x.copy()
-    slow[fitted.parameters.keys.index(FRICTION_TURN)] = 0.009
-    assert "still turns" in _refused_gap(fitter, replace(fitted, x=slow))
+    for turn_rad, rubs_n_mm, refused in ((0.007, 3000.0, False), (0.009, 1500.0, False), (0.009, 3000.0, True)):
+        x[keys.index(FRICTION_TURN)] = turn_rad
+        x[keys.index("joint.femur.coulomb_n_mm")] = rubs_n_mm
+        x[keys.index("joint.femur.coulomb_per_load_ratio")] = 0.0
+        assert bool(is_friction_turning(fitter.record, replace(fitted, x=x))) == refused
+    assert "still turns" in _refused_gap(fitter, replace(fitted, x=x))

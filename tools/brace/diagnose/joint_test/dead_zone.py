@@ -52,10 +52,12 @@ def refusal(record: JointRecord, fitted: Fitted) -> str:
 
 def is_friction_turning(record: JointRecord, plain: Fitted) -> str:
     """Why the gap of a fit without shapes and laws, in which all friction turns over one angle, is none; empty when it
-    may be one."""
-    gap_rad = plain.model.number(f"joint.{record.joint}.gap_rad")
-    turn_rad = plain.values.get(FRICTION_TURN, 0.0)
-    if gap_rad >= turn_rad:
+    may be one. Friction that is smaller than the torque that the gap takes from the spring cannot stand for it."""
+    at = f"joint.{record.joint}."
+    gap_rad, spring = (plain.model.number(at + leaf) for leaf in ("gap_rad", "compliance_rad_per_n_mm"))
+    turn_rad, rubs_n_mm = plain.values.get(FRICTION_TURN, 0.0), plain.model.number(at + "coulomb_n_mm")
+    rubs_n_mm += plain.model.number(at + "coulomb_per_load_ratio") * 0.5 * record.size.torque_n_mm
+    if gap_rad >= turn_rad or rubs_n_mm < 0.5 * gap_rad / max(spring, 1e-30):
         return ""
     return f"the joint crosses it while its friction still turns, which takes {turn_rad:.3g} rad"
 
