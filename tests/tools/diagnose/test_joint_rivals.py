@@ -138,8 +138,8 @@ def test_a_soft_middle_beside_another_shape_of_the_spring_is_no_hardening() -> N
     assert "joint_hardening" not in says("soft_middle", "end_stop")
 
 
-def test_a_shape_is_rare_only_where_there_is_none_yet() -> None:
-    """The rival leaves half of the held-out misfit, over 50 independent readings: no luck."""
+def test_a_shape_is_rare_only_where_the_spring_has_none_yet() -> None:
+    """A second turn of friction is none of the spring's. The rival leaves half of the held-out misfit, over 50 independent readings: no luck."""
     kept = np.arange(200) < 100
     record = SimpleNamespace(
         kept=kept, fitted=~kept, independent=lambda _: 50.0, size=SimpleNamespace(torque_n_mm=1e3)
@@ -152,7 +152,8 @@ def test_a_shape_is_rare_only_where_there_is_none_yet() -> None:
 
     first = _share(fitter, left(1e6), left(5e5, "end_stop"))
     further = _share(fitter, left(1e6, "end_stop"), left(5e5, "end_stop", "soft_middle"))
-    assert first == pytest.approx(3.0 / 13.0)
+    beside_a_law = _share(fitter, left(1e6, "later_friction"), left(5e5, "later_friction", "soft_middle"))
+    assert first == beside_a_law == pytest.approx(3.0 / 13.0)
     assert further == pytest.approx(0.5)
     lucky = _share(fitter, left(1e6, "end_stop"), left(1e6, "end_stop", "soft_middle"))
     assert lucky == pytest.approx(0.25)

@@ -18,7 +18,7 @@ from brace.diagnose.joint_test.shapes import BENDS_THE_SPRING, SOFT
 AS_WELL = 0.05  # a rival has at least this share of the odds between it and the chosen set: 90 % intervals hold it
 MOST_RIVALS = 8
 BY_CHOICE = 3.0  # odds that one of several shapes gains on the held-out readings because it is the luckiest of them
-# Times less likely, before any reading, than an effect of the catalogue: as in loading records. A joint that has one
+# Times less likely, before any reading, than an effect of the catalogue: as in loading records. A spring that has one
 # shape is not of the catalogue, so that a further one is no rarer than an effect.
 SHAPE = 10.0
 
@@ -95,9 +95,9 @@ def _share(fitter: Fitter, chosen: Fitted, rival: Fitted) -> float:
     count = record.independent(chosen.off_n_mm) * kept / np.count_nonzero(record.fitted)
     floor = 1e-12 * kept * record.size.torque_n_mm**2
     odds = 0.5 * count * np.log((rival.held_rss + floor) / (chosen.held_rss + floor))
-    have = _shapes(chosen)
-    if _shapes(rival) > have:
-        odds = odds + np.log(BY_CHOICE) if have else np.log(SHAPE) + max(odds, -np.log(BY_CHOICE))
+    if _shapes(rival) > _shapes(chosen):
+        bent = any(term.name in BENDS_THE_SPRING for term in chosen.terms)
+        odds = odds + np.log(BY_CHOICE) if bent else np.log(SHAPE) + max(odds, -np.log(BY_CHOICE))
     return float(1.0 / (1.0 + np.exp(np.clip(odds, 0.0, 50.0))))  # what predicts better by luck is as good at most
 
 
