@@ -65,7 +65,7 @@ class Watch:
 
     def add(self, frame: Frame) -> Event | None:
         """What the frame tells or completes. VersionMismatchError when a node speaks another dictionary."""
-        node = frame.node
+        node = frame.identifier & NODE_MASK
         if node == 0 or (self._only is not None and node != self._only):
             return None
         event: Event | None = _READ.get(frame.identifier & ~NODE_MASK, self.joiner.add)(frame)
@@ -77,6 +77,8 @@ class Watch:
         self.first_s = self.first_s or frame.time_s
         state.last_s = self.last_s = frame.time_s
         state.frames += 1
+        if event is None:
+            return None
         if isinstance(event, Snapshot):
             self.take(state, event)
         elif isinstance(event, Heartbeat):
