@@ -29,10 +29,10 @@ def add(commands: Subcommands) -> None:
         "import",
         help=SUBCOMMANDS["import"],
         description="Finds the tables in the files, says what each column seems to be, asks for what it cannot know, "
-        "and writes a dataset in our units. Without a terminal nothing is asked: --draft writes the mapping with a ? for "
-        "each open question, --mapping reads the answers, --yes accepts a table without open questions.",
-        epilog="Exit codes: 0 written, 2 a question is open (the table is printed), 3 a file cannot be read, or no limb "
-        "has such values.",
+        "and writes a dataset in our units. Without a terminal nothing is asked: --draft writes the mapping with a ? "
+        "for each open question, --mapping reads the answers, --yes accepts a table without open questions.",
+        epilog="Exit codes: 0 written, 2 a question is open (the table is printed), 3 a file cannot be read, or no "
+        "limb has such values.",
     )
     parser.add_argument(
         "files", type=common.path, nargs="+", metavar="FILE", help="text with columns, .xlsx, a log (candump -l, MCAP)"

@@ -140,7 +140,9 @@ def _check(arguments: argparse.Namespace, name: str, text: str) -> object:
             raise quantity.refusal(f"{text!r} is not a range", "a range is two angles", "-60deg 90deg")
         low, high = (quantity.angle_rad(end) for end in pair)
         if not low < high:
-            raise quantity.refusal(f"{' '.join(pair)} is not a range", "the smaller angle comes first", f"{pair[1]} {pair[0]}")
+            raise quantity.refusal(
+                f"{' '.join(pair)} is not a range", "the smaller angle comes first", f"{pair[1]} {pair[0]}"
+            )
         return low, high
     except UsageError as error:
         raise _naming(name, error) from None

@@ -121,7 +121,7 @@ def _axis_column(use: ColumnUse, cells: Sequence[str]) -> ColumnUse:
         return replace(use, values=turned, span=", ".join(texts))
     return replace(
         use, targets=(OPEN,), span=", ".join(texts[:6]),
-        why=f"an axis column with {', '.join(texts[:4])}: say is = \"axis\", and in values which of them is x and which is z",
+        why=f"an axis column with {', '.join(texts[:4])}: say is = \"axis\", and in values which are x and which z",
     )  # fmt: skip
 
 

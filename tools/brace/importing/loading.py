@@ -328,7 +328,8 @@ def _held_angles(joined: Columns, run: np.ndarray, notes: list[str]) -> Columns:
             rows = poses == pose
             if 0.0 < np.ptp(joined[name][rows]):
                 notes.append(
-                    f"{name} of pose {pose} differs by {np.ptp(joined[name][rows]):.2g} rad between runs: their median is taken"
+                    f"{name} of pose {pose} differs by {np.ptp(joined[name][rows]):.2g} rad between runs: their median "
+                    "is taken"
                 )
                 joined[name][rows] = np.median(joined[name][rows])
     return joined

@@ -44,7 +44,8 @@ def lines(parts: Sequence[Part], mapping: MappingTable) -> list[str]:
         ]
     questions = mapping.questions
     if questions:
-        told += ["", f"{len(questions)} open question{'s' if len(questions) > 1 else ''}:", *(f"  {text}" for text in questions)]
+        told += ["", f"{len(questions)} open question{'s' if len(questions) > 1 else ''}:"]
+        told += [f"  {text}" for text in questions]
     return told
 
 

@@ -118,7 +118,9 @@ def joint(text: str) -> Joint:
             f"{text!r}: its unit is not known", "N m/rad, N m/deg, N m/arcmin, rad/(N mm)", "e.g. '60 N m/rad'"
         )
     if value <= 0.0:
-        raise refusal(f"{text!r} is not a stiffness", "it is above zero; a joint that does not yield is: rigid", "e.g. '60 N m/rad'")
+        raise refusal(
+            f"{text!r} is not a stiffness", "it is above zero; a joint that does not yield is: rigid", "e.g. '60 N m/rad'"
+        )
     stiffness = value * per_rad[unit] if unit in per_rad else 1e-3 / (value * soft[unit])  # N m/rad
     low, high = STIFFNESS_N_M_PER_RAD
     if not low <= stiffness <= high:
@@ -170,7 +172,9 @@ def link(text: str, length: float) -> Link:
             )
         if not 1.0 <= outer <= 500.0 or outer > 2.0 * length:
             way = f"{outer * 1e3:g} if it was in metres" if outer < 1.0 else "outer diameter in mm"
-            raise refusal(f"{text!r}: {outer:g} mm cannot be the diameter of a link {length:g} mm long", "1 to 500 mm", way)
+            raise refusal(
+                f"{text!r}: {outer:g} mm cannot be the diameter of a link {length:g} mm long", "1 to 500 mm", way
+            )
         shape = f"tube {outer:g}/{inner:g} mm" if inner else f"rod {outer:g} mm"
         return Link(
             round_beam(length, outer, inner, made_of),
