@@ -119,7 +119,9 @@ def joint(text: str) -> Joint:
         )
     if value <= 0.0:
         raise refusal(
-            f"{text!r} is not a stiffness", "it is above zero; a joint that does not yield is: rigid", "e.g. '60 N m/rad'"
+            f"{text!r} is not a stiffness",
+            "it is above zero; a joint that does not yield is: rigid",
+            "e.g. '60 N m/rad'",
         )
     stiffness = value * per_rad[unit] if unit in per_rad else 1e-3 / (value * soft[unit])  # N m/rad
     low, high = STIFFNESS_N_M_PER_RAD
