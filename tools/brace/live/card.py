@@ -18,7 +18,7 @@ Sigmas = tuple[float, float]
 Place = tuple[float, float]  # x, z [mm]
 
 
-@dataclass
+@dataclass(eq=False)  # a card is itself, whatever it says: a key by which words are kept
 class Card:
     """Of one limb. `lengths_mm` are coxa, femur, tibia; None: nobody has told them."""
 
