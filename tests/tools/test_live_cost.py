@@ -196,4 +196,4 @@ def test_a_short_log_is_shown(tmp_path: Path, paper_limb: Path) -> None:
             feed._take_frames(bus)
     words, numbers = (json.loads(text) for text in feed.messages())
     assert [limb["node"] for limb in words["words"]] == [limb["node"] for limb in numbers["numbers"]] == [1, 2, 3, 4]
-    assert all(limb["tip_mm"] for limb in numbers["numbers"])
+    assert all(limb["theta_rad"][1:] == [0.504, 1.4] for limb in numbers["numbers"])

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import shutil
-import time
 import urllib.error
 import urllib.request
 from collections.abc import Callable, Iterator
@@ -24,6 +24,7 @@ from brace.live.feed import Feed
 from brace.live.limb_view import LimbNumbers, LimbWords, limb_numbers, limb_words
 from brace.errors import NoDeviceError
 from brace.model import LimbModel, load_limb
+from brace.stiffness import planar_limb
 
 CHROMIUM = shutil.which("chromium")
 START_S = 30.0  # of a command, on a busy machine
@@ -54,9 +55,7 @@ def view_of(newest: Snapshot, card: Card, now_s: float = 100.5) -> tuple[LimbWor
 def test_a_limb_is_told_with_its_place_and_its_trust(limb_file: Path) -> None:
     words, view = view_of(snapshot(), card_of(load_limb(limb_file)))
     assert view["is_valid"] and view["silent_s"] is None
-    assert words["lengths_mm"] is not None and view["knee_mm"] is not None and view["tip_mm"] is not None
-    femur_mm = words["lengths_mm"][1]
-    assert sum(float(part or 0.0) ** 2 for part in view["knee_mm"]) == pytest.approx(femur_mm**2, rel=1e-4)
+    assert words["lengths_mm"] == [57.0, 185.0, 313.5] and view["theta_rad"] == [None, 1.0, 1.4]
     assert view["relative_sigma"] is not None and all(0.01 < sigma < 0.2 for sigma in view["relative_sigma"])
     assert words["play"] == [{"joint": "tibia", "state": "crossing", "text": "backlash is open"}]  # the femur has none
     assert words["faults"][0]["name"] == "ENCODER_STUCK" and words["faults"][0]["text"].endswith(".")
@@ -69,7 +68,7 @@ def test_what_is_not_known_is_told_as_that() -> None:
     nothing = snapshot(k_xx=None, lambda_min=None, lambda_max=None, theta1=None, theta2=None)
     words, view = view_of(nothing, Card(why_not="nobody told"), now_s=110.0)
     assert not view["is_valid"] and view["silent_s"] == 10.0
-    assert words["lengths_mm"] is view["knee_mm"] is view["relative_sigma"] is None
+    assert words["lengths_mm"] is view["relative_sigma"] is view["theta_rad"][1] is None
     assert words["lengths_why"] == "nobody told"
     assert view["k_n_per_mm"][0] is None
 
@@ -159,11 +158,11 @@ def test_the_page_in_a_browser(limb_file: Path, tmp_path: Path) -> None:
                       "--disable-component-update", "--no-first-run"],
             )
             page = browser.new_page(viewport={"width": 1280, "height": 900})
-            asked, wrong, updates = list[str](), list[str](), list[float]()
+            asked, wrong, updates = list[str](), list[str](), list[str]()
             page.on("request", lambda request: asked.append(request.url))
             page.on("console", lambda message: wrong.append(message.text))
             page.on("pageerror", lambda error: wrong.append(str(error)))
-            page.on("websocket", lambda one: one.on("framereceived", lambda _: updates.append(time.monotonic())))
+            page.on("websocket", lambda one: one.on("framereceived", lambda text: updates.append(str(text))))
             page.goto(address)
             for number in (1, 2):
                 drawn = f"article:nth-of-type({number}) .ellipse[d]"
@@ -179,4 +178,9 @@ def test_the_page_in_a_browser(limb_file: Path, tmp_path: Path) -> None:
             assert not wrong, wrong
             assert asked and all(url.startswith(address) for url in asked), asked
             assert len(updates) > 2
+            drawn = page.eval_on_selector(".links", "line => line.getAttribute('points')")
+            angles = next(json.loads(text)["numbers"][0]["theta_rad"] for text in reversed(updates) if "numbers" in text)
+            (knee_x, knee_z), (tip_x, tip_z) = planar_limb(load_limb(limb_file)).pose(*angles[1:])
+            corners = [float(number) for number in re.split("[ ,]", drawn)]
+            assert corners == pytest.approx([0.0, 0.0, knee_x, -knee_z, tip_x, -tip_z], abs=1.0)  # y points down
             browser.close()

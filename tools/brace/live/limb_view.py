@@ -83,8 +83,6 @@ class LimbNumbers(TypedDict):
     stiff_axis_rad: Value
     relative_sigma: list[float] | None  # of the two eigenvalues
     theta_rad: list[Value]  # coxa, femur, tibia
-    knee_mm: list[Value] | None  # x, z in the limb's plane, from the femur joint
-    tip_mm: list[Value] | None
     k_space_n_per_mm: list[Value] | None  # xx xy xz yy yz zz, in the robot's frame
     lambda_space_n_per_mm: list[Value] | None
     load: LoadView | None
@@ -109,10 +107,7 @@ def limb_numbers(node: int, state: NodeState, card: Card, now_s: float) -> LimbN
     """The newest of a limb. Everything of K is of one snapshot, the newest that came with its posture."""
     k = _k(state)
     theta1, theta2 = (k.theta1, k.theta2) if k is not None else (None, None)
-    sigmas = places = None
-    if theta1 is not None and theta2 is not None:
-        sigmas = card.relative_sigmas(theta1, theta2)
-        places = card.knee_and_tip_mm(theta1, theta2)
+    sigmas = None if theta1 is None or theta2 is None else card.relative_sigmas(theta1, theta2)
     space = state.space.space if state.space is not None else None
     silent_s = now_s - state.last_s
     return {
@@ -126,8 +121,6 @@ def limb_numbers(node: int, state: NodeState, card: Card, now_s: float) -> LimbN
         "stiff_axis_rad": k.stiff_axis if k is not None else None,
         "relative_sigma": None if sigmas is None else [round(sigma, 4) for sigma in sigmas],
         "theta_rad": [space.theta0 if space is not None else None, theta1, theta2],
-        "knee_mm": None if places is None else [round(mm, 3) for mm in places[0]],
-        "tip_mm": None if places is None else [round(mm, 3) for mm in places[1]],
         "k_space_n_per_mm": None if space is None else list(space.k),
         "lambda_space_n_per_mm": None if space is None else list(space.eigenvalues),
         "load": _load_view(_recent_load(state)),
