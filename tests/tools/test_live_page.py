@@ -68,7 +68,7 @@ def test_what_is_not_known_is_told_as_that() -> None:
     nothing = snapshot(k_xx=None, lambda_min=None, lambda_max=None, theta1=None, theta2=None)
     words, view = view_of(nothing, Card(why_not="nobody told"), now_s=110.0)
     assert not view["is_valid"] and view["silent_s"] == 10.0
-    assert words["lengths_mm"] is view["relative_sigma"] is view["theta_rad"][1] is None
+    assert words["lengths_mm"] is None and view["relative_sigma"] is None and view["theta_rad"][1] is None
     assert words["lengths_why"] == "nobody told"
     assert view["k_n_per_mm"][0] is None
 
@@ -179,7 +179,7 @@ def test_the_page_in_a_browser(limb_file: Path, tmp_path: Path) -> None:
             assert asked and all(url.startswith(address) for url in asked), asked
             assert len(updates) > 2
             drawn = page.eval_on_selector(".links", "line => line.getAttribute('points')")
-            angles = next(json.loads(text)["numbers"][0]["theta_rad"] for text in reversed(updates) if "numbers" in text)
+            angles = next(json.loads(text)["numbers"][0]["theta_rad"] for text in updates[::-1] if "numbers" in text)
             (knee_x, knee_z), (tip_x, tip_z) = planar_limb(load_limb(limb_file)).pose(*angles[1:])
             corners = [float(number) for number in re.split("[ ,]", drawn)]
             assert corners == pytest.approx([0.0, 0.0, knee_x, -knee_z, tip_x, -tip_z], abs=1.0)  # y points down

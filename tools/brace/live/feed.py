@@ -54,7 +54,7 @@ class Feed:
         """All limbs, for the page: what changes seldom, the same text until it does, and the numbers of now."""
         now_s = time.time() if self.url.kind != "log" else self.watch.last_s
         limbs = [(node, state, self.cards[node]) for node, state in sorted(self.watch.nodes.items())]
-        words = {
+        words: dict[str, object] = {
             "bus": self.url.text, "trouble": self.trouble, "ended": self.ended,
             "words": [limb_words(*limb) for limb in limbs],
         }  # fmt: skip

@@ -1,4 +1,4 @@
-// The stream of messages, and a picture for every limb that is in it. Words come when they change, numbers all the time.
+// The stream of messages, and a picture for every limb that is in it. Words come when they change, numbers always.
 import { Limb } from "./limb.js";
 
 const AGAIN_MS = 1000;
