@@ -46,7 +46,7 @@ class Adapter:
         return
 
 
-CALLS_MOST = 54_000  # in each second of the bus
+CALLS_MOST = 52_000  # in each second of the bus
 
 
 def test_four_limbs_cost_less_than_a_twentieth_of_a_core(paper_limb: Path) -> None:
