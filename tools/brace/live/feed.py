@@ -25,7 +25,7 @@ from brace.live.limb_view import limb_view
 from brace.live.thinning import thinned
 from brace.model import LimbModel
 
-_AS_TEXT = json.JSONEncoder(allow_nan=False, separators=(",", ":")).encode
+_AS_TEXT = json.JSONEncoder(allow_nan=False, check_circular=False, separators=(",", ":")).encode
 _MODBUS_S = 0.033
 _AGAIN_S = 2.0  # after a bus that went away, or a controller that did not answer
 

@@ -94,7 +94,7 @@ export class Limb {
     this.row("stiffest", view.is_valid ? `${number(most)}${trust(most, ofMost)} N/mm` : null);
     this.row("K xx xz zz", view.is_valid ? numbers(view.k_n_per_mm, "N/mm") : null);
     const space = view.lambda_space_n_per_mm;
-    this.row("in space", space === null ? null : numbers(space, "N/mm"));
+    this.row("eigenvalues in space", space === null ? null : numbers(space, "N/mm"));
     const load = view.load;
     this.row("force x z", load === null ? view.load_why : numbers(load.force_n, "N"));
     this.row("moved x z", load === null ? null : numbers(load.moved_mm, "mm"));
