@@ -87,7 +87,7 @@ static void as_if(brace_drift_state_t state, uint32_t steps)
     ticks(300);
 }
 
-/* Learns a little more than BEFORE_A_RECORD readings. A board begins near there: the first readings are like the last. */
+/* Learns a little more than BEFORE_A_RECORD readings. A board begins near there: the first are like the last. */
 enum { BEFORE_A_RECORD = 512 };
 static void learn_up_to_a_record(void)
 {
