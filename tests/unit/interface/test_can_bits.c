@@ -31,7 +31,7 @@ static void test_a_number_with_a_sign(void)
     } row[] = {{0.0f, 0, 0},           {1.04f, 10, 0},         {-1.04f, 0xfff6, 0},   {1.06f, 11, 0},
                {3276.7f, 0x7fff, 0},   {-3276.7f, 0x8001, 0},  {3277.0f, 0x7fff, 1},  {-3277.0f, 0x8001, 1},
                {1e30f, 0x7fff, 1},     {-1e30f, 0x8001, 1},    {INFINITY, 0x7fff, 1}, {-INFINITY, 0x8001, 1},
-               {NAN, 0x8000, 0}};
+               {3276.75f, 0x7fff, 0},  {NAN, 0x8000, 0}};
     for (uint32_t i = 0; i < sizeof row / sizeof row[0]; i++) {
         TEST_ASSERT_EQUAL_HEX32(row[i].code, signed_code(row[i].value));
         TEST_ASSERT_EQUAL_UINT32(row[i].limited, limited);
