@@ -66,12 +66,18 @@ def test_a_plan_may_say_how_detectable() -> None:
     assert truth["effects"] == [dict(zip(("name", "where"), effects.CATALOGUE[0], strict=True))]
 
 
+# Of the first forty seeds those whose pair has a saturation: to draw the others takes half a second each.
+SATURATED_PAIRS = (12, 19, 32)
+
+
 @pytest.mark.parametrize("kind", ["single@8", "single@25", "pair"])
 def test_a_saturation_is_reached_in_its_record(kind: str) -> None:
     """On the limb that is played, not only on the one that is believed: what is cut off, in sigmas of the readings, is
     at least s, since a refit of the base can only take from it."""
     at, found = [name for name, _ in effects.CATALOGUE].index("sensor_saturation"), 0
-    for seed in range(40):
+    seeds = SATURATED_PAIRS if kind == "pair" else range(40)
+    wanted_cases = len(SATURATED_PAIRS) if kind == "pair" else 4
+    for seed in seeds:
         try:
             case = build(kind, at, np.random.default_rng(seed))
         except Retry:
@@ -86,9 +92,9 @@ def test_a_saturation_is_reached_in_its_record(kind: str) -> None:
         cut = np.clip(np.abs(forces_n) - level, 0.0, None) / design.sigma(forces_n)[:, :2]
         wanted = case["truth"].get("each", [case["truth"]["detectability"]])
         assert np.linalg.norm(cut) > 0.9 * min(wanted)
-        if found == 4:
+        if found == wanted_cases:
             return
-    assert kind == "pair" and found
+    raise AssertionError(f"only {found} of {wanted_cases} have a saturation; try seeds below 40 anew")
 
 
 def _bench(seed: int) -> tuple[Bench, np.random.Generator]:

@@ -12,6 +12,10 @@ import sets
 from verdicts import Word
 
 PLAIN = ("play", "lugre", "hardening", "play_friction", "play_hardening")
+# Of the others nobody asks here what is told, but that something is. A record of so many rows goes through the same
+# searches in half the time, and ends in the same verdict in nine of ten. ./dev blind --foreign judges them whole, and
+# many of each.
+FEW_ROWS = 300
 
 
 @pytest.fixture(scope="module")
@@ -21,8 +25,16 @@ def words(tmp_path_factory: pytest.TempPathFactory) -> list[Word]:
     wanted = sets.cases(plans.SUBSET_SEED, plans.SUBSET)
     sets.make(wanted, root)
     for case in wanted:
+        if case.kind not in PLAIN:
+            thin_out(root / "cases" / case.name / "data.csv")
         foreign.job((str(root), str(root), case.name))
     return foreign.judged(root, root, [case.name for case in wanted])
+
+
+def thin_out(table: Path) -> None:
+    """Leaves about FEW_ROWS, evenly spread."""
+    head, *rows = table.read_text().splitlines(keepends=True)
+    table.write_text("".join([head, *rows[:: max(1, len(rows) // FEW_ROWS)]]))
 
 
 def test_every_record_ends_in_a_verdict(words: list[Word]) -> None:

@@ -252,6 +252,7 @@ std::vector<std::vector<std::uint8_t>> missed_bursts(std::size_t bytes)
     std::vector<std::vector<std::uint8_t>> missed;
     std::vector<std::uint16_t> of_bit(8 * bytes);
     std::vector<std::uint8_t> flips(bytes, 0);
+    std::vector<std::uint16_t> remainder(1u << 15);
     for (std::size_t bit = 0; bit < of_bit.size(); ++bit) {
         flips[bit / 8] = static_cast<std::uint8_t>(1u << bit % 8);
         of_bit[bit] = static_cast<std::uint16_t>(dxl_crc(0, flips.data(), static_cast<std::uint32_t>(bytes) - 2)
@@ -260,12 +261,13 @@ std::vector<std::vector<std::uint8_t>> missed_bursts(std::size_t bytes)
     }
     for (std::size_t begin = 0; begin < of_bit.size(); ++begin) {
         const std::size_t further = std::min<std::size_t>(15, of_bit.size() - 1 - begin);
+        remainder[0] = of_bit[begin];
         for (std::uint32_t pattern = 0; pattern < 1u << further; ++pattern) {
-            std::uint16_t remainder = of_bit[begin];
-            for (std::size_t i = 0; i < further; ++i) {
-                remainder ^= (pattern >> i & 1u) != 0 ? of_bit[begin + 1 + i] : 0;
+            if (pattern != 0) { // as of the pattern without its lowest bit
+                const auto lowest = static_cast<std::size_t>(__builtin_ctz(pattern));
+                remainder[pattern] = remainder[pattern & (pattern - 1)] ^ of_bit[begin + 1 + lowest];
             }
-            if (remainder == 0) {
+            if (remainder[pattern] == 0) {
                 std::vector<std::uint8_t> burst(bytes, 0);
                 for (std::size_t i = 0; i <= further; ++i) {
                     if (((2 * pattern + 1) >> i & 1u) != 0) {

@@ -21,8 +21,9 @@ SUITES = ("tests/unit/", "tests/attack/")
 NOT_OURS = "tests/unit/boards/"  # judges a board's files, which are not in the library
 LIBRARY = "libunder_test.so"
 LEVEL = "-O1"  # compiles quickly, and still gives the same object for many mutants that mean the same
-# What a function returns that ends without a return is chance, and so is what a suite would say of it.
-NO_C = "-Werror=return-type"
+# What a function returns that ends without a return is chance, and so is what a suite would say of it. A function that is
+# not declared is one that nobody has.
+NO_C = ("-Werror=return-type", "-Werror=implicit-function-declaration")
 
 
 class BuildError(Exception):
@@ -41,7 +42,7 @@ class Command:
         """The command that writes the object there."""
         words = [word for word in self.words if word not in ("--coverage", "-O0", "-O2", "-fstack-usage", "-g")]
         words[words.index("-o") + 1] = str(output)
-        return [*words, LEVEL, "-fPIC", NO_C]
+        return [*words, LEVEL, "-fPIC", *NO_C]
 
 
 def run(words: list[str], folder: Path = ROOT) -> None:

@@ -159,7 +159,10 @@ class Judge:
         names = [name for name in wanted if name in self.suites and name not in TOO_LONG]
         names.sort(key=lambda name: self.suites[name].cpu_s / (1.0 + 20.0 * self.kills[name, mutant.file]))
         for name in names:
-            suite = self._with_header(self.suites[name]) if name in with_header else self.suites[name]
+            try:
+                suite = self._with_header(self.suites[name]) if name in with_header else self.suites[name]
+            except bench.BuildError:
+                return Outcome(mutant, REFUSED)
             ending = bench.run_suite(suite, self.folder, int(3.0 + 10.0 * suite.cpu_s))
             if not ending.passes:
                 self.kills[name, mutant.file] += 1

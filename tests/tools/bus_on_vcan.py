@@ -36,14 +36,16 @@ def main() -> None:
         "replay": run("replay", str(log), "--bus", "vcan0", "--json"),
         "push": run("params", "push", LIMB, "--bus", "vcan0"),
         "wrong node": run("query", "--bus", "vcan0", "--node", "4"),
+    }
+    sim.terminate()  # what follows has no node, and a simulation is most of what this guest works at
+    sim.wait(60)
+    results |= {
         "no interface": run("query", "--bus", "can7"),
         "no can": run("query", "--bus", "lo"),
         "down": run("query", "--bus", "vcan1"),
     }
     subprocess.run(["ip", "link", "set", "vcan1", "up"], check=True)
     results["silent"] = run("query", "--bus", "vcan1")
-    sim.terminate()
-    sim.wait(60)
     print(json.dumps(results))
 
 

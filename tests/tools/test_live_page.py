@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import shutil
-import time
 import urllib.error
 import urllib.request
 from collections.abc import Callable, Iterator
@@ -18,10 +18,13 @@ from test_sim_command import FREE, running
 
 from brace.bus.snapshot import Heartbeat, Snapshot
 from brace.bus.watch import NodeState
+from brace.bus.url import parse
 from brace.live.card import Card, card_from, card_of
-from brace.live.limb_view import LimbView, limb_view
+from brace.live.feed import Feed
+from brace.live.limb_view import LimbNumbers, LimbWords, limb_numbers, limb_words
 from brace.errors import NoDeviceError
 from brace.model import LimbModel, load_limb
+from brace.stiffness import planar_limb
 
 CHROMIUM = shutil.which("chromium")
 START_S = 30.0  # of a command, on a busy machine
@@ -44,38 +47,52 @@ def snapshot(**changes: object) -> Snapshot:
     return told._replace(**changes)  # type: ignore[arg-type]
 
 
-def view_of(newest: Snapshot, card: Card, now_s: float = 100.5) -> LimbView:
+def view_of(newest: Snapshot, card: Card, now_s: float = 100.5) -> tuple[LimbWords, LimbNumbers]:
     state = NodeState(snapshot=newest, posture=newest, last_s=newest.time_s)
-    return limb_view(3, state, card, now_s)
+    return limb_words(3, state, card), limb_numbers(3, state, card, now_s)
 
 
 def test_a_limb_is_told_with_its_place_and_its_trust(limb_file: Path) -> None:
-    view = view_of(snapshot(), card_of(load_limb(limb_file)))
+    words, view = view_of(snapshot(), card_of(load_limb(limb_file)))
     assert view["is_valid"] and view["silent_s"] is None
-    assert view["lengths_mm"] is not None and view["knee_mm"] is not None and view["tip_mm"] is not None
-    femur_mm = view["lengths_mm"][1]
-    assert sum(float(part or 0.0) ** 2 for part in view["knee_mm"]) == pytest.approx(femur_mm**2, rel=1e-4)
+    assert words["lengths_mm"] == [57.0, 185.0, 313.5] and view["theta_rad"] == [None, 1.0, 1.4]
     assert view["relative_sigma"] is not None and all(0.01 < sigma < 0.2 for sigma in view["relative_sigma"])
-    assert view["play"] == [{"joint": "tibia", "state": "crossing", "text": "backlash is open"}]  # the femur has none
-    assert view["faults"][0]["name"] == "ENCODER_STUCK" and view["faults"][0]["text"].endswith(".")
-    assert view["flags"][0]["name"] == "GAP_OPEN" and view["mode_text"]
-    assert "load_hz" in view["load_why"]
-    json.dumps(view, allow_nan=False)
+    assert words["play"] == [{"joint": "tibia", "state": "crossing", "text": "backlash is open"}]  # the femur has none
+    assert words["faults"][0]["name"] == "ENCODER_STUCK" and words["faults"][0]["text"].endswith(".")
+    assert words["flags"][0]["name"] == "GAP_OPEN" and words["mode_text"]
+    assert "load_hz" in words["load_why"]
+    json.dumps([words, view], allow_nan=False)
 
 
 def test_what_is_not_known_is_told_as_that() -> None:
     nothing = snapshot(k_xx=None, lambda_min=None, lambda_max=None, theta1=None, theta2=None)
-    view = view_of(nothing, Card(why_not="nobody told"), now_s=110.0)
+    words, view = view_of(nothing, Card(why_not="nobody told"), now_s=110.0)
     assert not view["is_valid"] and view["silent_s"] == 10.0
-    assert view["lengths_mm"] is view["knee_mm"] is view["relative_sigma"] is None
-    assert view["lengths_why"] == "nobody told"
+    assert words["lengths_mm"] is None and view["relative_sigma"] is None and view["theta_rad"][1] is None
+    assert words["lengths_why"] == "nobody told"
     assert view["k_n_per_mm"][0] is None
 
 
 def test_heartbeats_alone_make_a_limb() -> None:
     state = NodeState(heartbeat=Heartbeat(3, 100.0, "operational", "fault", ("sensor_femur",), 0), last_s=100.0)
-    view = limb_view(3, state, Card(), 100.0)
-    assert view["mode"] == "fault" and view["faults"][0]["name"] == "SENSOR_FEMUR" and not view["is_valid"]
+    words = limb_words(3, state, Card())
+    assert words["mode"] == "fault" and words["faults"][0]["name"] == "SENSOR_FEMUR"
+    assert not limb_numbers(3, state, Card(), 100.0)["is_valid"]
+
+
+def test_words_are_sent_again_where_they_changed_only(limb_file: Path) -> None:
+    feed = Feed(parse("tcp://nowhere:1"), 1_000_000)
+    first = snapshot()
+    state = feed.watch.nodes[3] = NodeState(snapshot=first, posture=first, last_s=first.time_s)
+    feed.cards[3] = card_of(load_limb(limb_file))
+    words, numbers = feed.messages()
+    state.posture = snapshot(k_xx=3.8)
+    same, others = feed.messages()
+    assert same is words and others != numbers
+    state.posture = snapshot(flags=())
+    assert "GAP_OPEN" in words and "GAP_OPEN" not in feed.messages()[0]
+    feed.trouble = "the connection is lost"
+    assert "the connection is lost" in feed.messages()[0]
 
 
 def test_who_cannot_be_asked_leaves_an_empty_card() -> None:
@@ -141,11 +158,11 @@ def test_the_page_in_a_browser(limb_file: Path, tmp_path: Path) -> None:
                       "--disable-component-update", "--no-first-run"],
             )
             page = browser.new_page(viewport={"width": 1280, "height": 900})
-            asked, wrong, updates = list[str](), list[str](), list[float]()
+            asked, wrong, updates = list[str](), list[str](), list[str]()
             page.on("request", lambda request: asked.append(request.url))
             page.on("console", lambda message: wrong.append(message.text))
             page.on("pageerror", lambda error: wrong.append(str(error)))
-            page.on("websocket", lambda one: one.on("framereceived", lambda _: updates.append(time.monotonic())))
+            page.on("websocket", lambda one: one.on("framereceived", lambda text: updates.append(str(text))))
             page.goto(address)
             for number in (1, 2):
                 drawn = f"article:nth-of-type({number}) .ellipse[d]"
@@ -161,4 +178,9 @@ def test_the_page_in_a_browser(limb_file: Path, tmp_path: Path) -> None:
             assert not wrong, wrong
             assert asked and all(url.startswith(address) for url in asked), asked
             assert len(updates) > 2
+            drawn = page.eval_on_selector(".links", "line => line.getAttribute('points')")
+            angles = next(json.loads(text)["numbers"][0]["theta_rad"] for text in updates[::-1] if "numbers" in text)
+            (knee_x, knee_z), (tip_x, tip_z) = planar_limb(load_limb(limb_file)).pose(*angles[1:])
+            corners = [float(number) for number in re.split("[ ,]", drawn)]
+            assert corners == pytest.approx([0.0, 0.0, knee_x, -knee_z, tip_x, -tip_z], abs=1.0)  # y points down
             browser.close()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import random
+from decimal import Decimal
 from pathlib import Path
 from typing import Any
 
@@ -145,6 +146,18 @@ def check_limits(field: Field, member: str, struct: Any, data: Any, layout: Layo
         limit = bound(value_of(field, code) for code in codes(field, random.Random(0))[:2])
         assert layout.decode(bytes(data))[field.name] == pytest.approx(limit)
     setattr(struct, member, 0)
+
+
+STEPS = {field.step for layout, _, _ in layouts() for field in layout.fields if field.kind == "value"}
+
+
+@pytest.mark.parametrize("step", sorted(STEPS))
+def test_a_value_has_no_more_digits_than_its_step(step: float) -> None:
+    """13 steps of 2e-05 are 0.00026: the double nearest to it, not 0.00026000000000000003."""
+    field = Field("x", 0, 24, kind="value", signed=True, step=step)
+    decode = field.decoder()
+    for code in [13, *codes(field, random.Random(7))]:
+        assert decode(code & 0xFFFFFF) == float(code * Decimal(str(step)))
 
 
 def test_the_frame_of_can_fd_is_one_in_its_database() -> None:

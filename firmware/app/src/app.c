@@ -363,6 +363,75 @@ static void watch_sensors(controller_t *controller)
     frozen_watch(&controller->frozen, &inputs);
 }
 
+/* What the jobs have done in a tick. */
+typedef struct {
+    bool may_work;        /* those that need a K of their own may work on it */
+    bool has_worked;      /* one of them has */
+    bool softening_works; /* none has, and the search for the buckling factor has waited for long: it is its turn */
+    bool has_factor;      /* of a limb in space under a load, so that there is a buckling factor to search for */
+} jobs_done_t;
+
+/* One step of each job. Those that need a K of their own take turns: one of them works on it in a tick, and none in a
+ * tick that has to tell process data whatever else there is. */
+static jobs_done_t step_jobs(brace_app_t *app, const brace_snapshot_t *snapshot)
+{
+    controller_t *controller = &app->controller;
+    const bool may_work = !wires_data_are_overdue(&app->wires), is_held = controller->ownership.is_held;
+    const question_inputs_t question = question_inputs(controller, may_work);
+    question_job_step(&controller->question, &question);
+    const bool question_has_worked = controller->question.has_worked;
+    const drift_inputs_t drift = drift_inputs(controller, may_work);
+    drift_job_step(&controller->drift, &drift); /* takes a reading in in the tick after the loading test's */
+    if (!is_held) {
+        takeup_step(&controller->takeup, &controller->flank);
+    }
+    const bool loading_has_worked =
+        !is_held && step_loading(controller, snapshot, may_work && !question_has_worked);
+    step_parameters(app);
+    const bool has_worked = question_has_worked || loading_has_worked;
+    const bool softening_works = softening_is_overdue(&controller->softening) && may_work && !has_worked;
+    controller->has_worked = has_worked || softening_works;
+    return (jobs_done_t){.may_work = may_work,
+                         .has_worked = has_worked,
+                         .softening_works = softening_works,
+                         .has_factor = controller->model.is_spatial && snapshot->load.is_counted};
+}
+
+/* Sensors and memory. A tick that works out a K beside its own, or may, leaves the sensors out and looks over less
+ * memory: proofs of a stuck sensor take a quarter of a second. */
+static void step_watches(controller_t *controller)
+{
+    const bool is_dear = controller->has_worked || softening_may_search(&controller->softening);
+    if (!is_dear) {
+        watch_sensors(controller);
+    }
+    step_guard(controller, is_dear);
+}
+
+/* What there is room for beside the jobs. returns whether a request has been answered, or process data have left */
+static bool answer_wires(brace_app_t *app, uint32_t now_us)
+{
+    controller_t *controller = &app->controller;
+    const bool is_spatial = controller->model.is_spatial;
+    const wires_room_t room = controller->has_worked                       ? (is_spatial ? WIRES_NONE : WIRES_ONE)
+                              : is_spatial && controller->drift.has_worked ? WIRES_ONE
+                                                                           : WIRES_ALL;
+    controller->ownership.is_by_wire = true;
+    const bool have_worked = wires_tick(&app->wires, controller->hal, app, &controller->counters, room, now_us);
+    controller->ownership.is_by_wire = false;
+    return have_worked;
+}
+
+/* The search for the buckling factor of a limb in space has the ticks that nothing else needs, or those it has waited
+ * for. */
+static void step_softening(controller_t *controller, const jobs_done_t *jobs, bool wires_have_worked)
+{
+    const bool is_quiet = !wires_have_worked && !question_job_is_asked(&controller->question);
+    softening_step(&controller->softening, &controller->model, &controller->parameters.in_force.limb,
+                   controller->posture.unbent_rad, jobs->has_factor,
+                   jobs->may_work && !jobs->has_worked && (jobs->softening_works || is_quiet));
+}
+
 static void update_faults(controller_t *controller, bool late, bool bus_off)
 {
     const joint_t *joint = controller->joints.joint;
@@ -453,30 +522,9 @@ void brace_app_tick(brace_app_t *app, uint32_t now_us)
     take_place(controller, snapshot);
     part_is_done(controller, PART_STIFFNESS);
 
-    /* One step of each job. Those that need a K of their own take turns: one of them works on it in a tick, and none
-     * in a tick that has to tell process data whatever else there is. */
-    const bool may_work = !wires_data_are_overdue(&app->wires);
-    const question_inputs_t question = question_inputs(controller, may_work);
-    question_job_step(&controller->question, &question);
-    const drift_inputs_t drift = drift_inputs(controller, may_work);
-    drift_job_step(&controller->drift, &drift); /* takes a reading in in the tick after the loading test's */
-    const bool is_held = controller->ownership.is_held;
-    if (!is_held) {
-        takeup_step(&controller->takeup, &controller->flank);
-    }
-    const bool loading_has_worked =
-        !is_held && step_loading(controller, snapshot, may_work && !controller->question.has_worked);
-    step_parameters(app);
-    const bool job_has_worked = controller->question.has_worked || loading_has_worked;
-    const bool is_counted_in_space = controller->model.is_spatial && snapshot->load.is_counted;
-    const bool softening_works = softening_is_overdue(&controller->softening) && may_work && !job_has_worked;
-    controller->has_worked = job_has_worked || softening_works;
-    const bool is_dear = controller->has_worked || softening_may_search(&controller->softening);
-    if (!is_dear) {
-        watch_sensors(controller); /* proofs take a quarter of a second, so dear ticks may be left out */
-    }
+    const jobs_done_t jobs = step_jobs(app, snapshot);
     part_is_done(controller, PART_JOBS);
-    step_guard(controller, is_dear);
+    step_watches(controller);
     part_is_done(controller, PART_GUARDED);
 
     /* Faults and mode, and what follows from them. */
@@ -487,16 +535,8 @@ void brace_app_tick(brace_app_t *app, uint32_t now_us)
 
     /* Tell. */
     publish(controller, snapshot);
-    controller->ownership.is_by_wire = true;
-    const bool is_spatial = controller->model.is_spatial;
-    const wires_room_t room = controller->has_worked                     ? (is_spatial ? WIRES_NONE : WIRES_ONE)
-                              : is_spatial && controller->drift.has_worked ? WIRES_ONE
-                                                                           : WIRES_ALL;
-    const bool wires_have_worked = wires_tick(&app->wires, hal, app, &controller->counters, room, now_us);
-    controller->ownership.is_by_wire = false;
-    const bool is_quiet = !wires_have_worked && !question_job_is_asked(&controller->question);
-    softening_step(&controller->softening, &controller->model, &parameters->limb, controller->posture.unbent_rad,
-                   is_counted_in_space, may_work && !job_has_worked && (softening_works || is_quiet));
+    const bool wires_have_worked = answer_wires(app, now_us);
+    step_softening(controller, &jobs, wires_have_worked);
     part_is_done(controller, PART_TOLD);
 
     /* A tick that left a part out, or did one twice, feeds no watchdog. */

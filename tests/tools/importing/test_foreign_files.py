@@ -64,11 +64,11 @@ def test_pounds_inches_and_a_turned_sign(brace: Brace, tmp_path: Path) -> None:
     """The sign is asked, never turned in silence; the mapping file is kept and holds for the next file."""
     paths = foreign.pounds_and_inches(tmp_path)
     refused = brace("import", *paths, "--out", tmp_path / "out", "--yes")
-    assert refused.code == 2 and "'load_x_lbf': is its sign turned?" in refused.err
+    assert refused.code == 2 and "'load_x_lbf': must its sign be turned?" in refused.err
     mapping = tmp_path / "mapping.toml"
     assert brace("import", *paths, "--draft", mapping).code == 0
     still = brace("import", *paths, "--mapping", mapping, "--out", tmp_path / "out")
-    assert still.code == 2 and "must be said first" in still.err
+    assert still.code == 2 and "2 open questions" in still.err
     mapping.write_text(mapping.read_text().replace('sign = "?"', "sign = -1"))
     done = brace("import", *paths, "--mapping", mapping, "--out", tmp_path / "out")
     assert done.code == 0, done.err
@@ -92,7 +92,7 @@ def test_units_that_nobody_says_are_asked(brace: Brace, tmp_path: Path) -> None:
     assert refused.code == 2
     for column in ("t", "dx", "dz", "fx", "fz"):
         assert f"'{column}': in which unit?" in refused.err
-    assert "deg by its size" in refused.err
+    assert "deg from the size of its entries" in refused.err
     brace("import", *paths, "--draft", mapping)
     text = mapping.read_text()
     for column, unit in (("t", "s"), ("dx", "mm"), ("dz", "mm"), ("fx", "N"), ("fz", "N")):

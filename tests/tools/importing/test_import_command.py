@@ -69,7 +69,7 @@ def test_a_file_without_names_is_asked_for_all_of_them(brace: Brace, tmp_path: P
     [
         (LOADING.replace("Fx [N]", "Fx [V]"), "V is what the instrument gives"),
         (LOADING.replace("Fx [N]", "Fx [dyn]"), "the unit 'dyn' is not known"),
-        (LOADING.replace("Fz [N]", "Fx [N]"), "'Fx [N]': what is it? (it may be fx_n"),
+        (LOADING.replace("Fz [N]", "Fx [N]"), "'Fx [N]': what is it? (it may be fx_n, and so may 'Fx [N]' (column"),
         (LOADING.replace("dz [mm]", "dy [mm]"), "x outwards and z up"),
         (LOADING.replace("theta2 [deg]", "angle [deg]"), "which joint's angle?"),
         (LOADING.replace("theta2 [deg]", "note"), "'note': what is it? (an angle of the posture?"),
@@ -77,7 +77,7 @@ def test_a_file_without_names_is_asked_for_all_of_them(brace: Brace, tmp_path: P
         (LOADING.replace("theta2", "interior knee angle"), "180 deg for a straight leg"),
         (LOADING.replace("theta1", "femur from vertical"), "an angle from the vertical"),
         (LOADING.replace("dz [mm]", "deflection down z [mm]"), "its name says down, and z is up"),
-        (LOADING.replace("Fz [N]", "Load down [N]"), "'Load down [N]': is its sign turned? its name says down"),
+        (LOADING.replace("Fz [N]", "Load down [N]"), "'Load down [N]': must its sign be turned? its name says down"),
         (LOADING.replace("theta2", "shank angle"), "the knee's angle, or the shank's own?"),
     ],
 )
@@ -108,7 +108,7 @@ def test_displacements_that_begin_elsewhere_are_asked_and_taken_off(brace: Brace
     r = Record()
     path = saved(tmp_path, loading(dx=shown(r["dx"] + 12.5)))
     outcome = brace("import", path, "--out", tmp_path / "out", "--yes")
-    assert outcome.code == 2 and "does its zero mean unloaded?" in outcome.err
+    assert outcome.code == 2 and "does 0 mean unloaded?" in outcome.err
     mapping = tmp_path / "m.toml"
     brace("import", path, "--draft", mapping)
     mapping.write_text(mapping.read_text().replace('relative = "?"', "relative = true"))
@@ -156,7 +156,7 @@ def test_a_knee_that_is_negative_throughout_is_asked(brace: Brace, tmp_path: Pat
     r = Record()
     path = saved(tmp_path, loading(theta2=shown(-r["theta2"])))
     asked = brace("import", path, "--out", tmp_path / "out", "--yes")
-    assert asked.code == 2 and "'theta2 [deg]': is its sign turned? all its entries are negative" in asked.err
+    assert asked.code == 2 and "'theta2 [deg]': must its sign be turned? all its entries are negative" in asked.err
     mapping = tmp_path / "m.toml"
     brace("import", path, "--draft", mapping)
     mapping.write_text(mapping.read_text().replace('sign = "?"', "sign = -1"))
@@ -168,7 +168,7 @@ def test_what_stands_open_in_a_mapping_is_named_without_empty_words(brace: Brace
     path = saved(tmp_path, loading(LOADING.replace("theta2 [deg]", "inner knee angle [deg]").replace(" [N]", "")))
     mapping = tmp_path / "m.toml"
     draft = brace("import", path, "--draft", mapping)
-    assert "theta2_rad" not in draft.err.split("to be said")[1].replace("is = theta2_rad", ""), "asked once"
+    assert "theta2_rad" not in draft.err.split("open question")[1].replace("is = theta2_rad", ""), "asked once"
     asked = brace("import", path, "--mapping", mapping, "--out", tmp_path / "out")
     assert asked.code == 2 and "()" not in asked.err and "go from \n" not in asked.err, asked.err
 
@@ -209,7 +209,7 @@ def test_a_joint_test(brace: Brace, tmp_path: Path) -> None:
         tmp_path, text(["Zeit [s];Winkel [\u00b0];Drehmoment [Nm]"], [*columns[:2], shown(-torque)], ";"), "t.csv"
     )
     asked = brace("import", turned, "--out", tmp_path / "out2", "--yes")
-    assert asked.code == 2 and "is its sign turned?" in asked.err
+    assert asked.code == 2 and "must its sign be turned?" in asked.err
 
 
 def test_a_table_of_k(brace: Brace, tmp_path: Path) -> None:
@@ -255,7 +255,7 @@ def test_questions_at_a_terminal(brace: Brace, tmp_path: Path, monkeypatch: pyte
     monkeypatch.setattr("sys.stdin", answers)
     done = brace("import", path, "--out", tmp_path / "out")
     assert done.code == 0, done.err
-    assert "'down' is not one of them" in done.err and "'pounds?' is no unit of this" in done.err
+    assert "'down' is not one of them" in done.err and "'pounds?' is not one of them" in done.err
     monkeypatch.setattr("sys.stdin", io.StringIO("dz_mm\nmm\nN\nn\n"))
     left = brace("import", path, "--out", tmp_path / "other")
     assert left.code == 2 and "nothing was written" in left.err and not (tmp_path / "other").exists()

@@ -101,7 +101,7 @@ def test_guesses_are_told_in_words_and_in_the_file(brace: Brace, tmp_path: Path)
     given = [text if text != "1.2 N m/deg" else "unknown" for text in TUBES]
     told = brace("new", "--out", out, *given)
     assert told.code == 0 and "joint.tibia: a servo of 60 N m/rad is a guess" in told.out
-    assert "play of femur and tibia: not said" in told.out and "trusted to 50 %" in told.out
+    assert "play of femur and tibia: not given" in told.out and "may be off by 50 %" in told.out
     text = out.read_text()
     assert "A GUESS" in text and "# gap_rad = 0.0" in text and "compliance_rel = 0.5" in text
 
@@ -116,7 +116,7 @@ def test_without_a_terminal_the_missing_options_are_named(brace: Brace, tmp_path
     ("option", "value", "words"),
     [
         ("--femur", "0.185", "185 if it was in metres"),
-        ("--femur", "185 parsec", "no unit of a length"),
+        ("--femur", "185 parsec", "not a unit of length"),
         ("--femur-link", "tube 16 20 aluminium", "not smaller than the outer"),
         ("--femur-link", "tube 0.02 0.016 aluminium", "if it was in metres"),
         ("--femur-link", "tube 20 16 alumium", "did you mean alumin"),
@@ -129,7 +129,7 @@ def test_without_a_terminal_the_missing_options_are_named(brace: Brace, tmp_path
         ("--femur-play", "20deg", "20arcmin"),
         ("--femur-play", "20,5arcmin", "point"),
         ("--femur-travel", ("-60", "90"), "in which unit"),
-        ("--femur-travel", ("90deg", "-60deg"), "low comes before high"),
+        ("--femur-travel", ("90deg", "-60deg"), "the smaller angle comes first"),
         ("--femur-travel", ("-60rad", "90rad"), "more than a turn"),
     ],
 )

@@ -40,7 +40,7 @@ static void flip_all_in(void *start, size_t bytes)
 {
     uint8_t *part = start;
     const brace_stiffness_t k = now()->stiffness.now;
-    const size_t apart = ON_SLOWEST_BOARD ? 111u : ON_BOARD ? 37u : 5u; /* odd: each bit of a word has its turn */
+    const size_t apart = ON_BOARD ? 111u : 5u; /* odd: each bit of a word has its turn */
     for (size_t i = 0; i < bytes * 8u; i += apart) {
         part[i / 8u] ^= (uint8_t)(1u << i % 8u);
         const bool seen = is_seen();

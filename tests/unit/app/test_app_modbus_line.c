@@ -99,6 +99,10 @@ static void test_everybody_obeys_and_nobody_answers(void)
     uint8_t pdu[] = {16, 0x40, 0, 0, 2, 4, 0xc0, 0xde, 0, 2};
     TEST_ASSERT_EQUAL(0, line_asks(0, pdu, sizeof pdu).count);
     TEST_ASSERT_EQUAL(BRACE_MODE_CONFIGURATION, app.controller.mode.now);
+    uint8_t first[] = {6, 0x40, 0, 0xc0, 0xde}, second[] = {6, 0x40, 1, 0, 1}; /* the way back, in two halves */
+    TEST_ASSERT_EQUAL(0, line_asks(0, first, sizeof first).count);
+    TEST_ASSERT_EQUAL(0, line_asks(0, second, sizeof second).count);
+    TEST_ASSERT_NOT_EQUAL(BRACE_MODE_CONFIGURATION, app.controller.mode.now);
 }
 
 static void test_a_line_that_takes_nothing_does_not_hold_it(void)

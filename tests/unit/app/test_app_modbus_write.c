@@ -5,7 +5,7 @@
 #include "modbus_master.h"
 
 enum { CONFIGURE = 16384, COMMIT = 16386, ROLLBACK = 16388, CLEAR = 16390, TAKE_UP = 16392, LET_GO = 16394,
-       ASKED = 16396 };
+       ASKED = 16396, END_TEST = 16464 };
 enum { TO_CONFIGURATION = 0, TO_MONITOR = 1 };
 static const uint32_t mode_word[] = {0xc0de0002u, 0xc0de0001u}, go = 0xc0de0001u;
 
@@ -201,6 +201,16 @@ static void test_a_store_that_fails_says_so_where_it_was_asked(void)
     TEST_ASSERT_NOT_EQUAL(150.0f, app.controller.parameters.in_force.limb.femur_mm);
 }
 
+/* An order to end a loading test ends none where none can run, and stores nothing. */
+static void test_an_order_to_end_a_test_is_nothing_else(void)
+{
+    refused(write_value(END_TEST, 0), 16, 1);
+    refused(write_value(END_TEST, 1), 16, 1);
+    configure();
+    refused(write_value(END_TEST, 1), 16, 1);
+    TEST_ASSERT_FALSE(brace_app_is_storing(&app));
+}
+
 static void test_k_at_a_posture(void)
 {
     const uint32_t posture[] = {bits(0.7f), bits(1.1f)};
@@ -393,6 +403,7 @@ int main(void)
     RUN_TEST(test_function_6_writes_a_value_in_two_halves_in_order);
     RUN_TEST(test_while_a_set_is_stored_the_answer_is_busy);
     RUN_TEST(test_a_store_that_fails_says_so_where_it_was_asked);
+    RUN_TEST(test_an_order_to_end_a_test_is_nothing_else);
     RUN_TEST(test_k_at_a_posture);
     RUN_TEST(test_a_posture_needs_both_angles_and_they_must_be_angles);
     RUN_TEST(test_k_at_a_tip_is_k_at_its_posture);

@@ -11,21 +11,13 @@
 
 enum { TICK_US = 1000 };
 
-/* An emulated board is slow. It has to show that its arithmetic agrees; where a test says so, hosts play more. */
+/* An emulated board is slow. It has to show that its arithmetic agrees and that its compiler, its library and its
+ * alignment change nothing. Each path of the code and each kind of input shows that once; where only the same is
+ * repeated, and a test says so, hosts do it more often. */
 #ifdef __arm__
 enum { ON_BOARD = 1, TIMES_ON_HOST = 1 };
 #else
 enum { ON_BOARD = 0, TIMES_ON_HOST = 4 };
-#endif
-
-/* A Cortex-M0+ multiplies long and divides by calls of a library: it takes three times as long as a Cortex-M3, which
- * runs the same fixed-point source. It has to show that its compiler, its library and its alignment change nothing. Each
- * path of the code and each kind of input shows that once; where only the same is repeated, the Cortex-M3 does it more
- * often. */
-#ifdef __ARM_ARCH_6M__
-enum { ON_SLOWEST_BOARD = 1 };
-#else
-enum { ON_SLOWEST_BOARD = 0 };
 #endif
 
 static brace_fake_t fake;

@@ -52,11 +52,12 @@ static void test_rows_are_flagged_as_the_controller_does(void)
     enum { FORCES = 60 };
     brace_loaded_stiffness_t rows[FORCES], single;
     float one_rad[FORCES], two_rad[FORCES], along_n[FORCES], up_n[FORCES];
-    uint32_t flagged = 0, plain = 0;
+    uint32_t flagged = 0, plain = 0, moved_only = 0;
     for (int i = 0; i < FORCES; i++) {
-        one_rad[i] = 0.3f, two_rad[i] = 0.6f;
-        along_n[i] = -4.0f * (float)(i % 30);
-        up_n[i] = i < 30 ? 0.0f : 0.5f * (float)(i % 30);
+        const bool is_pushed = i < 30; /* along a stretched limb; else a bent one is drawn out, which does not soften it */
+        one_rad[i] = is_pushed ? 0.3f : 0.5f, two_rad[i] = is_pushed ? 0.6f : 2.0f;
+        along_n[i] = is_pushed ? -4.0f * (float)i : 3.0f * (float)(i - 30);
+        up_n[i] = 0.0f;
     }
     (void)brace_loaded_batch(&loaded, &load, FORCES, one_rad, two_rad, along_n, up_n, rows);
     for (int i = 0; i < FORCES; i++) {
@@ -67,9 +68,11 @@ static void test_rows_are_flagged_as_the_controller_does(void)
                                     brace_loaded_flags(single.buckling_factor, x_mm * x_mm + z_mm * z_mm, 185.0f + 313.5f);
             TEST_ASSERT_EQUAL_HEX32(wanted, rows[i].stiffness.flags);
             flagged += wanted != 0u, plain += wanted == 0u;
+            moved_only += wanted != 0u && brace_loaded_flags(single.buckling_factor, 0.0f, 185.0f + 313.5f) == 0u &&
+                          single.stiffness.flags == 0u;
         }
     }
-    TEST_ASSERT_TRUE(flagged > 2u && plain > 2u);
+    TEST_ASSERT_TRUE(flagged > 2u && plain > 2u && moved_only > 2u);
 }
 
 int main(void)

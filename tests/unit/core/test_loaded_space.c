@@ -296,6 +296,12 @@ static void test_what_is_refused(void)
     TEST_ASSERT_EQUAL(BRACE_E_NOT_FINITE, status_at(NAN, 0.0f, &result));
     load.tip_n = (brace_vec3_t){-2000.0f, 0.0f, 0.0f}; /* far beyond what holds */
     TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, status_at(0.0f, 0.0f, &result));
+    load.tip_n = (brace_vec3_t){0.0f, 0.0f, 0.0f}; /* nothing yields across the plane */
+    limb.joint[BRACE_COXA].compliance_rad_per_n_mm = 0.0f;
+    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
+        limb.link[i].lateral_mm_per_n = limb.link[i].torsion_rad_per_n_mm = 0.0f;
+    }
+    TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, status_at(1.0f, 1.4f, &result));
     TEST_ASSERT_EQUAL_MEMORY(&untouched, &result, sizeof result);
 
     const brace_k3_t indefinite = {1.0f, 2.0f, 0.0f, 1.0f, 0.0f, 1.0f}, one = {1.0f, 0.0f, 0.0f, 1.0f, 0.0f, 1.0f};

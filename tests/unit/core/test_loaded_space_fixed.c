@@ -356,10 +356,12 @@ static void test_what_is_refused(void)
     TEST_ASSERT_EQUAL_MEMORY(&untouched, &result, sizeof result);
 
     const brace_k3_t indefinite = {1.0f, 2.0f, 0.0f, 1.0f, 0.0f, 1.0f}, one = {1.0f, 0.0f, 0.0f, 1.0f, 0.0f, 1.0f};
+    const brace_k3_t barely_indefinite = {1.0f, 1.01f, 0.0f, 1.0f, 0.0f, 1.0f};
     const brace_k3_t flat = {1.0f, 0.0f, 1.0f, 1.0f, 0.0f, 1.0f}, none = {NAN, 0.0f, 0.0f, 1.0f, 0.0f, 1.0f};
     brace_stiffness_spatial_t s;
     brace_stiffness_t plane;
     TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, brace_loaded_space_fixed_turn(0.0f, &indefinite, &s));
+    TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, brace_loaded_space_fixed_turn(0.0f, &barely_indefinite, &s));
     TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, brace_loaded_space_fixed_turn(0.0f, &none, &s));
     TEST_ASSERT_EQUAL(BRACE_E_RANGE, brace_loaded_space_fixed_turn(8.0f, &one, &s));
     TEST_ASSERT_EQUAL(BRACE_E_RANGE, brace_loaded_space_fixed_turn(7.95f, &one, &s));

@@ -626,6 +626,10 @@ static void test_what_is_refused_at_once(void)
     TEST_ASSERT_EQUAL(BRACE_OK, brace_store_begin(&store, &wrong, NULL));
     TEST_ASSERT_EQUAL(BRACE_E_UNSUPPORTED, brace_store_begin(&store, &wrong, NULL));
     TEST_ASSERT_EQUAL(BRACE_E_UNSUPPORTED, brace_store_rollback(&store));
+    wrong.sensor.gain = 0.0f; /* while it works, a store judges no other set */
+    index = 0;
+    TEST_ASSERT_EQUAL(BRACE_E_UNSUPPORTED, brace_store_begin(&store, &wrong, &index));
+    TEST_ASSERT_EQUAL(0, index);
     TEST_ASSERT_EQUAL(BRACE_STORE_DONE, finish());
 }
 

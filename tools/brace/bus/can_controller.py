@@ -53,7 +53,7 @@ class CanController:
         version = f"{answer['major']}.{answer['minor']}.{answer['patch']}"
         check_dictionary(answer["dictionary_hash"], self.session.where, version)
         self._schema_hash = answer["schema_hash"]
-        origin = PARAMETER_ORIGIN.name_of(int(answer["origin"] or 0)).lower()
+        origin = PARAMETER_ORIGIN.word_of(int(answer["origin"] or 0))
         return Identity(self.node, version, answer["dictionary_hash"], answer["parameter_crc"], origin)
 
     def identify(self) -> Identity:
@@ -179,7 +179,7 @@ class CanController:
 
     def _set_mode(self, mode: str) -> None:
         answer = self.session.ask("set_mode", {"mode": _MODES[mode], "key": KEY})
-        now = MODE.name_of(int(answer["mode"] or 0)).lower()
+        now = MODE.word_of(int(answer["mode"] or 0))
         if (now == "configuration") != (mode == "configuration"):
             raise DeviceFaultError(
                 f"the controller is in {now}, not in {mode}",

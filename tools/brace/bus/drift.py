@@ -73,15 +73,15 @@ def drift_of(values: Mapping[str, Value], prefix: str = "", ratio: str = "") -> 
     """From the fields of an answer, or from measured values, whose names have a prefix and end in their unit."""
     numbers = {name: int(values[prefix + name] or 0) for name in ("state", "cause", "could_be", "next_step")}
     return Drift(
-        DRIFT_STATE.name_of(numbers["state"]).lower(),
-        DRIFT_CAUSE.name_of(numbers["cause"]).lower(),
+        DRIFT_STATE.word_of(numbers["state"]),
+        DRIFT_CAUSE.word_of(numbers["cause"]),
         tuple(name.lower() for name in DRIFT_COULD_BE.names_of_bits(numbers["could_be"])),
         values[f"{prefix}evidence"],
         values[f"{prefix}loss{ratio}"],
         values[f"{prefix}loss_sigma{ratio}"],
         int(values[f"{prefix}since_readings"] or 0),
         int(values[f"{prefix}readings"] or 0),
-        DRIFT_NEXT_STEP.name_of(numbers["next_step"]).lower(),
+        DRIFT_NEXT_STEP.word_of(numbers["next_step"]),
     )
 
 
@@ -92,7 +92,7 @@ def cause_text(cause: str) -> str:
 
 def take_up_of(number: int) -> str:
     """A take-up's outcome by its number."""
-    return TAKE_UP_OUTCOME.name_of(number).lower()
+    return TAKE_UP_OUTCOME.word_of(number)
 
 
 def take_up_lines(take_ups: Mapping[str, str]) -> list[str]:

@@ -521,7 +521,7 @@ def _decoded(registers: Sequence[Register], words: Sequence[int]) -> dict[str, V
 def _name(name: str, values: Mapping[str, Value]) -> str:
     code = int(values[name] or 0)
     table = _ENTRIES[name].codes
-    return str(code) if table is None else table.name_of(code).lower()
+    return str(code) if table is None else table.word_of(code)
 
 
 def _bits(name: str, values: Mapping[str, Value]) -> tuple[str, ...]:

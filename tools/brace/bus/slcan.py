@@ -17,8 +17,12 @@ from typing import Protocol
 from brace.bus.frame import Frame
 from brace.bus.url import BusUrl
 from brace.errors import NoDeviceError, UsageError
+from brace.wire.names import PARAMETERS
 
 BIT_RATES = {10000: 0, 20000: 1, 50000: 2, 100000: 3, 125000: 4, 250000: 5, 500000: 6, 800000: 7, 1000000: 8}
+CONTROLLER_BIT_RATES = sorted(
+    next(each.numbers for each in PARAMETERS if each.key == "controller.can_bit_rate"), reverse=True
+)
 CONNECT_S = 1.0
 ANSWER_S = 0.7
 SYNC_S = 0.4
@@ -129,13 +133,18 @@ class SlcanBus:
                     return (
                         f"the adapter sees errors on the bus ({said}): another bit rate "
                         f"than {self.bit_rate} bit/s, or the wiring",
-                        "--bit-rate 500000, 250000 or 125000; or check wires and both 120 ohm ends",
+                        f"--bit-rate {self._others()}; or check wires and both 120 ohm ends",
                     )
         return (
-            f"the adapter answers, and nothing is on the bus at {self.bit_rate} " f"bit/s",
+            f"the adapter answers, and nothing is on the bus at {self.bit_rate} bit/s",
             "check the controller's power and wiring; one whose node_id is 0 sends nothing by "
             "itself (--node 0 asks it)",
         )
+
+    def _others(self) -> str:
+        """The rates that a controller may have, without the one that was tried."""
+        *most, least = (rate for rate in CONTROLLER_BIT_RATES if rate != self.bit_rate)
+        return f"{', '.join(map(str, most))} or {least}"
 
     def close(self) -> None:
         """Closes channel and line."""

@@ -20,10 +20,7 @@ _STIFFNESS_A, _STIFFNESS_B = MESSAGES["stiffness_a"], MESSAGES["stiffness_b"]
 _EIGENVALUES, _POSTURE = MESSAGES["eigenvalues"], MESSAGES["posture"]
 _WHOLE = FD_MESSAGES["snapshot_fd"]
 _SPACE_FD = FD_MESSAGES["space_fd"]
-_SPACE = MULTIPLEXED["space"]  # its parts
 _LOAD_FD = FD_MESSAGES["load_fd"]
-_LOAD = MULTIPLEXED["load"]
-_ACROSS = MULTIPLEXED["load_across"]
 
 
 class Snapshot(NamedTuple):
@@ -115,12 +112,22 @@ class Emergency:
 
 @dataclass
 class _Parts:
-    """Frames of one message that carry one number."""
+    """Frames of one message that carry one number. They are decoded where a snapshot wants them."""
 
+    layouts: tuple[Layout, ...]
     time_s: float  # of the first
-    sequence: Value
-    values: dict[str, Value] = field(default_factory=dict)
-    parts: set[int] = field(default_factory=set)
+    sequence: int
+    parts: dict[int, bytes] = field(default_factory=dict)
+
+    @property
+    def is_whole(self) -> bool:
+        return len(self.parts) == len(self.layouts)
+
+    def values(self) -> dict[str, Value]:
+        found: dict[str, Value] = {}
+        for part, data in self.parts.items():
+            found |= self.layouts[part].decode(data)
+        return found
 
 
 class Joiner:
@@ -136,7 +143,7 @@ class Joiner:
         self._sends_across: set[int] = set()  # the load across the plane, too
         self._whole_alone: dict[int, int] = {}  # of CAN FD: how many have come since K in space did
         self.unmatched = 0  # snapshots some of whose frames never came
-        takers: list[tuple[Layout, Callable[[Frame], Snapshot | None]]] = [
+        takers: list[tuple[Layout, Callable[[int, Frame], Snapshot | None]]] = [
             (_STIFFNESS_A, self._take_stiffness_a),
             (_STIFFNESS_B, self._join_stiffness),
             (_EIGENVALUES, self._take_eigenvalues),
@@ -152,10 +159,11 @@ class Joiner:
         """The snapshot that this frame completes or adds to: first with K alone, then, where they are sent, with K in
         space, with its load, and with eigenvalues and posture. Over CAN FD one frame has all of it but K in space and
         the load."""
-        taker = self._takers.get(frame.identifier & ~NODE_MASK)
-        if taker is None or len(frame.data) != taker[0] or frame.node == 0:
+        message, node = frame.identifier & ~NODE_MASK, frame.identifier & NODE_MASK
+        taker = self._takers.get(message)
+        if taker is None or len(frame.data) != taker[0] or node == 0:
             return None
-        return taker[1](frame)
+        return taker[1](node, frame)
 
     def is_complete(self, snapshot: Snapshot) -> bool:
         """Has all of it come that this node sends? Over CAN FD, K in space comes behind the rest."""
@@ -164,31 +172,30 @@ class Joiner:
         may_follow = self._whole_alone.get(snapshot.node, 0) == 1
         return snapshot.node not in self._sends_space and not may_follow
 
-    def _take_stiffness_a(self, frame: Frame) -> None:
-        self._seen.add(frame.node)
-        self.unmatched += frame.node in self._stiffness_a
-        self._stiffness_a[frame.node] = frame
+    def _take_stiffness_a(self, node: int, frame: Frame) -> None:
+        self._seen.add(node)
+        self.unmatched += node in self._stiffness_a
+        self._stiffness_a[node] = frame
 
-    def _take_eigenvalues(self, frame: Frame) -> None:
-        self._eigenvalues[frame.node] = frame
+    def _take_eigenvalues(self, node: int, frame: Frame) -> None:
+        self._eigenvalues[node] = frame
 
-    def _take_whole(self, frame: Frame) -> Snapshot:
-        self._whole_alone[frame.node] = self._whole_alone.get(frame.node, 0) + 1
-        self._newest[frame.node] = _whole(frame)
-        return self._newest[frame.node]
+    def _take_whole(self, node: int, frame: Frame) -> Snapshot:
+        self._whole_alone[node] = self._whole_alone.get(node, 0) + 1
+        self._newest[node] = _whole(frame)
+        return self._newest[node]
 
-    def _take_space_fd(self, frame: Frame) -> Snapshot | None:
+    def _take_space_fd(self, node: int, frame: Frame) -> Snapshot | None:
         values = _SPACE_FD.decode(frame.data)
-        self._sends_space.add(frame.node)
-        self._whole_alone[frame.node] = 0
-        return self._add_space(frame.node, frame.time_s, int(values["sequence"] or 0) & 0xFF, values)
+        self._sends_space.add(node)
+        self._whole_alone[node] = 0
+        return self._add_space(node, frame.time_s, int(values["sequence"] or 0) & 0xFF, values)
 
-    def _take_load_fd(self, frame: Frame) -> Snapshot | None:
+    def _take_load_fd(self, node: int, frame: Frame) -> Snapshot | None:
         values = _LOAD_FD.decode(frame.data)
-        return self._add_load(frame.node, frame.time_s, int(values["sequence"] or 0) & 0xFF, values, "load")
+        return self._add_load(node, frame.time_s, int(values["sequence"] or 0) & 0xFF, values, "load")
 
-    def _join_stiffness(self, frame: Frame) -> Snapshot | None:
-        node = frame.node
+    def _join_stiffness(self, node: int, frame: Frame) -> Snapshot | None:
         first = self._stiffness_a.pop(node, None)
         if first is None or not _fit(first, frame):
             self.unmatched += node in self._seen  # we may have come between the two
@@ -208,13 +215,10 @@ class Joiner:
         )
         # they came before: their identifiers are the lower ones
         self._join_load(node, adds="stiffness")
-        space = self._parts.get(("space", node))
-        if space is not None and len(space.parts) == len(_SPACE):
-            self._add_space(node, space.time_s, space.sequence, space.values)
+        self._join_space(node)
         return self._newest[node]
 
-    def _join_posture(self, frame: Frame) -> Snapshot | None:
-        node = frame.node
+    def _join_posture(self, node: int, frame: Frame) -> Snapshot | None:
         first = self._eigenvalues.pop(node, None)
         newest = self._of_newest(node, frame.time_s, frame.data[0])
         if newest is None or newest.has_posture or first is None or not _fit(first, frame):
@@ -233,55 +237,59 @@ class Joiner:
         )
         return self._newest[node]
 
-    def _take_part(self, message: str, frame: Frame) -> Snapshot | None:
+    def _take_part(self, message: str, node: int, frame: Frame) -> Snapshot | None:
         """One of the frames that carry K in space, the load, or the load across, together."""
         layouts = MULTIPLEXED[message]
-        part = frame.data[layouts[0].part_at // 8]
+        sequence, part = frame.data[0], frame.data[layouts[0].part_at // 8]
         if part >= len(layouts):
             return None
-        values = layouts[part].decode(frame.data)
         if message == "space":
-            self._sends_space.add(frame.node)
+            self._sends_space.add(node)
         if message == "load_across":
-            self._sends_across.add(frame.node)
-        begun = self._parts.get((message, frame.node))
-        fits = (
-            begun is not None
-            and begun.sequence == values["sequence"]
-            and abs(frame.time_s - begun.time_s) <= PAIR_S
-        )
-        if begun is None or not fits:
-            if begun is not None and 0 in begun.parts and len(begun.parts) < len(layouts):
+            self._sends_across.add(node)
+        begun = self._parts.get((message, node))
+        if begun is None or begun.sequence != sequence or abs(frame.time_s - begun.time_s) > PAIR_S:
+            if begun is not None and 0 in begun.parts and not begun.is_whole:
                 self.unmatched += 1
             if message == "load" and begun is not None:
-                self._forget_across(frame.node, begun, values["sequence"])
-            begun = self._parts[message, frame.node] = _Parts(frame.time_s, values["sequence"])
-        begun.parts.add(part)
-        begun.values |= values
-        if len(begun.parts) < len(layouts):
+                self._forget_across(node, begun, sequence)
+            begun = self._parts[message, node] = _Parts(layouts, frame.time_s, sequence)
+        begun.parts[part] = frame.data
+        if not begun.is_whole:
             return None
         if message == "space":
-            return self._add_space(frame.node, begun.time_s, begun.sequence, begun.values)
-        return self._join_load(frame.node)
+            return self._join_space(node)
+        return self._join_load(node)
 
-    def _forget_across(self, node: int, load: _Parts, next_sequence: Value) -> None:
+    def _forget_across(self, node: int, load: _Parts, next_sequence: int) -> None:
         """A node that has sent a load without what is across does not send that any more: its coxa joint is gone."""
         across = self._parts.get(("load_across", node))
-        is_whole = len(load.parts) == len(_LOAD)
-        if is_whole and across is not None and across.sequence not in (load.sequence, next_sequence):
+        if load.is_whole and across is not None and across.sequence not in (load.sequence, next_sequence):
             self._sends_across.discard(node)
 
     def _join_load(self, node: int, adds: str = "load") -> Snapshot | None:
         """The load, and with it what is across the plane where the node sends that."""
-        load, across = (self._parts.get((message, node)) for message in ("load", "load_across"))
-        if load is None or len(load.parts) < len(_LOAD):
+        load = self._whole_of_newest("load", node)
+        if load is None:
             return None
-        values = load.values
-        if across is not None and len(across.parts) == len(_ACROSS) and across.sequence == load.sequence:
-            values = across.values | load.values
+        across = self._parts.get(("load_across", node))
+        values = load.values()
+        if across is not None and across.is_whole and across.sequence == load.sequence:
+            values = across.values() | values
         elif node in self._sends_across:
             return None
         return self._add_load(node, load.time_s, load.sequence, values, adds)
+
+    def _join_space(self, node: int) -> Snapshot | None:
+        space = self._whole_of_newest("space", node)
+        return None if space is None else self._add_space(node, space.time_s, space.sequence, space.values())
+
+    def _whole_of_newest(self, message: str, node: int) -> _Parts | None:
+        """What has come of a message, if it is whole and of the newest snapshot."""
+        parts = self._parts.get((message, node))
+        if parts is None or not parts.is_whole or self._of_newest(node, parts.time_s, parts.sequence) is None:
+            return None
+        return parts
 
     def _add_load(
         self, node: int, time_s: float, sequence: Value, values: Mapping[str, Value], adds: str
@@ -370,7 +378,7 @@ def emergency_of(frame: Frame) -> Emergency | None:
 
 def name_of(layout: Layout, field: str, values: Mapping[str, Value]) -> str:
     """A number's meaning."""
-    return layout.codes_of(field).name_of(int(values[field] or 0)).lower()
+    return layout.codes_of(field).word_of(int(values[field] or 0))
 
 
 def bit_names(layout: Layout, field: str, values: Mapping[str, Value]) -> tuple[str, ...]:

@@ -81,5 +81,5 @@ def space_snapshot(values: Mapping[str, Value], prefix: str = "") -> SpaceSnapsh
         tuple(values[f"{prefix}stiff_axis_{name}"] for name in _AXES),
         values["theta0"],
         values["k_across"],
-        PLAY.name_of(int(values["play_coxa"] or 0)).lower(),
+        PLAY.word_of(int(values["play_coxa"] or 0)),
     )

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter, deque
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from operator import attrgetter
 
 from brace.bus.controller import check_dictionary
 from brace.bus.frame import NODE_MASK, Frame
@@ -13,6 +14,7 @@ from brace.wire.frames import FD_MESSAGES, MESSAGES
 
 RATE_S = 2.0
 _READ = {MESSAGES["heartbeat"].identifier: heartbeat_of, MESSAGES["emergency"].identifier: emergency_of}
+_IDENTIFIER = attrgetter("identifier")
 _ENDS_K = (MESSAGES["stiffness_b"].identifier, FD_MESSAGES["snapshot_fd"].identifier)
 
 Event = Snapshot | Heartbeat | Emergency
@@ -65,7 +67,7 @@ class Watch:
 
     def add(self, frame: Frame) -> Event | None:
         """What the frame tells or completes. VersionMismatchError when a node speaks another dictionary."""
-        node = frame.node
+        node = frame.identifier & NODE_MASK
         if node == 0 or (self._only is not None and node != self._only):
             return None
         event: Event | None = _READ.get(frame.identifier & ~NODE_MASK, self.joiner.add)(frame)
@@ -77,6 +79,8 @@ class Watch:
         self.first_s = self.first_s or frame.time_s
         state.last_s = self.last_s = frame.time_s
         state.frames += 1
+        if event is None:
+            return None
         if isinstance(event, Snapshot):
             self.take(state, event)
         elif isinstance(event, Heartbeat):
@@ -90,7 +94,7 @@ class Watch:
     def count(self, frames: Sequence[Frame]) -> None:
         """Frames whose content nobody needs, in their order: they count for how often K comes."""
         times_s = {frame.identifier: frame.time_s for frame in frames}  # of the newest
-        for identifier, number in Counter(frame.identifier for frame in frames).items():
+        for identifier, number in Counter(map(_IDENTIFIER, frames)).items():
             state = self.nodes.get(identifier & NODE_MASK)
             if state is None:  # `add` has not let it in
                 continue

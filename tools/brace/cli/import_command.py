@@ -29,13 +29,10 @@ def add(commands: Subcommands) -> None:
         "import",
         help=SUBCOMMANDS["import"],
         description="Finds the tables in the files, says what each column seems to be, asks for what it cannot know, "
-        "and "
-        "writes a dataset in our units. Without a terminal nothing is asked: --draft writes the mapping with a ? for "
-        "each "
-        "open point, --mapping takes it back, --yes takes a table that has none.",
-        epilog="Exit codes: 0 written, 2 something has to be said first (the table is printed), 3 a file cannot be "
-        "read, or "
-        "what it says cannot be of a limb.",
+        "and writes a dataset in our units. Without a terminal nothing is asked: --draft writes the mapping with a ? "
+        "for each open question, --mapping reads the answers, --yes accepts a table without open questions.",
+        epilog="Exit codes: 0 written, 2 a question is open (the table is printed), 3 a file cannot be read, or no "
+        "limb has such values.",
     )
     parser.add_argument(
         "files", type=common.path, nargs="+", metavar="FILE", help="text with columns, .xlsx, a log (candump -l, MCAP)"
@@ -43,7 +40,7 @@ def add(commands: Subcommands) -> None:
     parser.add_argument("--out", type=common.path, metavar="DIR", help="folder of the dataset")
     parser.add_argument("--mapping", type=common.path, metavar="FILE.toml", help="what each column is; made by --draft")
     parser.add_argument("--draft", type=common.path, metavar="FILE.toml", help="write the mapping as guessed, and end")
-    parser.add_argument("--yes", action="store_true", help="take the table as shown, if nothing in it is open")
+    parser.add_argument("--yes", action="store_true", help="accept the table as shown, if no question is open")
     parser.add_argument("--kind", choices=KINDS, help="the kind of record; default: by the columns")
     parser.add_argument(
         "--set", type=_constant, action="append", default=[], metavar="[FILE:]NAME=VALUE",
@@ -175,7 +172,7 @@ def _open(table: MappingTable, arguments: argparse.Namespace) -> UsageError:
             "mapping.toml",
         )
     return UsageError(
-        f"{len(questions)} point{'s' if len(questions) > 1 else ''} of the table above must be said first",
+        f"the table above has {len(questions)} open question{'s' if len(questions) > 1 else ''}",
         where=str(arguments.mapping or ""),
         why=questions[0],
         next_step=f"answer each ? in {name}"

@@ -56,7 +56,7 @@ def _unit(prompt: str, quantity: str) -> str:
         unit = unit_of(text)
         if unit is not None and unit.quantity == quantity:
             return unit.text
-        sys.stderr.write(f"  {text!r} is no unit of this\n")
+        sys.stderr.write(f"  {text!r} is not one of them\n")
 
 
 def _column(use: ColumnUse, kind: str) -> ColumnUse:
@@ -73,7 +73,7 @@ def _column(use: ColumnUse, kind: str) -> ColumnUse:
         use = replace(use, sign="-1" if _choice("Turn its sign?", ["yes", "no"]) == "yes" else "1")
     if use.used and use.relative == OPEN:
         sys.stderr.write(f"{use.questions[-1]}\n")
-        use = replace(use, relative=_choice("Take each run's first entry off?", ["yes", "no"]))
+        use = replace(use, relative=_choice("Subtract each run's first entry?", ["yes", "no"]))
     return use
 
 

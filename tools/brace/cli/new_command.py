@@ -44,7 +44,7 @@ def add(commands: Subcommands) -> None:
         "says which "
         "K to expect, how far it may be off, and what is only a guess. Without a terminal nothing is asked. "
         f"A link is {LINK_FORMS}. A joint is its stiffness in N m/rad, rigid, or unknown.",
-        epilog="Exit codes: 0 written, 2 something is missing or cannot be, 3 the URDF cannot be read.",
+        epilog="Exit codes: 0 written, 2 something is missing or not possible, 3 the URDF cannot be read.",
     )
     parser.add_argument("--out", type=common.path, required=True, metavar="LIMB.toml", help="the file to write")
     parser.add_argument("--name", metavar="NAME", help="default: the file's name")
@@ -137,10 +137,12 @@ def _check(arguments: argparse.Namespace, name: str, text: str) -> object:
         if pair[0].lower() == "unknown":
             return None
         if len(pair) != 2:
-            raise quantity.refusal(f"{text!r} is no range", "it is two angles", "-60deg 90deg")
+            raise quantity.refusal(f"{text!r} is not a range", "a range is two angles", "-60deg 90deg")
         low, high = (quantity.angle_rad(end) for end in pair)
         if not low < high:
-            raise quantity.refusal(f"{' '.join(pair)} is no range", "low comes before high", f"{pair[1]} {pair[0]}")
+            raise quantity.refusal(
+                f"{' '.join(pair)} is not a range", "the smaller angle comes first", f"{pair[1]} {pair[0]}"
+            )
         return low, high
     except UsageError as error:
         raise _naming(name, error) from None
@@ -186,7 +188,7 @@ def _expected(known: Known, model: object) -> dict[str, object]:
         found = limb.stiffness(np.array([theta1]), np.array([theta2]))
     except PostureError as error:
         raise UsageError(
-            "this limb does not yield in every direction: it has no K",
+            "this limb is rigid in some direction: its K there is infinite",
             why=error.text,
             next_step="a stiffness for the joints, or 'measured BENDING AXIAL' for a link",
         ) from None
@@ -205,11 +207,11 @@ def _text(known: Known, told: dict[str, object]) -> str:
         for entry in ("xx", "xz", "zz")
     ]
     return (
-        f"{known.name}: at theta1 = {told['theta1_rad']:.3g}, theta2 = {told['theta2_rad']:.3g} rad expect K [N/mm] "
-        f"{', '.join(entries)} (one sigma; compliances are trusted to {rel:.0f} %)"
+        f"{known.name}: expect this K [N/mm] at theta1 = {told['theta1_rad']:.3g} rad, theta2 = "
+        f"{told['theta2_rad']:.3g} rad: {', '.join(entries)} (one sigma: compliances may be off by {rel:.0f} %)"
         + (
             "".join(
-                f"\n  while the play of the {name} is open, K is smaller: brace k tells"
+                f"\n  while the play of the {name} is open, K is smaller: brace k tells how much"
                 for name in known.plays_rad
                 if known.plays_rad[name]
             )

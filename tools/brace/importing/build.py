@@ -80,7 +80,7 @@ def _conversions(mapping: MappingTable) -> dict[str, str]:
             offset = use.offset + unit.offset
             text += f", plus {offset:.12g}" if offset else ""
         if use.relative == "yes":
-            text += ", less the first entry of each run"
+            text += ", minus the first entry of each run"
         for target in use.targets:
             place = f" of {use.file}" if use.file else ""
             told[target] = f"{told[target]}; {text}{place}" if target in told else text + place
@@ -109,7 +109,7 @@ def _converted(part: Part, mapping: MappingTable, notes: list[str]) -> Table:
             raise BadFileError(
                 f"column {name!r} is not in the mapping",
                 where=part.where,
-                why="a column that nobody has spoken of may be a force",
+                why="each column must be in it: this one may be a force",
                 next_step='add a [[column]] for it; is = "ignore" leaves it out',
             )
         if not use.used:
@@ -138,7 +138,7 @@ def _converted(part: Part, mapping: MappingTable, notes: list[str]) -> Table:
             "no row can be read",
             where=part.where,
             why="; ".join(f"{reason} ({count} rows)" for reason, count in reasons.most_common(3)),
-            next_step="is the right column mapped? The mapping may call it ignore",
+            next_step="is the right column mapped? is = \"ignore\" leaves a column out",
         )
     if bad.any():
         told = "; ".join(f"{reason} ({count})" for reason, count in reasons.most_common(4))
@@ -228,7 +228,7 @@ def _stacked(tables: Sequence[Table], mapping: MappingTable, notes: list[str]) -
                     if each
                 ]
             )
-            notes.append("t_s is counted: row number times dwell_s")
+            notes.append("there is no time: t_s is the row number times dwell_s")
         if "temp_degc" in out and np.isnan(out["temp_degc"]).any():
             notes.append("temp_degc is left out: it is not there in every row")
             del out["temp_degc"]

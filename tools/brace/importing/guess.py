@@ -100,16 +100,16 @@ def _unit(name: names.Name, quantity: str, values: np.ndarray, label: str) -> tu
     if name.unit is not None and name.unit.quantity == quantity:
         return name.unit.text, ""
     if name.unit is not None:
-        return OPEN, f"{name.unit_text!r} is no unit of this"
+        return OPEN, f"{name.unit_text!r} is not a unit of {quantity}"
     if name.unit_text.lower() in RAW:
         return OPEN, f"{name.unit_text} is what the instrument gives: convert it to {OWN[quantity]} in your file first"
     if name.unit_text:
         return OPEN, f"the unit {name.unit_text!r} is not known"
     if quantity == "temperature" and values.size:
         if -30.0 <= values.min() and values.max() <= 60.0:
-            return "degC", "name; degC by its size"
+            return "degC", "name; degC from the size of its entries"
         if 230.0 <= values.min() and values.max() <= 350.0:
-            return "K", "name; K by its size"
+            return "K", "name; K from the size of its entries"
     return OPEN, ""
 
 
@@ -121,7 +121,7 @@ def _axis_column(use: ColumnUse, cells: Sequence[str]) -> ColumnUse:
         return replace(use, values=turned, span=", ".join(texts))
     return replace(
         use, targets=(OPEN,), span=", ".join(texts[:6]),
-        why=f"an axis column with {', '.join(texts[:4])}: say is = \"axis\" and which is x and which z in values",
+        why=f"an axis column with {', '.join(texts[:4])}: say is = \"axis\", and in values which are x and which z",
     )  # fmt: skip
 
 
@@ -147,8 +147,10 @@ def _without_rivals(columns: list[ColumnUse], part: Part, kind: str) -> list[Col
                         columns[at], targets=(IGNORE,), why=f"{columns[wanted[0]].name!r} is the {target}"
                     )
                 continue
-            others = ", ".join(repr(columns[other].name) for other in rivals if other != at)
-            changed[at] = replace(columns[at], targets=(OPEN,), why=f"it may be {target}, as {others} may")
+            others = ", ".join(
+                f"{columns[other].name!r} (column {columns[other].number})" for other in rivals if other != at
+            )
+            changed[at] = replace(columns[at], targets=(OPEN,), why=f"it may be {target}, and so may {others}")
     return changed
 
 
@@ -171,7 +173,7 @@ def _angles_by_size(columns: list[ColumnUse], layout: Sequence[Part]) -> list[Co
     changed = list(columns)
     for at in places:
         if unit != OPEN:
-            changed[at] = replace(columns[at], unit=unit, why=f"name; {unit} by its size")
+            changed[at] = replace(columns[at], unit=unit, why=f"name; {unit} from the size of its entries")
     return changed
 
 
@@ -306,7 +308,7 @@ def _ask(target: str) -> str:
         "theta1_rad": "at which femur angle (from +x) was it measured?",
         "theta2_rad": "at which knee angle (0 is straight) was it measured?",
         "axis": "along which axis was the tip moved, x (outwards) or z (up)?",
-        "dwell_s": "the file has no time: how far are readings apart?",
+        "dwell_s": "the file has no time: how much time is between two readings?",
     }.get(target, "")
 
 

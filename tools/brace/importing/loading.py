@@ -46,9 +46,9 @@ def assembled(tables: Sequence[Table], mapping: MappingTable, notes: list[str]) 
     if "temp_degc" in joined:
         joined["temp_degc"] = _held_temperature(joined["temp_degc"], notes)
     else:
-        notes.append("no temperature was recorded: nothing will be said of its effect")
+        notes.append("no temperature was recorded: its effect cannot be judged")
     if rep.max() == 1:
-        notes.append("no run was repeated: noise is judged by smoothness alone")
+        notes.append("no run was repeated: the noise is estimated from how smooth each run is")
     for axis, name in ((0, "fx_n"), (1, "fz_n")):
         unread = np.isnan(joined[name])
         if unread.all():
@@ -60,7 +60,7 @@ def assembled(tables: Sequence[Table], mapping: MappingTable, notes: list[str]) 
     if weights or _moves_across(joined, run):
         extra["rig"] = {"moved_by": "weights" if weights else "motors"}
         if not weights:
-            notes.append("the tip moves across its axis too: the record says so (moved_by in meta.toml)")
+            notes.append("the tip also moves across the axis of its run: meta.toml says so (moved_by)")
     if _zeroed(joined, starts):
         extra["zeroed"] = "per_run"
         notes.append('every run\'s first force is 0: taken as zeroed before each run (zeroed = "per_run")')
@@ -130,7 +130,7 @@ def _piece(table: Table, mapping: MappingTable, notes: list[str]) -> Columns:
         out["temp_degc"] = np.full(rows, _constant(table, mapping, "temp_degc"))
     out["t_s"] = columns["t_s"] if "t_s" in columns else _constant(table, mapping, "dwell_s") * np.arange(rows)
     if "t_s" not in columns:
-        notes.append(f"{table.part.path.name}: t_s is counted, row number times dwell_s")
+        notes.append(f"{table.part.path.name}: there is no time; t_s is the row number times dwell_s")
     given = np.zeros(rows, bool)
     given[0] = True
     for name in ("run", "rep", "config"):
@@ -192,9 +192,10 @@ def _constant(table: Table, mapping: MappingTable, target: str) -> float:
         }.get(target, f"--set {target}=VALUE")  # fmt: skip
         what = {"dwell_s": "time between readings"}.get(target, target)
         raise BadFileError(
-            f"no column and no constant is the {what}",
+            f"the {what} is not given",
             where=table.part.where,
-            why="K depends on the posture" if "theta" in target else "creep, drift and friction follow the time",
+            why="no column holds it, and "
+            + ("K depends on the posture" if "theta" in target else "creep, drift and friction follow the time"),
             next_step=f"{ask}, or a [[constant]] in the mapping file",
         )
     unit = unit_of(found.unit)
@@ -228,7 +229,7 @@ def _axis(table: Table, mapping: MappingTable, rows: int, group: np.ndarray) -> 
     elif "dx_mm" in have or "dz_mm" in have:
         return np.full(rows, "dz_mm" in have, np.int32)
     raise BadFileError(
-        "the axis along which the tip was moved is not said",
+        "the axis along which the tip was moved is not given",
         where=table.part.where,
         why="one displacement has no direction" if "d_mm" in have else "the tip moves along x and z at once",
         next_step="--set axis=x or --set axis=z (for one of several files: --set FILE:axis=x)",
@@ -300,9 +301,8 @@ def _same_clock(pieces: list[Columns], notes: list[str]) -> None:
         piece["t_s"] = t
     if again:
         notes.append(
-            f"the clock begins anew {'once' if again == 1 else f'{again} times'}: how long the pause was is not "
-            "known; it is "
-            "written as one reading's"
+            f"the clock begins anew {'once' if again == 1 else f'{again} times'}: nobody knows how long the pause was; "
+            "it is written as the time between two readings"
         )
 
 
@@ -319,7 +319,7 @@ def _held_angles(joined: Columns, run: np.ndarray, notes: list[str]) -> Columns:
                 values[rows] = np.median(values[rows])
         if most > 1e-6:
             notes.append(
-                f"{name} varies by up to {most:.2g} rad within a run: its median stands for the commanded angle"
+                f"{name} varies by up to {most:.2g} rad within a run: the run's median is taken as the commanded angle"
             )
         joined[name] = values
     poses = numbers_of_poses(joined["theta1_rad"], joined["theta2_rad"], 5 * SAME_RAD)
@@ -328,7 +328,8 @@ def _held_angles(joined: Columns, run: np.ndarray, notes: list[str]) -> Columns:
             rows = poses == pose
             if 0.0 < np.ptp(joined[name][rows]):
                 notes.append(
-                    f"{name} of pose {pose} differs by {np.ptp(joined[name][rows]):.2g} rad between runs: its median"
+                    f"{name} of pose {pose} differs by {np.ptp(joined[name][rows]):.2g} rad between runs: their median "
+                    "is taken"
                 )
                 joined[name][rows] = np.median(joined[name][rows])
     return joined
@@ -379,7 +380,7 @@ def _held_temperature(degc: np.ndarray, notes: list[str]) -> np.ndarray:
     blank = np.isnan(degc)
     if not blank.any():
         return degc
-    notes.append(f"temp_degc is blank in {int(blank.sum())} of {blank.size} rows: the reading before it stands there")
+    notes.append(f"temp_degc is blank in {int(blank.sum())} of {blank.size} rows: the reading before is taken there")
     known = np.flatnonzero(~blank)
     return np.asarray(degc[known[np.clip(np.searchsorted(known, np.arange(degc.size), "right") - 1, 0, None)]])
 

@@ -54,18 +54,18 @@ class ColumnUse:
                 )
             if self.sign == OPEN:
                 told.append(
-                    f"{self.name!r}: is its sign turned? {self.why + '. ' if self.why else ''}"
+                    f"{self.name!r}: must its sign be turned? {self.why + '. ' if self.why else ''}"
                     "sign = -1 turns it, sign = 1 keeps it"
                 )
                 if self.targets[0] in PUSHES:
                     told[-1] += (
-                        ". A limb pushes back, but many sensors read the force of the limb on them; if it is the other "
-                        "column that is turned, turn that one"
+                        ". The force on a limb grows with its displacement, but many sensors read the force of the "
+                        "limb on them. If the displacement has the wrong sign, turn that one"
                     )
             if self.relative == OPEN:
                 told.append(
-                    f"{self.name!r}: does its zero mean unloaded? It begins far from 0; relative = true takes each "
-                    "run's first entry off"
+                    f"{self.name!r}: does 0 mean unloaded? It begins far from 0; relative = true subtracts each run's "
+                    "first entry"
                 )
         return told
 
@@ -131,7 +131,7 @@ def to_toml(table: MappingTable) -> str:
         f"# is: {', '.join(quantity)}, or ignore",
         "# unit: as written, e.g. " + ", ".join(f"{unit.text}" for unit in list(UNITS.values())[:60:3]),
         "# sign: -1 turns it. x is outwards, z up; a force is the one on the limb; theta2 is 0 for the straight knee.",
-        "# offset: added afterwards, in our unit. relative = true: less the first entry of each run.",
+        "# offset: added afterwards, in our unit. relative = true: minus the first entry of each run.",
         "format = 1",
         f'kind = "{table.kind}"',
     ]

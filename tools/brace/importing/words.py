@@ -27,7 +27,7 @@ def lines(parts: Sequence[Part], mapping: MappingTable) -> list[str]:
         sheet = f", sheet {own[0].sheet!r}" if own[0].sheet else ""
         told.append(f"{path.name}: {own[0].how}{sheet}; {rows} rows{from_line}{tables}")
         told += [f"  {note}" for part in own for note in part.notes]
-    told += [f"taken for {MEANING[mapping.kind]} (--kind says otherwise)", ""]
+    told += [f"read as {MEANING[mapping.kind]} (if it is none: --kind)", ""]
     table = [("column", "is", "unit", "entries", "because")]
     table += [_row(use) for use in mapping.columns]
     table += [
@@ -44,7 +44,8 @@ def lines(parts: Sequence[Part], mapping: MappingTable) -> list[str]:
         ]
     questions = mapping.questions
     if questions:
-        told += ["", f"{len(questions)} to be said:", *(f"  {text}" for text in questions)]
+        told += ["", f"{len(questions)} open question{'s' if len(questions) > 1 else ''}:"]
+        told += [f"  {text}" for text in questions]
     return told
 
 

@@ -8,17 +8,16 @@ from dataclasses import dataclass, field
 
 from brace.errors import BraceError
 from brace.model import LimbModel
-from brace.stiffness import PlanarLimb, PostureError, planar_limb
+from brace.stiffness import PlanarLimb, planar_limb
 
 MOVED_RAD = 0.01  # K's relative uncertainty changes by less than a tenth of itself meanwhile
 JOINTS = ("coxa", "femur", "tibia")
 LENGTHS = ("geometry.coxa_mm", "geometry.femur_mm", "geometry.tibia_mm")
 
 Sigmas = tuple[float, float]
-Place = tuple[float, float]  # x, z [mm]
 
 
-@dataclass
+@dataclass(eq=False)  # a card is itself, whatever it says: a key by which words are kept
 class Card:
     """Of one limb. `lengths_mm` are coxa, femur, tibia; None: nobody has told them."""
 
@@ -29,13 +28,6 @@ class Card:
     _limb: PlanarLimb | None = None
     _at_rad: tuple[float, float] = (math.inf, math.inf)
     _relative: Sigmas | None = field(default=None)
-
-    def knee_and_tip_mm(self, theta1_rad: float, theta2_rad: float) -> tuple[Place, Place] | None:
-        """Where they are at true angles. None: the lengths are not known, or the angles are none."""
-        try:
-            return None if self._limb is None else self._limb.pose(theta1_rad, theta2_rad)
-        except PostureError:
-            return None
 
     def relative_sigmas(self, theta1_rad: float, theta2_rad: float) -> Sigmas | None:
         """One sigma of lambda_min and of lambda_max, each as a fraction of it, from the limb's [uncertainty]. None: not

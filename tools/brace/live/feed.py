@@ -21,11 +21,11 @@ from brace.bus.url import BusUrl
 from brace.bus.watch import NodeState, Watch
 from brace.errors import BraceError
 from brace.live.card import Card, card_from, card_of
-from brace.live.limb_view import limb_view
+from brace.live.limb_view import limb_numbers, limb_words
 from brace.live.thinning import thinned
 from brace.model import LimbModel
 
-_AS_TEXT = json.JSONEncoder(allow_nan=False, separators=(",", ":")).encode
+_AS_TEXT = json.JSONEncoder(allow_nan=False, check_circular=False, separators=(",", ":")).encode
 _MODBUS_S = 0.033
 _AGAIN_S = 2.0  # after a bus that went away, or a controller that did not answer
 
@@ -44,18 +44,23 @@ class Feed:
     def __post_init__(self) -> None:
         self.watch = Watch(self.url.text, self.node)
         self.cards: dict[int, Card] = {}
+        self._words: dict[str, object] = {}
+        self._words_text = ""
         self._ask_at_s: dict[int, float] = {}  # who was asked for a card and did not answer is asked again then
         self._held: list[Frame] = []  # of snapshots that have begun and may go on
         self._lent: tuple[Bus, asyncio.Future[int]] | None = None  # to `step`, which gives it back with a node to ask
 
-    def as_json(self) -> str:
-        """All limbs, for the page."""
+    def messages(self) -> tuple[str, str]:
+        """All limbs, for the page: what changes seldom, the same text until it does, and the numbers of now."""
         now_s = time.time() if self.url.kind != "log" else self.watch.last_s
-        limbs = [
-            limb_view(node, state, self.cards[node], now_s) for node, state in sorted(self.watch.nodes.items())
-        ]
-        message = {"bus": self.url.text, "trouble": self.trouble, "ended": self.ended, "limbs": limbs}
-        return _AS_TEXT(message)
+        limbs = [(node, state, self.cards[node]) for node, state in sorted(self.watch.nodes.items())]
+        words: dict[str, object] = {
+            "bus": self.url.text, "trouble": self.trouble, "ended": self.ended,
+            "words": [limb_words(*limb) for limb in limbs],
+        }  # fmt: skip
+        if words != self._words:
+            self._words, self._words_text = words, _AS_TEXT(words)
+        return self._words_text, _AS_TEXT({"numbers": [limb_numbers(*limb, now_s) for limb in limbs]})
 
     def step(self) -> None:
         """Takes what has come since the last step, without waiting. Called by who serves the page, once for each

@@ -7,6 +7,7 @@ from functools import lru_cache
 from typing import TypedDict
 
 from brace.bus.load import Load
+from brace.bus.snapshot import Snapshot
 from brace.bus.watch import NodeState
 from brace.live.card import Card
 from brace.wire.code import CodeTable
@@ -15,7 +16,7 @@ from brace.wire.layout import Value
 
 SILENT_S = 2.0  # a heartbeat comes each second
 LOAD_LATE_S = 2.0  # it may come more seldom than K
-_KNOWN_MOST = 64  # states hardly change, and the page gets their words thirty times a second: the last words are kept
+_KNOWN_MOST = 256  # the last words are kept: thirty times a second they are asked for, and hardly ever they change
 
 _NO_LOAD_SENT = "not sent: controller.load_hz is 0"
 _NO_LOAD_COUNTED = "no load is counted: K is the one without load"
@@ -54,11 +55,25 @@ class LoadView(TypedDict):
     buckling_factor: Value  # None: none, or not known
 
 
-class LimbView(TypedDict):
-    """One limb; None: not known."""
+class LimbWords(TypedDict):
+    """What changes seldom of a limb; None: not known."""
 
     node: int
     name: str
+    lengths_mm: list[float] | None  # coxa, femur, tibia
+    lengths_why: str  # why they are not known
+    load_why: str  # why there is no load
+    play: list[Play]
+    mode: str
+    mode_text: str
+    faults: list[Said]
+    flags: list[Said]
+
+
+class LimbNumbers(TypedDict):
+    """What changes with every update; None: not known."""
+
+    node: int
     silent_s: float | None  # None: it is heard
     rate_hz: float
     age_ms: Value
@@ -68,37 +83,35 @@ class LimbView(TypedDict):
     stiff_axis_rad: Value
     relative_sigma: list[float] | None  # of the two eigenvalues
     theta_rad: list[Value]  # coxa, femur, tibia
-    lengths_mm: list[float] | None  # coxa, femur, tibia
-    knee_mm: list[Value] | None  # x, z in the limb's plane, from the femur joint
-    tip_mm: list[Value] | None
-    lengths_why: str
     k_space_n_per_mm: list[Value] | None  # xx xy xz yy yz zz, in the robot's frame
     lambda_space_n_per_mm: list[Value] | None
     load: LoadView | None
-    load_why: str  # why there is none
-    play: list[Play]
-    mode: str
-    mode_text: str
-    faults: list[Said]
-    flags: list[Said]
 
 
-def limb_view(node: int, state: NodeState, card: Card, now_s: float) -> LimbView:
+def limb_words(node: int, state: NodeState, card: Card) -> LimbWords:
+    """The same object as before, as long as it says the same."""
+    k, told, load = _k(state), state.heartbeat or state.posture, _recent_load(state)
+    return _words(
+        node,
+        card,
+        state.space.space.play_coxa if state.space is not None and state.space.space is not None else "",
+        () if k is None else k.play,
+        () if k is None else k.flags,
+        "" if told is None else told.mode,
+        () if told is None else told.faults,
+        _NO_LOAD_SENT if load is None else "" if load.is_counted else _NO_LOAD_COUNTED,
+    )
+
+
+def limb_numbers(node: int, state: NodeState, card: Card, now_s: float) -> LimbNumbers:
     """The newest of a limb. Everything of K is of one snapshot, the newest that came with its posture."""
-    k = state.posture or state.snapshot
-    told = state.heartbeat or state.posture
-    mode = told.mode if told is not None else ""
+    k = _k(state)
     theta1, theta2 = (k.theta1, k.theta2) if k is not None else (None, None)
-    sigmas = places = None
-    if theta1 is not None and theta2 is not None:
-        sigmas = card.relative_sigmas(theta1, theta2)
-        places = card.knee_and_tip_mm(theta1, theta2)
+    sigmas = None if theta1 is None or theta2 is None else card.relative_sigmas(theta1, theta2)
     space = state.space.space if state.space is not None else None
-    load = _recent_load(state)
     silent_s = now_s - state.last_s
     return {
         "node": node,
-        "name": card.name,
         "silent_s": round(silent_s, 1) if silent_s > SILENT_S else None,
         "rate_hz": round(state.rate_hz, 1),
         "age_ms": k.age_ms if k is not None else None,
@@ -108,20 +121,14 @@ def limb_view(node: int, state: NodeState, card: Card, now_s: float) -> LimbView
         "stiff_axis_rad": k.stiff_axis if k is not None else None,
         "relative_sigma": None if sigmas is None else [round(sigma, 4) for sigma in sigmas],
         "theta_rad": [space.theta0 if space is not None else None, theta1, theta2],
-        "lengths_mm": None if card.lengths_mm is None else list(card.lengths_mm),
-        "knee_mm": None if places is None else list(places[0]),
-        "tip_mm": None if places is None else list(places[1]),
-        "lengths_why": card.why_not,
         "k_space_n_per_mm": None if space is None else list(space.k),
         "lambda_space_n_per_mm": None if space is None else list(space.eigenvalues),
-        "load": _load_view(load),
-        "load_why": _NO_LOAD_SENT if load is None else "" if load.is_counted else _NO_LOAD_COUNTED,
-        "play": _play("" if space is None else space.play_coxa, () if k is None else k.play, card.tight_joints),
-        "mode": mode,
-        "mode_text": _text(MODE, mode.upper()),
-        "faults": _faults(told.faults if told is not None else ()),
-        "flags": _flags(k.flags if k is not None else ()),
+        "load": _load_view(_recent_load(state)),
     }
+
+
+def _k(state: NodeState) -> Snapshot | None:
+    return state.posture or state.snapshot
 
 
 def _recent_load(state: NodeState) -> Load | None:
@@ -144,24 +151,34 @@ def _load_view(load: Load | None) -> LoadView | None:
 
 
 @lru_cache(maxsize=_KNOWN_MOST)
-def _play(coxa: str, femur_and_tibia: tuple[str, ...], tight_joints: frozenset[str]) -> list[Play]:
+def _words(
+    node: int,
+    card: Card,
+    coxa: str,
+    femur_and_tibia: tuple[str, ...],
+    flags: tuple[str, ...],
+    mode: str,
+    faults: tuple[str, ...],
+    load_why: str,
+) -> LimbWords:
     states = [] if not coxa else [("coxa", coxa)]
     states += zip(("femur", "tibia"), femur_and_tibia, strict=False)
-    return [
-        {"joint": joint, "state": state, "text": _PLAY_WORDS.get(state, state)}
-        for joint, state in states
-        if joint not in tight_joints
-    ]
-
-
-@lru_cache(maxsize=_KNOWN_MOST)
-def _faults(names: tuple[str, ...]) -> list[Said]:
-    return [{"name": name.upper(), "text": _text(FAULT, name.upper())} for name in names]
-
-
-@lru_cache(maxsize=_KNOWN_MOST)
-def _flags(names: tuple[str, ...]) -> list[Said]:
-    return [{"name": name.upper(), "text": _text(FLAG, name.upper())} for name in names]
+    return {
+        "node": node,
+        "name": card.name,
+        "lengths_mm": None if card.lengths_mm is None else list(card.lengths_mm),
+        "lengths_why": card.why_not,
+        "load_why": load_why,
+        "play": [
+            {"joint": joint, "state": state, "text": _PLAY_WORDS.get(state, state)}
+            for joint, state in states
+            if joint not in card.tight_joints
+        ],
+        "mode": mode,
+        "mode_text": _text(MODE, mode.upper()),
+        "faults": [{"name": name.upper(), "text": _text(FAULT, name.upper())} for name in faults],
+        "flags": [{"name": name.upper(), "text": _text(FLAG, name.upper())} for name in flags],
+    }
 
 
 def _text(table: CodeTable, name: str) -> str:

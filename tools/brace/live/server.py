@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import contextlib
 from collections.abc import Callable
+from dataclasses import dataclass
 from importlib.resources import files
 from typing import TYPE_CHECKING
 
@@ -31,13 +32,21 @@ _HEADERS = {
 }
 
 
+@dataclass
+class _Reader:
+    """One browser."""
+
+    transport: asyncio.WriteTransport
+    words: str = ""  # those that it has been sent
+
+
 class Server:
     """Serves until `run`'s caller ends it. A browser on another computer, and a page of another site, get nothing."""
 
     def __init__(self, feed: Feed, port: int) -> None:
         self._feed = feed
         self._port = port
-        self._readers: dict[web.WebSocketResponse, asyncio.WriteTransport] = {}
+        self._readers: dict[web.WebSocketResponse, _Reader] = {}
 
     async def run(self, tell: Callable[[str], None], is_over: Callable[[], bool]) -> None:
         """tell: is given the page's address once it can be opened. OSError: the port is taken."""
@@ -86,7 +95,7 @@ class Server:
         await reader.prepare(request)
         if not isinstance(request.transport, asyncio.WriteTransport):
             return reader  # it has gone already
-        self._readers[reader] = request.transport
+        self._readers[reader] = _Reader(request.transport)
         try:
             async for message in reader:  # nothing is asked of us; this notices that the reader has gone
                 if message.type == WSMsgType.ERROR:
@@ -96,11 +105,16 @@ class Server:
         return reader
 
     async def _update(self) -> None:
-        """Puts all limbs into text once, whoever reads. A reader that is slow misses some, and holds up nobody."""
+        """Puts all limbs into text once, whoever reads; words go to who has not got them. A reader that is slow misses
+        some numbers, and holds up nobody."""
         if not self._readers:
             return
-        text = self._feed.as_json()
-        for reader, transport in list(self._readers.items()):
-            if not reader.closed and transport.get_write_buffer_size() < _WAITING_BYTES_MOST:
-                with contextlib.suppress(ConnectionError):
-                    await reader.send_str(text)
+        words, numbers = self._feed.messages()
+        for stream, reader in list(self._readers.items()):
+            if stream.closed or reader.transport.get_write_buffer_size() >= _WAITING_BYTES_MOST:
+                continue
+            with contextlib.suppress(ConnectionError):
+                if reader.words != words:
+                    await stream.send_str(words)
+                    reader.words = words
+                await stream.send_str(numbers)

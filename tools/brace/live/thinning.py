@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import lru_cache
 
 from brace.bus.frame import NODE_MASK, Frame
 from brace.wire.frames import FD_MESSAGES, MESSAGES, MULTIPLEXED
@@ -24,7 +25,6 @@ _OF_SNAPSHOT = frozenset(
 )  # in all of them the first byte counts the snapshots
 _ALWAYS = frozenset((MESSAGES["heartbeat"].identifier, MESSAGES["emergency"].identifier))
 
-_Key = tuple[int, bytes]  # identifier, first byte
 
 
 @dataclass
@@ -39,24 +39,36 @@ class Thinned:
 def thinned(frames: Sequence[Frame], may_hold: bool) -> Thinned:
     """A page shows K with its posture; K alone only of a limb that sends no posture. A snapshot that has begun, and may
     get its posture in the next period, is held until then."""
-    keys = [(frame.identifier, frame.data[:1]) for frame in frames]
-    last = dict(keys)
+    last = {frame.identifier: frame.data[:1] for frame in frames}
     by_node: dict[int, list[int]] = {}
     for identifier in last:
         by_node.setdefault(identifier & NODE_MASK, []).append(identifier & ~NODE_MASK)
-    needed, held = set[_Key](), set[_Key]()
+    needed: dict[int, list[bytes]] = {identifier: [] for identifier in last}  # first bytes
+    held: dict[int, bytes] = {}
     for node, messages in by_node.items():
-        parts = _OF_SNAPSHOT.intersection(messages)
-        shown = _WITH_POSTURE & parts or _K & parts
-        for message in parts - _K | shown:
-            its = parts if message in shown else (message, *_HAS_K)  # K's parts are what it is joined to
-            needed |= {(part | node, last[message | node]) for part in its}
-        for always in _ALWAYS.intersection(messages):
-            needed |= {key for key in keys if key[0] == always | node}
+        for message, part in _needed_parts(tuple(messages)):
+            needed[part | node].append(last[message | node])
         begun = last.get(_FIRST | node)
         if may_hold and begun is not None and last.get(_POSTURE | node) != begun:
-            held |= {(part | node, begun) for part in parts}
+            held |= {part | node: begun for part in _OF_SNAPSHOT.intersection(messages)}
     out = Thinned()
-    for frame, key in zip(frames, keys, strict=True):
-        (out.held if key in held else out.needed if key in needed else out.counted).append(frame)
+    for frame in frames:
+        identifier, first = frame.identifier, frame.data[:1]
+        if held.get(identifier) == first:
+            out.held.append(frame)
+        elif first in needed[identifier] or identifier & ~NODE_MASK in _ALWAYS:
+            out.needed.append(frame)
+        else:
+            out.counted.append(frame)
     return out
+
+
+@lru_cache(maxsize=256)  # what a node sends comes in few orders
+def _needed_parts(messages: tuple[int, ...]) -> list[tuple[int, int]]:
+    """Pairs of a message that came of a node and what is needed beside it: the part with the first byte that the
+    message has in its newest frame."""
+    parts = _OF_SNAPSHOT.intersection(messages)
+    shown = _WITH_POSTURE & parts or _K & parts
+    whole = [(message, part) for message in shown for part in parts]
+    further = parts - _K - shown
+    return whole + [(message, part) for message in further for part in (message, *(_HAS_K & parts))]

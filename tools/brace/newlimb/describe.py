@@ -45,23 +45,23 @@ def compliance_rel(known: Known) -> float:
 def guesses(known: Known) -> list[str]:
     """What nobody said, one sentence each."""
     told = [
-        f"joint.{name}: {joint.words} is a guess; a joint test tells (docs/joint-tests.md)"
+        f"joint.{name}: {joint.words} is a guess; a joint test measures it (docs/joint-tests.md)"
         for name, joint in known.joints.items()
         if joint.guessed
     ]
     for name, link in known.links.items():
         if link.is_beam:
             told.append(
-                f"link.{name}: {link.words}, by beam formulas, +- {100 * link.sigma_rel:.0f} %; joints of glue and "
-                "screws yield too"
+                f"link.{name}: {link.words}, computed as a beam, +- {100 * link.sigma_rel:.0f} %; glue and screws make "
+                "it softer, and are not counted"
             )
     unsaid = [name for name in known.joints if known.plays_rad.get(name) is None]
     if unsaid:
-        told.append(f"play of {' and '.join(unsaid)}: not said, taken as none; gears have 1 to 60 arcmin")
+        told.append(f"play of {' and '.join(unsaid)}: not given, so none is counted; gears have 1 to 60 arcmin")
     free = [name for name in known.joints if name not in known.travels_rad]
     if free:
         told.append(
-            f"travel of {' and '.join(free)}: not said; brace plan then keeps only the knee from folding through itself"
+            f"travel of {' and '.join(free)}: not given; brace plan only keeps the knee from folding through itself"
         )
     return told
 

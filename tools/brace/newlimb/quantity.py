@@ -41,7 +41,7 @@ def length_mm(text: str) -> float:
     value, unit_text = _split(text)
     unit = unit_of(unit_text) if unit_text else unit_of("mm")
     if unit is None or unit.quantity != "length":
-        raise refusal(f"{text!r}: {unit_text!r} is no unit of a length", "mm, cm, m or in", "e.g. 185 or 0.185m")
+        raise refusal(f"{text!r}: {unit_text!r} is not a unit of length", "mm, cm, m or in", "e.g. 185 or 0.185m")
     found = unit.factor * value
     low, high = LENGTH_MM
     if not low <= found <= high:
@@ -55,7 +55,7 @@ def offset_mm(text: str) -> float:
     value, unit_text = _split(text)
     unit = unit_of(unit_text) if unit_text else unit_of("mm")
     if unit is None or unit.quantity != "length" or not 0.0 <= unit.factor * value <= LENGTH_MM[1]:
-        raise refusal(f"{text!r} is no distance of axes", f"0 to {LENGTH_MM[1]:g} mm", "e.g. 57")
+        raise refusal(f"{text!r} is not a distance between axes", f"0 to {LENGTH_MM[1]:g} mm", "e.g. 57")
     return unit.factor * value
 
 
@@ -74,7 +74,7 @@ def play_rad(text: str) -> float:
         raise refusal(
             f"{text!r} is {math.degrees(found):.3g} deg of play",
             f"a gear has 0 to {math.degrees(PLAY_MOST_RAD):.2g} deg",
-            f"{value:g}deg or {value:g}arcmin, if that was meant" if found > 0 else "a play has no sign",
+            f"{value:g}deg or {value:g}arcmin, if that was meant" if found > 0 else "a play is not negative",
         )
     return found
 
@@ -118,7 +118,11 @@ def joint(text: str) -> Joint:
             f"{text!r}: its unit is not known", "N m/rad, N m/deg, N m/arcmin, rad/(N mm)", "e.g. '60 N m/rad'"
         )
     if value <= 0.0:
-        raise refusal(f"{text!r} is no stiffness", "it is above zero; rigid is said as rigid", "e.g. '60 N m/rad'")
+        raise refusal(
+            f"{text!r} is not a stiffness",
+            "it is above zero; a joint that does not yield is: rigid",
+            "e.g. '60 N m/rad'",
+        )
     stiffness = value * per_rad[unit] if unit in per_rad else 1e-3 / (value * soft[unit])  # N m/rad
     low, high = STIFFNESS_N_M_PER_RAD
     if not low <= stiffness <= high:
@@ -170,7 +174,9 @@ def link(text: str, length: float) -> Link:
             )
         if not 1.0 <= outer <= 500.0 or outer > 2.0 * length:
             way = f"{outer * 1e3:g} if it was in metres" if outer < 1.0 else "outer diameter in mm"
-            raise refusal(f"{text!r}: {outer:g} mm is no diameter of a link of {length:g} mm", "1 to 500 mm", way)
+            raise refusal(
+                f"{text!r}: {outer:g} mm cannot be the diameter of a link {length:g} mm long", "1 to 500 mm", way
+            )
         shape = f"tube {outer:g}/{inner:g} mm" if inner else f"rod {outer:g} mm"
         return Link(
             round_beam(length, outer, inner, made_of),
@@ -180,7 +186,7 @@ def link(text: str, length: float) -> Link:
         )
     near = did_you_mean(kind, ("tube", "rod", "measured", "rigid"))
     raise refusal(
-        f"{text!r} is no link",
+        f"{text!r} does not describe a link",
         LINK_FORMS,
         f"did you mean {near}?" if near and near != kind else "'tube 20 16 aluminium'",
     )
@@ -219,7 +225,7 @@ def material(text: str) -> Material:
         return of_modulus(e_gpa)
     near = did_you_mean(name, [*MATERIALS, *ALIASES])
     raise refusal(
-        f"{text!r} is no material that is known here",
+        f"{text!r} is not a known material",
         f"known: {', '.join(MATERIALS)}",
         f"did you mean {near}?" if near else "its modulus of elasticity, e.g. 70GPa",
     )

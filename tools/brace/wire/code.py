@@ -33,6 +33,10 @@ class CodeTable:
         code = self.find(number)
         return str(number) if code is None else code.name
 
+    def word_of(self, number: int) -> str:
+        """The number's name in small letters, or its digits where it has none."""
+        return self._words.get(number) or str(number)
+
     def names_of_bits(self, bits: int) -> tuple[str, ...]:
         """The names of the bits that are set; a bit without a name is told by its place."""
         return self._names_of_bits(bits)
@@ -58,6 +62,10 @@ class CodeTable:
     @cached_property
     def _by_number(self) -> Mapping[int, Code]:
         return {code.number % 256: code for code in self.codes} | {code.number: code for code in self.codes}
+
+    @cached_property
+    def _words(self) -> Mapping[int, str]:
+        return {number: code.name.lower() for number, code in self._by_number.items()}
 
     @property
     def names(self) -> tuple[str, ...]:

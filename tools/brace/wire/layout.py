@@ -41,7 +41,8 @@ class Field:
     def decoder(self) -> Callable[[int], Value]:
         """A function: bits of a frame -> value in its unit; None: not known. Made once, because frames come by the
         thousand a second."""
-        start, step, mask = self.start, self.step, (1 << self.bits) - 1
+        start, mask = self.start, (1 << self.bits) - 1
+        per_unit = round(1.0 / self.step, 9)  # steps: 13 / 50000 is 0.00026, and 13 * 2e-05 0.00026000000000000003
         negative = 1 << (self.bits - 1) if self.signed else mask + 1  # codes from here on
         unknown = negative if self.signed else mask
 
@@ -53,7 +54,7 @@ class Field:
             code = frame_bits >> start & mask
             if code == unknown:
                 return None
-            return (code if code < negative else code - mask - 1) * step
+            return (code if code < negative else code - mask - 1) / per_unit
 
         def number(frame_bits: int) -> Value:
             code = frame_bits >> start & mask

@@ -209,7 +209,8 @@ static brace_client_status_t explain_silence(brace_client_t *client, const char 
         return brace_client_fail(
             client, BRACE_CLIENT_E_BIT_RATE,
             is_slcan ? "%s: the bus is there and can not be read: not the controller's bit rate (or the "
-                       "serial line's baud rate); try 500000, or slcan:DEVICE@BAUD"
+                       "serial line's baud rate); try another of 1000000, 500000, 250000 and 125000, or "
+                       "slcan:DEVICE@BAUD"
                      : "%s: error frames only: not the controller's bit rate, or no termination; try "
                        "'ip link set %s down', then up with 'type can bitrate 500000'",
             client->url, client->url);

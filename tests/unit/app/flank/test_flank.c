@@ -164,6 +164,24 @@ static void test_the_load_that_is_expected(void)
     }
 }
 
+/* What the tip's sensor makes the machine expect names a flank that the motor's torque alone does not show: 21 N mm are
+ * within its friction. */
+static void test_an_expected_load_names_a_flank(void)
+{
+    posture.has_levers = true;
+    posture.pose.lever_tibia = (brace_point_t){130.0f, 150.0f};
+    force.z_n = 0.14f;
+    joints.joint[BRACE_TIBIA].sample.torque_n_mm = 5.0f;
+    for (int known = 0; known < 2; known++) {
+        force.known = known != 0;
+        configure();
+        for (int i = 0; i < 1000; i++) {
+            tick();
+        }
+        TEST_ASSERT_EQUAL(known, flank.joint[BRACE_TIBIA].out.flank);
+    }
+}
+
 /* The root of the mean square of what three samples are away from the mean, on the newest one's side. */
 static void test_how_far_a_load_lags(void)
 {
@@ -211,6 +229,7 @@ int main(void)
     RUN_TEST(test_what_has_play_and_is_watched);
     RUN_TEST(test_joints_that_are_not_watched);
     RUN_TEST(test_the_load_that_is_expected);
+    RUN_TEST(test_an_expected_load_names_a_flank);
     RUN_TEST(test_how_far_a_load_lags);
     RUN_TEST(test_an_old_sample_proves_nothing);
     return UNITY_END();

@@ -35,6 +35,20 @@ void setUp(void)
 
 void tearDown(void) {}
 
+/* What cannot be used leaves the force as it was last known. */
+static void test_a_reading_that_is_not_used_changes_nothing(void)
+{
+    parameters.sensor.saturation_n = 50.0f;
+    tip_force_configure(&force, &hal, &parameters.sensor);
+    tip_force_read(&force, &hal, &parameters);
+    TEST_ASSERT_TRUE(force.known);
+    x_n = 60.0f, z_n = 1.0f;
+    tip_force_read(&force, &hal, &parameters);
+    TEST_ASSERT_FALSE(force.known);
+    TEST_ASSERT_EQUAL_FLOAT(3.0f, force.x_n);
+    TEST_ASSERT_EQUAL_FLOAT(-4.0f, force.z_n);
+}
+
 /* reading = bias + gain R [[1, xz], [zx, 1]] force, where R is a rotation (docs/physics.md). */
 static void test_the_sensor_s_model_is_undone(void)
 {
@@ -138,6 +152,7 @@ static void test_how_long_an_old_reading_counts(void)
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(test_a_reading_that_is_not_used_changes_nothing);
     RUN_TEST(test_the_sensor_s_model_is_undone);
     RUN_TEST(test_without_a_sensor_or_an_inverse_there_is_no_force);
     RUN_TEST(test_a_saturated_reading_is_not_known);

@@ -39,6 +39,18 @@ function ellipsePath(rx, ry) {
   return `M${-rx} 0A${rx} ${ry} 0 1 0 ${rx} 0A${rx} ${ry} 0 1 0 ${-rx} 0Z`;
 }
 
+// Knee and tip, x and z in the limb's plane from the femur joint: theta1 counts from +x, theta2 from the straight leg.
+function places(view) {
+  const [, theta1, theta2] = view.theta_rad;
+  if (view.lengths_mm === null || theta1 === null || theta2 === null) {
+    return null;
+  }
+  const [, femur, tibia] = view.lengths_mm;
+  const knee = [femur * Math.cos(theta1), femur * Math.sin(theta1)];
+  const shank = theta1 - theta2;
+  return [knee, [knee[0] + tibia * Math.cos(shank), knee[1] + tibia * Math.sin(shank)]];
+}
+
 export class Limb {
   constructor(element) {
     this.element = element;
@@ -94,7 +106,7 @@ export class Limb {
     this.row("stiffest", view.is_valid ? `${number(most)}${trust(most, ofMost)} N/mm` : null);
     this.row("K xx xz zz", view.is_valid ? numbers(view.k_n_per_mm, "N/mm") : null);
     const space = view.lambda_space_n_per_mm;
-    this.row("in space", space === null ? null : numbers(space, "N/mm"));
+    this.row("eigenvalues in space", space === null ? null : numbers(space, "N/mm"));
     const load = view.load;
     this.row("force x z", load === null ? view.load_why : numbers(load.force_n, "N"));
     this.row("moved x z", load === null ? null : numbers(load.moved_mm, "mm"));
@@ -111,10 +123,11 @@ export class Limb {
     const svg = this.find("svg");
     const picture = this.find(".picture");
     const note = this.find(".note");
-    const known = view.lengths_mm !== null && view.knee_mm !== null;
+    const joined = places(view);
+    const known = joined !== null;
     picture.style.display = this.find(".scale").style.display = known ? "" : "none";
     const reach = known ? view.lengths_mm[1] + view.lengths_mm[2] : 100;
-    const box = this.frame(reach, known ? [view.knee_mm, view.tip_mm] : []);
+    const box = this.frame(reach, joined ?? []);
     set(svg, { viewBox: `${box.left} ${box.top} ${box.right - box.left} ${box.bottom - box.top}` });
     text(note, known ? "" : view.lengths_mm === null ? view.lengths_why || "asking for lengths" : "posture not sent");
     set(note, { x: box.left, y: 0, "font-size": 0.05 * reach });
@@ -122,7 +135,7 @@ export class Limb {
       return;
     }
     const width = 0.012 * reach;
-    const [knee, tip] = [view.knee_mm, view.tip_mm].map(([x, z]) => [x, -z]);
+    const [knee, tip] = joined.map(([x, z]) => [x, -z]);
     const joints = this.element.querySelectorAll(".joint");
     set(this.find(".horizon"), { x1: box.left, x2: box.right, y1: 0, y2: 0, "stroke-width": width / 3 });
     set(this.find(".links"), { points: `0,0 ${knee} ${tip}`, "stroke-width": 2 * width });

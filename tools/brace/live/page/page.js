@@ -1,4 +1,4 @@
-// The stream of messages, and a picture for every limb that is in it.
+// The stream of messages, and a picture for every limb that is in it. Words come when they change, numbers always.
 import { Limb } from "./limb.js";
 
 const AGAIN_MS = 1000;
@@ -6,27 +6,33 @@ const bus = document.getElementById("bus");
 const trouble = document.getElementById("trouble");
 const main = document.getElementById("limbs");
 const limbs = new Map();
+const words = new Map(); // of a limb, by its node
 let newest = null;
 
-function show(message) {
+function tell(message) {
   bus.textContent = message.ended ? `${message.bus}: ${message.ended}` : message.bus;
   trouble.hidden = message.trouble === "";
   if (trouble.textContent !== message.trouble) {
     trouble.textContent = message.trouble;
   }
-  for (const view of message.limbs) {
-    if (!limbs.has(view.node)) {
-      const limb = new Limb(document.getElementById("limb").content.firstElementChild.cloneNode(true));
-      limbs.set(view.node, limb);
-      main.append(limb.element);
-    }
-    limbs.get(view.node).show(view);
+  for (const one of message.words) {
+    words.set(one.node, one);
   }
+}
+
+function show(numbers) {
+  const { node } = numbers;
+  if (!limbs.has(node)) {
+    const limb = new Limb(document.getElementById("limb").content.firstElementChild.cloneNode(true));
+    limbs.set(node, limb);
+    main.append(limb.element);
+  }
+  limbs.get(node).show({ ...words.get(node), ...numbers });
 }
 
 function draw() {
   if (newest !== null) {
-    show(newest);
+    newest.forEach(show);
     newest = null;
   }
   requestAnimationFrame(draw);
@@ -35,7 +41,12 @@ function draw() {
 function listen() {
   const stream = new WebSocket(`ws://${location.host}/live`);
   stream.onmessage = (event) => {
-    newest = JSON.parse(event.data);
+    const message = JSON.parse(event.data);
+    if (message.words !== undefined) {
+      tell(message);
+    } else {
+      newest = message.numbers;
+    }
   };
   stream.onclose = () => {
     bus.textContent = "brace monitor has ended, or does not answer; this page tries again";

@@ -480,11 +480,9 @@ static void test_an_upload_needs_its_mode_its_size_and_its_order(void)
     refuses(BRACE_REFUSED_ORDER, 1, BRACE_REQUEST_COMMIT);
 }
 
-static void upload(const brace_parameters_t *set)
+static void upload_block(const uint8_t block[BRACE_BLOCK_BYTES])
 {
-    uint8_t block[BRACE_BLOCK_BYTES];
     uint32_t crc = 0;
-    TEST_ASSERT_EQUAL(BRACE_OK, brace_parameters_pack(set, 1, block, sizeof block));
     memcpy(&crc, block + BRACE_BLOCK_BYTES - 4, 4);
     asked.upload_begin = (brace_upload_begin_request_t){.bytes = BRACE_BLOCK_BYTES, .crc = crc};
     takes(BRACE_REQUEST_UPLOAD_BEGIN);
@@ -494,6 +492,30 @@ static void upload(const brace_parameters_t *set)
         takes(BRACE_REQUEST_UPLOAD_WORD);
     }
     asked.commit = (brace_commit_request_t){.crc = crc};
+}
+
+static void upload(const brace_parameters_t *set)
+{
+    uint8_t block[BRACE_BLOCK_BYTES];
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_parameters_pack(set, 1, block, sizeof block));
+    upload_block(block);
+}
+
+/* Whole and with its CRC, but of a dictionary with other members, or with fewer of them. */
+static void test_a_block_of_another_dictionary_is_refused(void)
+{
+    enum { SCHEMA_AT = 8, MEMBERS_AT = 12 };
+    to_configuration();
+    for (int fewer = 0; fewer < 2; fewer++) {
+        uint8_t block[BRACE_BLOCK_BYTES];
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_parameters_pack(brace_app_parameters(&app), 1, block, sizeof block));
+        const uint32_t other = fewer != 0 ? 4u * (BRACE_PARAMETER_COUNT - 1u) : 7u;
+        memcpy(block + (fewer != 0 ? MEMBERS_AT : SCHEMA_AT), &other, sizeof other);
+        const uint32_t crc = brace_crc32(0, block, BRACE_BLOCK_BYTES - 4);
+        memcpy(block + BRACE_BLOCK_BYTES - 4, &crc, sizeof crc);
+        upload_block(block);
+        refuses(fewer != 0 ? BRACE_E_LENGTH : BRACE_E_SCHEMA, BRACE_SCHEMA_HASH, BRACE_REQUEST_COMMIT);
+    }
 }
 
 /* The board's ceiling holds for a whole block and for what is staged one by one; the refusal tells which entry. */
@@ -596,6 +618,7 @@ int main(void)
     RUN_TEST(test_entries_are_staged_and_read);
     RUN_TEST(test_what_no_limb_has_is_refused);
     RUN_TEST(test_an_upload_needs_its_mode_its_size_and_its_order);
+    RUN_TEST(test_a_block_of_another_dictionary_is_refused);
     RUN_TEST(test_the_board_s_ceiling_refuses_a_block_and_tells_which_entry);
     RUN_TEST(test_a_set_that_is_stored_answers_with_what_is_in_force);
     RUN_TEST(test_a_download_is_the_block);

@@ -99,6 +99,45 @@ static void test_a_channel_that_is_opened_again_begins_anew(void)
     TEST_ASSERT_TRUE(is_told); /* its end, now that somebody listens */
 }
 
+static void say_request(const uint8_t data[8])
+{
+    char line[32];
+    int at = snprintf(line, sizeof line, "t6058");
+    for (int i = 0; i < 8; i++) {
+        at += snprintf(line + at, sizeof line - (size_t)at, "%02X", data[i]);
+    }
+    line[at++] = '\r';
+    line[at] = '\0';
+    say(line);
+}
+
+/* A force that one host has told counts in no K of the next host. */
+static void test_a_told_force_ends_with_its_channel(void)
+{
+    char answer[16];
+    uint8_t force[8], question[8];
+    brace_can_pack_tip_force_request(&(brace_can_tip_force_request_t){7, 5.0f, -10.0f}, force);
+    brace_can_pack_k_under_load_at_posture_request(&(brace_can_k_under_load_at_posture_request_t){8, 0.8f, 1.1f},
+                                                   question);
+    (void)snprintf(answer, sizeof answer, "t5858%02X08", (unsigned)(BRACE_REQUEST_K_UNDER_LOAD_AT_POSTURE + 96u));
+    for (int closes = 0; closes < 2; closes++) {
+        say("O\r");
+        ticks(2);
+        say_request(force);
+        ticks(4);
+        if (closes != 0) {
+            say("C\r");
+            ticks(2);
+            say("O\r");
+            ticks(2);
+        }
+        (void)heard();
+        say_request(question);
+        ticks(10);
+        TEST_ASSERT_EQUAL(closes == 0, strstr(heard(), answer) != NULL);
+    }
+}
+
 /* A commit is answered when it has ended, by the way it came. */
 static void test_a_commit_as_text_is_answered_as_text(void)
 {
@@ -180,6 +219,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_requests_of_a_host_that_does_not_read_wait);
     RUN_TEST(test_a_channel_that_is_opened_again_begins_anew);
+    RUN_TEST(test_a_told_force_ends_with_its_channel);
     RUN_TEST(test_a_commit_as_text_is_answered_as_text);
     RUN_TEST(test_who_closes_the_channel_owns_the_limb_no_longer);
     RUN_TEST(test_the_two_ports_take_their_snapshots_in_different_ticks);

@@ -1,0 +1,38 @@
+/* Numbers of a limb as words of the fixed-point path (loaded/fixed_quantise.h). */
+#include <stdint.h>
+
+#include "loaded/fixed_quantise.h"
+#include "unity.h"
+
+void setUp(void) {}
+
+void tearDown(void) {}
+
+/* To the nearest integer, on either side of zero; what would be 2^31 is the largest word. */
+static void test_a_number_becomes_the_nearest_word(void)
+{
+    for (int whole = -3; whole <= 3; whole++) {
+        TEST_ASSERT_EQUAL_INT32(whole, quantised(((double)whole + 0.49) / 1024.0, 10));
+        TEST_ASSERT_EQUAL_INT32(whole, quantised(((double)whole - 0.49) / 1024.0, 10));
+    }
+    TEST_ASSERT_EQUAL_INT32(INT32_MAX, quantised(1.0 - 1e-12, 31));
+    TEST_ASSERT_EQUAL_INT32(INT32_MIN, quantised(-1.0, 31));
+}
+
+/* The exponent of the next power of two above; of what is as good as nothing, the least there is. */
+static void test_the_power_of_two_above_a_number(void)
+{
+    TEST_ASSERT_EQUAL_INT32(1, exponent_above(1.0f));
+    TEST_ASSERT_EQUAL_INT32(1, exponent_above(-1.99f));
+    TEST_ASSERT_EQUAL_INT32(-3, exponent_above(0.12f));
+    TEST_ASSERT_EQUAL_INT32(LEAST_EXPONENT, exponent_above(0.0f));
+    TEST_ASSERT_EQUAL_INT32(LEAST_EXPONENT, exponent_above(1e-31f));
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_a_number_becomes_the_nearest_word);
+    RUN_TEST(test_the_power_of_two_above_a_number);
+    return UNITY_END();
+}
