@@ -1,7 +1,8 @@
 """Is a fitted gap a gap? It is one only where the record reaches both of its sides, with hardly any rise of torque
 between them.
 
-A soft spring with a large gap and hardening fits many loops well. Such a gap is a shape, not a play."""
+A soft spring with a large gap and hardening fits many loops well. Such a gap is a shape, not a play. So is a gap that
+the joint crosses while its friction still turns: it only mends the law by which friction turns."""
 
 from __future__ import annotations
 
@@ -9,6 +10,7 @@ import numpy as np
 
 from brace.diagnose.joint_test.fit import Fitted
 from brace.diagnose.joint_test.record import JointRecord
+from brace.effects.catalogue import FRICTION_TURN
 from brace.identify.fit import columns_of
 
 MIN_INSIDE = 6
@@ -46,6 +48,18 @@ def refusal(record: JointRecord, fitted: Fitted) -> str:
             " outside"
         )
     return ""
+
+
+def is_friction_turning(record: JointRecord, plain: Fitted) -> str:
+    """Why the gap of a fit without shapes and laws, in which all friction turns over one angle, is none; empty when it
+    may be one. Friction that is smaller than the torque that the gap takes from the spring cannot stand for it."""
+    at = f"joint.{record.joint}."
+    gap_rad, spring = (plain.model.number(at + leaf) for leaf in ("gap_rad", "compliance_rad_per_n_mm"))
+    turn_rad, rubs_n_mm = plain.values.get(FRICTION_TURN, 0.0), plain.model.number(at + "coulomb_n_mm")
+    rubs_n_mm += plain.model.number(at + "coulomb_per_load_ratio") * 0.5 * record.size.torque_n_mm
+    if gap_rad >= turn_rad or rubs_n_mm < 0.5 * gap_rad / max(spring, 1e-30):
+        return ""
+    return f"the joint crosses it while its friction still turns, which takes {turn_rad:.3g} rad"
 
 
 def _slope(x: np.ndarray, y: np.ndarray) -> float:

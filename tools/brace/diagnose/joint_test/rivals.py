@@ -10,15 +10,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from brace.diagnose.joint_test.choose import strained
+from brace.diagnose.joint_test.choose import Shapes, strained, without
 from brace.diagnose.joint_test.evidence import intervals
 from brace.diagnose.joint_test.fit import Fitted, Fitter
-from brace.diagnose.joint_test.shapes import SOFT
+from brace.diagnose.joint_test.shapes import BENDS_THE_SPRING, SOFT
 
 AS_WELL = 0.05  # a rival has at least this share of the odds between it and the chosen set: 90 % intervals hold it
 MOST_RIVALS = 8
 BY_CHOICE = 3.0  # odds that one of several shapes gains on the held-out readings because it is the luckiest of them
-SHAPE = 10.0  # times less likely, before any reading, than an effect of the catalogue: as in loading records
+# Times less likely, before any reading, than an effect of the catalogue: as in loading records. A spring that has one
+# shape is not of the catalogue, so that a further one is no rarer than an effect.
+SHAPE = 10.0
 
 Ranges = dict[str, tuple[float, float]]
 
@@ -32,13 +34,29 @@ class Rival:
 
     @property
     def names(self) -> frozenset[str]:
-        """What it says. A spring that is softer in its middle says, as hardening does, that it stiffens under load."""
+        """What it says. A spring that is softer in its middle says, as hardening does, that it stiffens under load;
+        beside another shape of the spring it only rounds that one off."""
         names = frozenset(term.name for term in self.fitted.terms)
-        return names | {"joint_hardening"} if self.fitted.values.get(SOFT, 0.0) > 0.0 else names
+        stiffens = self.fitted.values.get(SOFT, 0.0) > 0.0 and len(names & BENDS_THE_SPRING) == 1
+        return names | {"joint_hardening"} if stiffens else names
 
     @property
     def label(self) -> str:
         return " + ".join(term.label for term in self.fitted.terms) or "nothing"
+
+
+def one_less(fitter: Fitter, chosen: Fitted, shapes: Shapes) -> list[Fitted]:
+    """What was chosen with one effect less, each in turn. Beside a shape that bends the spring, hardening may be no more
+    than the shape's own form, so that there a further shape takes its place, too."""
+    effects = [term for term in chosen.terms if term.role == "effect"]
+    poorer = {term.name: without(fitter, chosen, term) for term in effects}
+    found = list(poorer.values())
+    if "joint_hardening" in poorer and any(term.name in BENDS_THE_SPRING for term in chosen.terms):
+        shape_alone = poorer["joint_hardening"]
+        lacking = BENDS_THE_SPRING - {term.name for term in shape_alone.terms}
+        others = [shape for shape in shapes(shape_alone) if shape.name in lacking]
+        found += [fitter.fit((*shape_alone.terms, shape), shape_alone, shape) for shape in others]
+    return found
 
 
 def rivals(
@@ -78,7 +96,8 @@ def _share(fitter: Fitter, chosen: Fitted, rival: Fitted) -> float:
     floor = 1e-12 * kept * record.size.torque_n_mm**2
     odds = 0.5 * count * np.log((rival.held_rss + floor) / (chosen.held_rss + floor))
     if _shapes(rival) > _shapes(chosen):
-        odds = np.log(SHAPE) + max(odds, -np.log(BY_CHOICE))
+        bent = any(term.name in BENDS_THE_SPRING for term in chosen.terms)
+        odds = odds + np.log(BY_CHOICE) if bent else np.log(SHAPE) + max(odds, -np.log(BY_CHOICE))
     return float(1.0 / (1.0 + np.exp(np.clip(odds, 0.0, 50.0))))  # what predicts better by luck is as good at most
 
 

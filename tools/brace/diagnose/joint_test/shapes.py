@@ -23,6 +23,7 @@ SLIP, SLIP_TURN, SLIP_FREE = "slip_n_mm", "slip_turn_rad", "slip_free_share"
 LATER, LATER_TURN = "later_friction_n_mm", "later_turn_rad"  # friction that turns over another angle besides
 # Without one of them a torque stays as it is played.
 SHAPES = frozenset({ASYMMETRY, COG_PERIOD, TORQUE_DRIFT, STOP, SOFT, SLIP, LATER})
+BENDS_THE_SPRING = frozenset({"asymmetric_spring", "cogging", "end_stop", "soft_middle"})
 
 MOST_LAG_S = 0.3
 MOST_SLIP = 0.25  # of the range of angles, to either side: a slider that hardly ever slips is a gap

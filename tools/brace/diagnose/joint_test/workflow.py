@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -24,13 +25,13 @@ from brace.diagnose.diagnosis import (
 )
 from brace.diagnose.joint_test import positions, words
 from brace.diagnose.joint_test.choose import SHAPES_SHRINK, Choice, at_an_end, choose, strained, without
-from brace.diagnose.joint_test.dead_zone import refusal
+from brace.diagnose.joint_test.dead_zone import is_friction_turning, refusal
 from brace.diagnose.joint_test.evidence import feigned, gain, intervals
 from brace.diagnose.joint_test.fit import Fitted, Fitter
 from brace.diagnose.joint_test.intake import blocking_faults, require_enough, spring_alone
 from brace.diagnose.joint_test.localise import localise
 from brace.diagnose.joint_test.record import JointRecord
-from brace.diagnose.joint_test.rivals import Rival, beside, ranges, rivals, surest
+from brace.diagnose.joint_test.rivals import Rival, beside, one_less, ranges, rivals, surest
 from brace.diagnose.joint_test.shapes import record_terms, shapes
 from brace.diagnose.joint_test.terms import Term, effects_of
 from brace.diagnose.options import Advance, Options
@@ -93,19 +94,21 @@ def _searched(
         tried += 1
         advance(0.05 + 0.75 * min(tried / EXPECTED_FITS, 1.0), f"trying {label}")
 
-    def competing(fitted: Fitted) -> list[Term]:
-        rubs = any(term.name == "coulomb_friction" for term in fitted.terms)
-        found = shapes(record.size, record.strongest_period_rad(fitted.off_n_mm), rubs)
-        # gaps that differ from position to position look like a spring that is smoothly softer in its middle
-        return [one for one in found if record.position_count == 1 or one.name not in ROUNDS_A_GAP]
-
     own = record_terms(record.size, record.speeds_differ or record.rests)
-    choice = choose(fitter, effects, own, competing, random, trying)
-    refused = _refused_gap(record, choice.best)
+    choice = choose(fitter, effects, own, partial(_competing, record), random, trying)
+    refused = _refused_gap(fitter, choice.best)
     if refused:
         others = [term for term in effects if term.name != "backlash"]
-        choice = choose(fitter, others, own, competing, random, trying)
+        choice = choose(fitter, others, own, partial(_competing, record), random, trying)
     return _Found(fitter, choice, refused, tuple(effects))
+
+
+def _competing(record: JointRecord, fitted: Fitted) -> list[Term]:
+    """The shapes that may join a fit."""
+    rubs = any(term.name == "coulomb_friction" for term in fitted.terms)
+    found = shapes(record.size, record.strongest_period_rad(fitted.off_n_mm), rubs)
+    # gaps that differ from position to position look like a spring that is smoothly softer in its middle
+    return [one for one in found if record.position_count == 1 or one.name not in ROUNDS_A_GAP]
 
 
 def _trust(believed: LimbModel | None) -> float:
@@ -123,10 +126,12 @@ def _faulty(dataset: Dataset, base: LimbModel, faults: Sequence[DataFault], opti
     )
 
 
-def _refused_gap(record: JointRecord, best: Fitted) -> str:
+def _refused_gap(fitter: Fitter, best: Fitted) -> str:
     if not any(term.name == "backlash" for term in best.terms):
         return ""
-    return refusal(record, best)
+    plain = tuple(term for term in best.terms if term.role in ("effect", "record"))
+    alone = best if len(plain) == len(best.terms) else fitter.fit(plain, best)
+    return refusal(fitter.record, best) or is_friction_turning(fitter.record, alone)
 
 
 def _told(
@@ -147,7 +152,8 @@ def _told(
     left = [term for term in best.terms if term.role == "shape"]
     laws = [term for term in best.terms if term.role == "law"]
     exported = by_rows.fit((*found, *own), best)  # a shape is no physics, so no limb.toml gets it
-    tried = [*choice.sets, *choice.shaped]
+    shapes_of = partial(_competing, record)
+    tried = [*choice.sets, *choice.shaped, *one_less(fitter, best, shapes_of)]
     others = rivals(fitter, by_rows, best, frozenset(term.name for term in found), tried)
     effects = _named(fitter, by_rows, best, exported, found, others, choice.count, random)
     small = [term.name for term in found if _is_small(term, exported.values, record)]
@@ -163,6 +169,7 @@ def _told(
         tried = [one for one in tried if all(term.name != weak[0].name for term in one.terms)]
         best = fitter.fit((*found, *own, *left, *laws), best)
         exported = by_rows.fit((*found, *own), best)
+        tried += one_less(fitter, best, shapes_of)
         others = [*first, *rivals(fitter, by_rows, best, frozenset(term.name for term in found), tried)]
         effects = _named(fitter, by_rows, best, exported, found, others, choice.count, random)
     own = [term for term in own if not _is_gone(term, best)]  # a lag may have served an effect now unnamed
@@ -265,7 +272,7 @@ def _as_gears_are(by_rows: Fitter, search: _Found, exported: Fitted, have_names:
             afresh = by_rows.fit((*afresh.terms, other), afresh, other)
             before = by_rows.fit((*before.terms, other), before, other)
         more = [before, *(by_rows.fit((*near.terms, term), near, term) for near in (found, afresh))]
-        sound = [one for one in more if not strained(by_rows, one) and not _refused_gap(record, one)]
+        sound = [one for one in more if not strained(by_rows, one) and not _refused_gap(by_rows, one)]
         better = [one for one in sound if one.rss < (1.0 - SHAPES_SHRINK) ** 2 * found.rss
                   and one.held_rss <= found.held_rss]  # fmt: skip
         found = min(better, key=lambda one: one.rss, default=found)
