@@ -57,6 +57,16 @@ def test_intervals_hold_the_spread_between_positions(tmp_path: Path) -> None:
     assert one.high - one.low < 0.25 * (held.high - held.low)
 
 
+@pytest.mark.parametrize("small_n_mm", [500.0, 1500.0])
+def test_a_test_without_small_torques_has_no_middle(tmp_path: Path, small_n_mm: float) -> None:
+    """Of two tests the second has only readings beyond what the first reaches; in the first, friction holds the joint,
+    or lets it slip."""
+    small = small_n_mm * np.concatenate([triangle(), triangle()[1:]])
+    large = np.tile([6000.0, 9000.0, 6000.0, -6000.0, -9000.0, -6000.0], 20)
+    tests = [(under_torque(torque, GAP_RAD, FRICTION_N_MM, COMPLIANCE), torque) for torque in (small, large)]
+    assert found_in(tmp_path, tests).verdict == "unknown"
+
+
 def test_amplitudes_from_zero_to_one_side_are_one_position(tmp_path: Path) -> None:
     """Middles of loops say nothing where a test loads the joint one way only."""
     torque = np.concatenate([np.linspace(0.0, 1.0, 200), np.linspace(1.0, 0.0, 200)])

@@ -40,8 +40,10 @@ def _numbers(dataset: Dataset) -> np.ndarray | None:
     reach = _shared_reach_n_mm(dataset, tests)
     if len(tests) < 2 or reach <= 0.0:
         return None
-    middles = {test: _middle_rad(dataset, dataset["test"] == test, reach) for test in tests}
     inside = _within(dataset, reach)
+    if not all((inside & (dataset["test"] == test)).any() for test in tests):
+        return None  # a test has no reading at so small a torque, so it has no middle
+    middles = {test: _middle_rad(dataset, dataset["test"] == test, reach) for test in tests}
     swing = max(float(np.ptp(dataset["angle_rad"][(dataset["test"] == test) & inside])) for test in tests)
     known: list[float] = []
     number = np.zeros(dataset.rows, dtype=int)

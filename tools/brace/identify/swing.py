@@ -41,9 +41,9 @@ def swing_over_both_flanks_rad(angle_rad: np.ndarray, torque_n_mm: np.ndarray, t
     least = np.inf
     for label in np.unique(test):
         angle, torque = angle_rad[test == label], torque_n_mm[test == label]
-        if angle.size < MIN_READINGS or torque.max() <= 0.0 or torque.min() >= 0.0:
-            continue
         swing, span = float(np.ptp(angle)), float(np.ptp(torque))
+        if angle.size < MIN_READINGS or torque.max() <= 0.0 or torque.min() >= 0.0 or swing == 0.0:
+            continue  # a joint that friction holds where it is shows no travel, free or not
         slipped: dict[int, float] = {}  # by the end that a pass leads to, the most of the swing in its last part
         number = ramps(torque, np.zeros(torque.size))
         for one in np.unique(number):
