@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
+from typing import cast
 
 import numpy as np
 import pytest
@@ -139,12 +140,13 @@ def test_a_soft_middle_beside_another_shape_of_the_spring_is_no_hardening() -> N
 
 
 def test_a_shape_is_rare_only_where_the_spring_has_none_yet() -> None:
-    """A second turn of friction is none of the spring's. The rival leaves half of the held-out misfit, over 50 independent readings: no luck."""
+    """A second turn of friction is none of the spring's. The rival leaves half of the held-out misfit, over 50
+    independent readings: no luck."""
     kept = np.arange(200) < 100
     record = SimpleNamespace(
         kept=kept, fitted=~kept, independent=lambda _: 50.0, size=SimpleNamespace(torque_n_mm=1e3)
     )
-    fitter = SimpleNamespace(record=record)
+    fitter = cast(Fitter, SimpleNamespace(record=record))
 
     def left(held: float, *shape_names: str) -> Fitted:
         terms = tuple(Term(name, "joint", (), (), None, "shape") for name in shape_names)
