@@ -12,9 +12,9 @@ import sets
 from verdicts import Word
 
 PLAIN = ("play", "lugre", "hardening", "play_friction", "play_hardening")
-# Of the others nobody asks here what is told, but that something is. A record of so many rows goes through the same
-# searches in half the time, and ends in the same verdict in nine of ten. ./dev blind --foreign judges them whole, and
-# many of each.
+# This test asks of all other kinds only that the diagnosis ends in a verdict, not which verdict that is. A record of
+# 300 rows goes through the same searches as the whole record, in half the time. Nine of ten such records end in the
+# verdict of the whole record. ./dev blind --foreign judges whole records, and many of each kind.
 FEW_ROWS = 300
 
 

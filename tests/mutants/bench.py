@@ -21,8 +21,8 @@ SUITES = ("tests/unit/", "tests/attack/")
 NOT_OURS = "tests/unit/boards/"  # judges a board's files, which are not in the library
 LIBRARY = "libunder_test.so"
 LEVEL = "-O1"  # compiles quickly, and still gives the same object for many mutants that mean the same
-# What a function returns that ends without a return is chance, and so is what a suite would say of it. A function that is
-# not declared is one that nobody has.
+# The compiler refuses a function that ends without its value, because what it returns is chance, and so is a suite's
+# verdict. It refuses a call of a function that is not declared, because no such function exists.
 NO_C = ("-Werror=return-type", "-Werror=implicit-function-declaration")
 
 

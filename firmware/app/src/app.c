@@ -366,8 +366,8 @@ static void watch_sensors(controller_t *controller)
 /* What the jobs have done in a tick. */
 typedef struct {
     bool may_work;        /* those that need a K of their own may work on it */
-    bool has_worked;      /* one of them has */
-    bool softening_works; /* none has, and the search for the buckling factor has waited for long: it is its turn */
+    bool has_worked;      /* one of those jobs has worked on a K */
+    bool softening_works; /* no job has, and it is the turn of the search for the buckling factor, which has waited */
     bool has_factor;      /* of a limb in space under a load, so that there is a buckling factor to search for */
 } jobs_done_t;
 
@@ -381,7 +381,7 @@ static jobs_done_t step_jobs(brace_app_t *app, const brace_snapshot_t *snapshot)
     question_job_step(&controller->question, &question);
     const bool question_has_worked = controller->question.has_worked;
     const drift_inputs_t drift = drift_inputs(controller, may_work);
-    drift_job_step(&controller->drift, &drift); /* takes a reading in in the tick after the loading test's */
+    drift_job_step(&controller->drift, &drift); /* takes the reading that the loading test made in the tick before */
     if (!is_held) {
         takeup_step(&controller->takeup, &controller->flank);
     }
@@ -397,8 +397,8 @@ static jobs_done_t step_jobs(brace_app_t *app, const brace_snapshot_t *snapshot)
                          .has_factor = controller->model.is_spatial && snapshot->load.is_counted};
 }
 
-/* Sensors and memory. A tick that works out a K beside its own, or may, leaves the sensors out and looks over less
- * memory: proofs of a stuck sensor take a quarter of a second. */
+/* Watches sensors and memory. A tick that works out a K beside its own, or may do so, skips the sensors and looks over
+ * less memory. That delays little, because the proof of a stuck sensor takes a quarter of a second anyway. */
 static void step_watches(controller_t *controller)
 {
     const bool is_dear = controller->has_worked || softening_may_search(&controller->softening);
@@ -408,7 +408,8 @@ static void step_watches(controller_t *controller)
     step_guard(controller, is_dear);
 }
 
-/* What there is room for beside the jobs. returns whether a request has been answered, or process data have left */
+/* The wires answer as many requests as the tick has room for beside the jobs' work.
+ * returns whether the wires have answered a request or sent process data */
 static bool answer_wires(brace_app_t *app, uint32_t now_us)
 {
     controller_t *controller = &app->controller;
@@ -422,8 +423,8 @@ static bool answer_wires(brace_app_t *app, uint32_t now_us)
     return have_worked;
 }
 
-/* The search for the buckling factor of a limb in space has the ticks that nothing else needs, or those it has waited
- * for. */
+/* One step of the search for the buckling factor of a limb in space. The search works in ticks in which neither a job
+ * nor a wire has worked. When it has waited for long, it works in another tick. */
 static void step_softening(controller_t *controller, const jobs_done_t *jobs, bool wires_have_worked)
 {
     const bool is_quiet = !wires_have_worked && !question_job_is_asked(&controller->question);

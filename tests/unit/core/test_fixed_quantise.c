@@ -8,7 +8,7 @@ void setUp(void) {}
 
 void tearDown(void) {}
 
-/* To the nearest integer, on either side of zero; what would be 2^31 is the largest word. */
+/* quantised rounds to the nearest integer, above and below zero. A number that would round to 2^31 becomes 2^31 - 1. */
 static void test_a_number_becomes_the_nearest_word(void)
 {
     for (int whole = -3; whole <= 3; whole++) {
@@ -19,7 +19,8 @@ static void test_a_number_becomes_the_nearest_word(void)
     TEST_ASSERT_EQUAL_INT32(INT32_MIN, quantised(-1.0, 31));
 }
 
-/* The exponent of the next power of two above; of what is as good as nothing, the least there is. */
+/* exponent_above tells the exponent of the next power of two above a number. For a number near zero it tells
+ * LEAST_EXPONENT. */
 static void test_the_power_of_two_above_a_number(void)
 {
     TEST_ASSERT_EQUAL_INT32(1, exponent_above(1.0f));

@@ -54,7 +54,8 @@ static void test_rows_are_flagged_as_the_controller_does(void)
     float one_rad[FORCES], two_rad[FORCES], along_n[FORCES], up_n[FORCES];
     uint32_t flagged = 0, plain = 0, moved_only = 0;
     for (int i = 0; i < FORCES; i++) {
-        const bool is_pushed = i < 30; /* along a stretched limb; else a bent one is drawn out, which does not soften it */
+        /* The force pushes a stretched limb, or it pulls a bent limb, which does not soften the limb. */
+        const bool is_pushed = i < 30;
         one_rad[i] = is_pushed ? 0.3f : 0.5f, two_rad[i] = is_pushed ? 0.6f : 2.0f;
         along_n[i] = is_pushed ? -4.0f * (float)i : 3.0f * (float)(i - 30);
         up_n[i] = 0.0f;

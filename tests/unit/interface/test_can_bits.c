@@ -1,5 +1,5 @@
-/* Numbers in a frame's bits (can_bits.h): rounded to the nearest step, limited at both ends on their own side, and told
- * from 'not known'. */
+/* Numbers in a frame's bits (can_bits.h). A number is rounded to the nearest step. A number beyond the range becomes
+ * the end of the range on its own side. 'Not known' has a code of its own. */
 #include <math.h>
 
 #include "can_bits.h"

@@ -51,7 +51,8 @@ class Feed:
         self._lent: tuple[Bus, asyncio.Future[int]] | None = None  # to `step`, which gives it back with a node to ask
 
     def messages(self) -> tuple[str, str]:
-        """All limbs, for the page: what changes seldom, the same text until it does, and the numbers of now."""
+        """All limbs, for the page: first what seldom changes, which stays the same text until it does; then the
+        numbers of now."""
         now_s = time.time() if self.url.kind != "log" else self.watch.last_s
         limbs = [(node, state, self.cards[node]) for node, state in sorted(self.watch.nodes.items())]
         words: dict[str, object] = {

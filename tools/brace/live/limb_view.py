@@ -16,7 +16,7 @@ from brace.wire.layout import Value
 
 SILENT_S = 2.0  # a heartbeat comes each second
 LOAD_LATE_S = 2.0  # it may come more seldom than K
-_KNOWN_MOST = 256  # the last words are kept: thirty times a second they are asked for, and hardly ever they change
+_KNOWN_MOST = 256  # so many words are kept, because the page asks for them thirty times a second and they hardly change
 
 _NO_LOAD_SENT = "not sent: controller.load_hz is 0"
 _NO_LOAD_COUNTED = "no load is counted: K is the one without load"
@@ -56,7 +56,7 @@ class LoadView(TypedDict):
 
 
 class LimbWords(TypedDict):
-    """What changes seldom of a limb; None: not known."""
+    """What a limb tells that seldom changes. None: not known."""
 
     node: int
     name: str
@@ -71,7 +71,7 @@ class LimbWords(TypedDict):
 
 
 class LimbNumbers(TypedDict):
-    """What changes with every update; None: not known."""
+    """What a limb tells that changes with every update. None: not known."""
 
     node: int
     silent_s: float | None  # None: it is heard
@@ -89,7 +89,7 @@ class LimbNumbers(TypedDict):
 
 
 def limb_words(node: int, state: NodeState, card: Card) -> LimbWords:
-    """The same object as before, as long as it says the same."""
+    """An equal object from before, if there is one, so that its text need not be made again."""
     k, told, load = _k(state), state.heartbeat or state.posture, _recent_load(state)
     return _words(
         node,

@@ -37,7 +37,7 @@ class _Reader:
     """One browser."""
 
     transport: asyncio.WriteTransport
-    words: str = ""  # those that it has been sent
+    words: str = ""  # the words that were sent to this browser last
 
 
 class Server:
@@ -105,8 +105,8 @@ class Server:
         return reader
 
     async def _update(self) -> None:
-        """Puts all limbs into text once, whoever reads; words go to who has not got them. A reader that is slow misses
-        some numbers, and holds up nobody."""
+        """Puts all limbs into text once, for all readers. A reader gets the words only if they have changed since it
+        got them last. A slow reader misses some numbers; the others do not wait for it."""
         if not self._readers:
             return
         words, numbers = self._feed.messages()

@@ -63,10 +63,10 @@ def thinned(frames: Sequence[Frame], may_hold: bool) -> Thinned:
     return out
 
 
-@lru_cache(maxsize=256)  # what a node sends comes in few orders
+@lru_cache(maxsize=256)  # a node sends its messages in few different orders
 def _needed_parts(messages: tuple[int, ...]) -> list[tuple[int, int]]:
-    """Pairs of a message that came of a node and what is needed beside it: the part with the first byte that the
-    message has in its newest frame."""
+    """Pairs: a message that came from a node, and a part that the message needs beside it. The part is the one with the
+    first byte of the message's newest frame."""
     parts = _OF_SNAPSHOT.intersection(messages)
     shown = _WITH_POSTURE & parts or _K & parts
     whole = [(message, part) for message in shown for part in parts]

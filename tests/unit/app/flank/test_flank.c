@@ -164,8 +164,8 @@ static void test_the_load_that_is_expected(void)
     }
 }
 
-/* What the tip's sensor makes the machine expect names a flank that the motor's torque alone does not show: 21 N mm are
- * within its friction. */
+/* The tip's sensor shows a load of 21 N mm. The motor's torque alone cannot show it, because friction hides it. With
+ * the sensor the machine names the flank; without the sensor it names none. */
 static void test_an_expected_load_names_a_flank(void)
 {
     posture.has_levers = true;

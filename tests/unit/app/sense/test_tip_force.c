@@ -35,7 +35,7 @@ void setUp(void)
 
 void tearDown(void) {}
 
-/* What cannot be used leaves the force as it was last known. */
+/* After a reading that cannot be used, the force keeps its last known value. */
 static void test_a_reading_that_is_not_used_changes_nothing(void)
 {
     parameters.sensor.saturation_n = 50.0f;

@@ -34,8 +34,8 @@ class Rival:
 
     @property
     def names(self) -> frozenset[str]:
-        """What it says. A spring that is softer in its middle says, as hardening does, that it stiffens under load;
-        beside another shape of the spring it only rounds that one off."""
+        """What the set says of the joint. A spring that is softer in its middle stiffens under load, as a hardening
+        spring does. Beside another shape of the spring, the softer middle only rounds that shape off."""
         names = frozenset(term.name for term in self.fitted.terms)
         stiffens = self.fitted.values.get(SOFT, 0.0) > 0.0 and len(names & BENDS_THE_SPRING) == 1
         return names | {"joint_hardening"} if stiffens else names
@@ -46,8 +46,8 @@ class Rival:
 
 
 def one_less(fitter: Fitter, chosen: Fitted, shapes: Shapes) -> list[Fitted]:
-    """What was chosen with one effect less, each in turn. Beside a shape that bends the spring, hardening may be no more
-    than the shape's own form, so that there a further shape takes its place, too."""
+    """The chosen set without one of its effects, once for each effect. Beside a shape that bends the spring, hardening
+    may be nothing but that shape's own form. So there a further shape takes hardening's place in one more rival."""
     effects = [term for term in chosen.terms if term.role == "effect"]
     poorer = {term.name: without(fitter, chosen, term) for term in effects}
     found = list(poorer.values())

@@ -49,7 +49,7 @@ ROUNDS_A_GAP = ("soft_middle", "end_stop")
 STOPS = ("backlash", "coulomb_friction")  # what holds the joint somewhere inside a range of angles
 GONE = 1e-3  # of the first step of a fit: a number smaller than this share counts as zero
 LEAST = 1e-3  # of the swing: a smaller range is below the linearity of encoders and torque cells
-LEAST_OF_STEP = 0.2  # of an encoder's step: how the joint moved within a step is not known better
+LEAST_OF_STEP = 0.2  # of an encoder's step; nobody knows more exactly where within a step the joint was
 SUREST = 0.99  # one joint's test never makes a name surer than this
 
 

@@ -501,7 +501,7 @@ static void upload(const brace_parameters_t *set)
     upload_block(block);
 }
 
-/* Whole and with its CRC, but of a dictionary with other members, or with fewer of them. */
+/* The block is whole and its CRC is right, but its dictionary has other members, or fewer. */
 static void test_a_block_of_another_dictionary_is_refused(void)
 {
     enum { SCHEMA_AT = 8, MEMBERS_AT = 12 };

@@ -111,7 +111,7 @@ static void say_request(const uint8_t data[8])
     say(line);
 }
 
-/* A force that one host has told counts in no K of the next host. */
+/* A host tells a force and closes the channel. The K that the next host asks for does not count that force. */
 static void test_a_told_force_ends_with_its_channel(void)
 {
     char answer[16];
