@@ -14,8 +14,6 @@ typedef struct {
     brace_app_t *app;                 /* whom to ask: brace/requests.h */
     brace_app_counters_t *counters;   /* where troubles of the wires are counted */
     const brace_measured_t *measured; /* all values of the newest snapshot that may be read; one for all wires */
-    bool requests_wait;               /* for the next tick, if they come in this one: it has no room for them */
-    bool answers_wait;                /* those that are being worked out too */
     uint32_t now_us;
 } wire_tick_t;
 

@@ -84,19 +84,18 @@ static bool has_number(const can_t *can)
 /* Looks through what has come over CAN. One request is answered in a tick: one that waits for its answer, or else the
  * first one that has come. One more waits here, and those behind it in the hardware layer. Frames of other nodes are
  * taken in every tick, so that none of them stands before a request.
- * returns whether a request has been answered */
+ * returns whether a request has been taken, or one that waited has been answered */
 static bool listen_to_bus(can_t *can, const wire_tick_t *tick)
 {
     can_requests_t *requests = &can->bus_port.requests;
     brace_can_frame_t frame;
     const bool has_room = has_room_for_an_answer(&can->bus_port);
-    bool is_busy = requests->waits || tick->requests_wait || !has_room;
-    bool has_answered =
-        requests->waits && !tick->answers_wait && has_room && answer(can, ON_BUS, tick, requests->waiting);
+    bool is_busy = requests->waits || !has_room;
+    bool has_worked = requests->waits && has_room && answer(can, ON_BUS, tick, requests->waiting);
     if (!is_busy && requests->has_next) {
         requests->has_next = false;
-        has_answered = answer(can, ON_BUS, tick, requests->next);
-        is_busy = true;
+        (void)answer(can, ON_BUS, tick, requests->next);
+        is_busy = has_worked = true;
     }
     for (uint32_t i = 0; i < FRAMES_PER_TICK && !requests->has_next; i++) {
         if (!can_bus_receive(&can->bus, tick->hal, &frame)) {
@@ -109,11 +108,11 @@ static bool listen_to_bus(can_t *can, const wire_tick_t *tick)
             memcpy(requests->next, frame.data, sizeof requests->next);
             requests->has_next = true;
         } else {
-            has_answered = answer(can, ON_BUS, tick, frame.data);
-            is_busy = true;
+            (void)answer(can, ON_BUS, tick, frame.data);
+            is_busy = has_worked = true;
         }
     }
-    return has_answered;
+    return has_worked;
 }
 
 /* The same as text. What comes meanwhile waits on its line: to read a frame from it costs as much as a short answer. */
@@ -125,10 +124,13 @@ static bool listen_to_text(can_t *can, const wire_tick_t *tick)
         return false;
     }
     if (requests->waits) {
-        return !tick->answers_wait && answer(can, AS_TEXT, tick, requests->waiting);
+        return answer(can, AS_TEXT, tick, requests->waiting);
     }
-    return !tick->requests_wait && slcan_receive(&can->text, tick->hal, &frame) && is_request(can, tick, &frame) &&
-           answer(can, AS_TEXT, tick, frame.data);
+    if (!slcan_receive(&can->text, tick->hal, &frame) || !is_request(can, tick, &frame)) {
+        return false;
+    }
+    (void)answer(can, AS_TEXT, tick, frame.data);
+    return true;
 }
 
 /* ----------------------------------------------------------------------------------------------- out -- */
@@ -231,29 +233,26 @@ static uint32_t speak(can_t *can, way_t way, const wire_tick_t *tick, uint32_t m
     return data_wait ? 0u : send_process_data(can, way, tick, most);
 }
 
-bool can_data_are_overdue(const can_t *can)
-{
-    return can->data_waited >= DATA_WAIT_MOST;
-}
-
-bool can_listen(can_t *can, const wire_tick_t *tick)
+uint32_t can_listen(can_t *can, const wire_tick_t *tick)
 {
     can_bus_watch(&can->bus, tick->hal, brace_app_parameters(tick->app)->controller.tick_us);
     tick->counters->frames_lost = can->bus.frames_lost;
     can_requests_tick(&can->bus_port.requests, tick);
     can_requests_tick(&can->text_port.requests, tick);
     const bool on_bus = listen_to_bus(can, tick), as_text = listen_to_text(can, tick);
-    return on_bus || as_text;
+    return (uint32_t)on_bus + (uint32_t)as_text;
 }
 
-bool can_speak(can_t *can, const wire_tick_t *tick, uint32_t most)
+uint32_t can_speak(can_t *can, const wire_tick_t *tick, uint32_t most)
 {
-    const bool data_wait = most == 0u && !can_data_are_overdue(can);
+    const bool data_wait = most == 0u && can->data_waited < DATA_WAIT_MOST;
     can->data_waited = data_wait ? (uint8_t)(can->data_waited + 1u) : 0u;
     most = most > 0u ? most : 1u;
     can->text_first = !can->text_first; /* The ports share the tick's frames of process data. */
     const uint32_t told = speak(can, can->text_first ? AS_TEXT : ON_BUS, tick, most);
     const uint32_t more = speak(can, can->text_first ? ON_BUS : AS_TEXT, tick, most - told);
     slcan_flush(&can->text, tick->hal);
-    return told + more > 0u;
+    const uint32_t now_us = tick->now_us;
+    const bool has_taken = can->bus_port.process.worked_us == now_us || can->text_port.process.worked_us == now_us;
+    return told + more + (uint32_t)has_taken;
 }

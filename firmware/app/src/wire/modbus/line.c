@@ -148,7 +148,7 @@ static void seal(modbus_line_t *line, const wire_tick_t *tick)
 }
 
 /* The line is silent: what has come is a frame, or broken, or a part whose rest is held back.
- * returns whether a request has been answered */
+ * returns whether a request has been taken */
 static bool end_frame(modbus_line_t *line, modbus_server_t *server, const wire_tick_t *tick, uint32_t silent_us)
 {
     modbus_link_t *link = &line->link;
@@ -158,7 +158,8 @@ static bool end_frame(modbus_line_t *line, modbus_server_t *server, const wire_t
             modbus_link_break(link, server, tick);
         }
     } else if (!is_own_answer(line) && is_for_us(link, server)) {
-        return answer(line, server, tick);
+        (void)answer(line, server, tick);
+        return true;
     } else {
         modbus_link_rest(link);
     }
@@ -168,22 +169,22 @@ static bool end_frame(modbus_line_t *line, modbus_server_t *server, const wire_t
 bool modbus_line_tick(modbus_line_t *line, modbus_server_t *server, const wire_tick_t *tick)
 {
     modbus_link_t *link = &line->link;
-    bool has_answered = false;
+    bool has_worked = false;
     if (link->is_waiting) {
-        has_answered = !tick->answers_wait && answer(line, server, tick);
-    } else if (!link->is_sending && !tick->requests_wait) { /* else what comes waits in the port */
+        has_worked = answer(line, server, tick);
+    } else if (!link->is_sending) { /* else what comes waits in the port */
         const bool bytes_came = gather(line, tick);
         const uint32_t silent_us = tick->now_us - link->active_us;
         const bool is_behind = link->count > line->checked + CHECKED_PER_TICK; /* with the check */
         if (bytes_came || silent_us < line->silence_us || is_behind) {
             check_on(line, link->count, CHECKED_PER_TICK);
         } else if (link->count > 0u || link->is_skipping) {
-            has_answered = end_frame(line, server, tick, silent_us);
+            has_worked = end_frame(line, server, tick, silent_us);
         }
     }
     if (link->is_sending) {
         seal(line, tick);
         modbus_link_send(link, tick, BRACE_SERIAL_MODBUS);
     }
-    return has_answered;
+    return has_worked;
 }

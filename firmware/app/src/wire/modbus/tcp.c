@@ -94,19 +94,17 @@ static bool answer(modbus_link_t *link, modbus_server_t *server, const wire_tick
     return true;
 }
 
-/* returns whether a request has been answered */
+/* returns whether a request has been taken, or one that waited has been answered */
 static bool take_request(modbus_link_t *link, modbus_server_t *server, const wire_tick_t *tick)
 {
     if (link->is_waiting) {
-        return !tick->answers_wait && answer(link, server, tick);
-    }
-    if (tick->requests_wait) {
-        return false;
+        return answer(link, server, tick);
     }
     if (link->is_skipping) {
         skip(link, server, tick);
     } else if (gather(link, tick)) {
-        return answer(link, server, tick);
+        (void)answer(link, server, tick);
+        return true;
     } else if (link->count > 0u && tick->now_us - link->active_us > PATIENCE_US) {
         modbus_link_break(link, server, tick);
     }
@@ -115,9 +113,9 @@ static bool take_request(modbus_link_t *link, modbus_server_t *server, const wir
 
 bool modbus_tcp_tick(modbus_link_t *link, modbus_server_t *server, const wire_tick_t *tick)
 {
-    const bool has_answered = !link->is_sending && take_request(link, server, tick);
+    const bool has_worked = !link->is_sending && take_request(link, server, tick);
     if (link->is_sending) {
         modbus_link_send(link, tick, BRACE_SERIAL_MODBUS_TCP);
     }
-    return has_answered;
+    return has_worked;
 }
