@@ -6,11 +6,11 @@
 #include "stiffness/stiffness.h"
 #include "tip_load.h"
 
-/* Of what must not change, so many words are looked over, and half as many beside a job's work: all of them in less than
- * 100 ms in either case. */
+/* Of what must not change, so many words are looked over, and half as many beside a job's work: all of them in less
+ * than 100 ms in either case. */
 #define GUARDED_WORDS_PER_MS 8u
 #define GUARDED_WORDS_MOST 24u /* of the 364 */
-#define TOLD_MOST 3u /* answers and frames of process data, beside which a tick has room for a job's work */
+#define TOLD_MOST 3u           /* answers and process data (wires.h), beside which a job has room for a step */
 #define LISTENED_US 20000u /* a tick that comes later has not listened meanwhile, and has not moved the limb either */
 #define LATE_PERIODS 3u /* a tick that comes more than three periods after the one before is more than two late */
 
@@ -397,30 +397,45 @@ static bool work_on_loading(controller_t *controller, const brace_snapshot_t *no
     return has_worked;
 }
 
-static bool work_on_softening(controller_t *controller, bool is_its_time)
+static void work_on_softening(controller_t *controller)
 {
-    if (is_its_time) {
-        softening_work(&controller->softening, &controller->model, &controller->parameters.in_force.limb,
-                       controller->posture.unbent_rad);
-    }
-    return is_its_time;
+    softening_work(&controller->softening, &controller->model, &controller->parameters.in_force.limb,
+                   controller->posture.unbent_rad);
 }
 
 /* What costs much and moves nothing comes last, where the wires have left room for it: one step of one job. The first
  * that has something to do takes it; each of them leaves a tick to those behind it now and then. Where nobody asked for
  * anything else, a question has room for two steps.
- *   told: what the wires have told in this tick */
+ *   told: how much the wires have told in this tick
+ * returns whether a job has worked */
 static bool work(controller_t *controller, const brace_snapshot_t *now, uint32_t told)
 {
     softening_t *softening = &controller->softening;
-    return told <= TOLD_MOST &&
-           (work_on_softening(controller, softening_is_overdue(softening)) || work_on_question(controller, told == 0u ? 2u : 1u) ||
-            work_on_drift(controller) || (!controller->ownership.is_held && work_on_loading(controller, now)) ||
-            work_on_softening(controller, told == 0u && softening_is_due(softening)));
+    if (told > TOLD_MOST) {
+        return false;
+    }
+    if (softening_is_overdue(softening)) {
+        work_on_softening(controller);
+        return true;
+    }
+    if (work_on_question(controller, told == 0u ? 2u : 1u)) {
+        return true;
+    }
+    if (work_on_drift(controller)) {
+        return true;
+    }
+    if (!controller->ownership.is_held && work_on_loading(controller, now)) {
+        return true;
+    }
+    if (told == 0u && softening_is_due(softening)) {
+        work_on_softening(controller);
+        return true;
+    }
+    return false;
 }
 
-/* Watches sensors and memory. A tick in which a job has worked skips the sensors and looks over less memory. That delays
- * little, because the proof of a stuck sensor takes a quarter of a second anyway. */
+/* Watches sensors and memory. A tick in which a job has worked skips the sensors and looks over less memory. That
+ * delays little, because the proof of a stuck sensor takes a quarter of a second anyway. */
 static void step_watches(controller_t *controller, bool has_worked)
 {
     if (!has_worked) {

@@ -47,7 +47,7 @@ typedef struct {
     model_t model;
     softening_t softening;
     brace_loading_t loading;
-    model_work_t loading_work;
+    model_work_t loading_k; /* that the test works out */
     brace_recorder_t recorder;
     drift_job_t drift;
     question_job_t question;
@@ -98,7 +98,7 @@ static inline loading_inputs_t controller_loading_inputs(controller_t *controlle
                               .flank = &controller->flank,
                               .posture = &controller->posture,
                               .model = &controller->model,
-                              .work = &controller->loading_work,
+                              .work = &controller->loading_k,
                               .parameters = &controller->parameters.in_force,
                               .down = controller->gravity.down};
 }

@@ -1,8 +1,8 @@
 #include "stiffness/softening.h"
 
 #define EVERY_TICKS 2u
-#define STEPS_A_ROUND 3u  /* K without load, and two of the search */
-#define PATIENCE_TICKS 9u /* in which requests go first */
+#define STEPS_A_ROUND 4u  /* K without load, and three of the search */
+#define PATIENCE_TICKS 7u /* in which requests go first */
 #define TOLD_TICKS_MOST 240u /* two searches, and ticks in which requests or other jobs went first */
 
 static void forget_unloaded(softening_t *softening)
@@ -65,14 +65,11 @@ void softening_work(softening_t *softening, model_t *model, const brace_limb_t *
     softening->step_of_round = (uint8_t)((softening->step_of_round + 1u) % STEPS_A_ROUND);
     if (is_rounds_first) {
         find_unloaded(softening, model, limb, unbent_rad);
-        if (!softening->runs) {
-            softening->runs = true;
-            space_path_buckling_begin(&model->loaded_space, &softening->now.at, &softening->shape, &softening->search);
-        }
-        return;
-    }
-    if (softening->runs &&
-        space_path_buckling_step(&model->loaded_space, &softening->shape, &softening->search, &softening->factor)) {
+    } else if (!softening->runs) {
+        softening->runs = true;
+        space_path_buckling_begin(&model->loaded_space, &softening->now.at, &softening->shape, &softening->search);
+    } else if (space_path_buckling_step(&model->loaded_space, &softening->shape, &softening->search,
+                                        &softening->factor)) {
         softening->runs = false;
         softening->ticks_told = 0;
     }

@@ -1,8 +1,8 @@
 /* How far the load softens a limb in space: its buckling factor, and K without the load. Both together cost more
  * instructions than K under the load itself, and no other part of the tick needs them. So every second tick does one
- * step, in turn: K without the load, and twice a tenth of the search for the buckling factor. The steps wait while
+ * step, in turn: K without the load, and three of sixteen steps towards the buckling factor. The steps wait while
  * requests come, while somebody waits for a K, or while another job works; a step that has waited too long goes first.
- * Without such waiting, K without load is at most 6 ticks old, the factor at most 60. */
+ * Without such waiting, K without load is at most 8 ticks old, the factor at most 86. */
 #ifndef BRACE_STIFFNESS_SOFTENING_H
 #define BRACE_STIFFNESS_SOFTENING_H
 
@@ -37,7 +37,7 @@ bool softening_is_due(const softening_t *softening);
 /* Has a step waited so long for a quiet tick that other jobs have to wait for it? */
 bool softening_is_overdue(const softening_t *softening);
 
-/* One step. At most 1,700 instructions.
+/* One step. At most 1,200 instructions.
  *   unbent_rad: the posture of this tick */
 void softening_work(softening_t *softening, model_t *model, const brace_limb_t *limb,
                     const float unbent_rad[BRACE_LINK_COUNT]);

@@ -1,4 +1,4 @@
-/* What every wire is given in a tick. */
+/* What every wire is given in a tick, and what it counts. */
 #ifndef BRACE_WIRE_WIRE_H
 #define BRACE_WIRE_WIRE_H
 
@@ -8,6 +8,9 @@
 #include "brace/measured.h"
 #include "brace_hal.h"
 #include "brace/requests.h"
+
+/* How much a port has done in a tick. A request that waited asked for K, whose answer costs as much as two others. */
+enum { WIRE_NOTHING = 0, WIRE_TAKEN = 1, WIRE_ANSWERED_LATE = 2 };
 
 typedef struct {
     const brace_hal_t *hal;

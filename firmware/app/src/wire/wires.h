@@ -21,7 +21,7 @@ void wires_start(wires_t *wires, const brace_hal_t *hal, const brace_parameters_
 /* One tick, after the snapshot has been published: every port takes what has come, answers it, and sends what is due.
  * Process data leave in ticks without answers, and one frame of them in each seventeenth tick in a row with answers.
  *   counters: where troubles are counted
- * returns how much that was: requests taken, those answered that have waited, and what can_speak counts */
+ * returns how much all ports have done (wire.h), and what can_speak counts */
 uint32_t wires_tick(wires_t *wires, const brace_hal_t *hal, brace_app_t *app, brace_app_counters_t *counters,
                     uint32_t now_us);
 

@@ -83,8 +83,8 @@ brace_status_t brace_loaded_space_turn(float theta0_rad, const brace_k3_t *k, br
 float brace_loaded_space_buckling_factor(const brace_loaded_space_t *loaded, const brace_space_rest_t *rest);
 
 /* The same in steps, for a controller that cannot spend so much at once. Begin, which writes the shape; then step with
- * the same loaded and shape until a step, the tenth, returns true; factor is written then. No pointer may be null.
- * Cost on a Cortex-M4F: to begin 1,100 instructions, a step 1,300. */
+ * the same loaded and shape until a step, the fifteenth, returns true; factor is written then. No pointer may be null.
+ * Cost on a Cortex-M4F: to begin 1,100 instructions, a step at most 1,100. */
 void brace_loaded_space_buckling_begin(const brace_loaded_space_t *loaded, const brace_space_rest_t *rest,
                                        brace_space_shape_t *shape, brace_space_search_t *search);
 bool brace_loaded_space_buckling_step(const brace_loaded_space_t *loaded, const brace_space_shape_t *shape,

@@ -173,7 +173,7 @@ typedef struct {
 /* A search for the buckling factor. */
 typedef struct {
     brace_buckling_search_t known;
-    bool is_half_way; /* to what the limb is like under the next load: femur and tibia are done */
+    uint8_t links_held; /* of the limb under the next load, from the tip */
     brace_space_held_t held;
     brace_space_pivots_t pivots;
 } brace_space_search_t;

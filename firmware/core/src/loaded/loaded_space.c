@@ -361,27 +361,15 @@ void brace_loaded_space_buckling_begin(const brace_loaded_space_t *loaded, const
 {
     shape_limb(loaded, rest, shape);
     search->known.step = 0;
-    search->is_half_way = false;
+    search->links_held = 0;
 }
 
-bool brace_loaded_space_buckling_step(const brace_loaded_space_t *loaded, const brace_space_shape_t *shape,
-                                      brace_space_search_t *search, float *factor)
+/* What the limb is like under a load is known. returns whether the search ends with it; then writes factor */
+static bool narrow(brace_space_search_t *search, float at, float *factor)
 {
     brace_buckling_search_t *known = &search->known;
-    held_t *held = &search->held;
-    pivots_t *pivots = &search->pivots;
+    const pivots_t *pivots = &search->pivots;
     const int step = known->step;
-    const float at = step == 0 ? 1.0f : space_search_at(known, step - 1);
-    search->is_half_way = !search->is_half_way;
-    if (search->is_half_way) {
-        *held = (held_t){{0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}};
-        *pivots = (pivots_t){0u, 1.0f};
-        hold_link(loaded, shape, BRACE_TIBIA, at, held, pivots);
-        hold_link(loaded, shape, BRACE_FEMUR, at, held, pivots);
-        return false;
-    }
-    hold_link(loaded, shape, BRACE_COXA, at, held, pivots);
-    hold_base(loaded, shape, at, held, pivots);
     if (step == 0) {
         *known = buckling_search_from(pivots->product);
     } else {
@@ -395,13 +383,32 @@ bool brace_loaded_space_buckling_step(const brace_loaded_space_t *loaded, const 
     return is_last;
 }
 
+bool brace_loaded_space_buckling_step(const brace_loaded_space_t *loaded, const brace_space_shape_t *shape,
+                                      brace_space_search_t *search, float *factor)
+{
+    const int step = search->known.step, link = BRACE_TIBIA - (int)search->links_held;
+    const float at = step == 0 ? 1.0f : space_search_at(&search->known, step - 1);
+    if (link == BRACE_TIBIA) {
+        search->held = (held_t){{0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}};
+        search->pivots = (pivots_t){0u, 1.0f};
+    }
+    hold_link(loaded, shape, link, at, &search->held, &search->pivots);
+    if (link > BRACE_COXA) {
+        search->links_held++;
+        return false;
+    }
+    search->links_held = 0;
+    hold_base(loaded, shape, at, &search->held, &search->pivots);
+    return narrow(search, at, factor);
+}
+
 float brace_loaded_space_buckling_factor(const brace_loaded_space_t *loaded, const brace_space_rest_t *rest)
 {
     brace_space_shape_t shape;
     brace_space_search_t search;
     float factor = INFINITY;
     brace_loaded_space_buckling_begin(loaded, rest, &shape, &search);
-    for (int half = 0; half < 2 * (SPACE_SEARCH_STEPS + 1); half++) {
+    for (int link = 0; link < BRACE_LINK_COUNT * (SPACE_SEARCH_STEPS + 1); link++) {
         (void)brace_loaded_space_buckling_step(loaded, &shape, &search, &factor);
     }
     return factor;

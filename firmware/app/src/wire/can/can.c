@@ -9,6 +9,7 @@
 #define STORING_PARTS 2u /* of the answer to a commit, which comes by itself */
 #define DATA_WAIT_MOST 16u /* ticks with answers in a row, in which no process data leave */
 #define ANSWERS_PER_TICK ((uint32_t)BRACE_CAN_ANSWER_PARTS_MOST + STORING_PARTS) /* frames that a tick can add */
+#define TEXT_ANSWERS_PER_TICK 4u /* frames as text, which cost twice as much: all of an answer, if it is not about K */
 
 typedef enum { ON_BUS, AS_TEXT } way_t;
 
@@ -84,18 +85,20 @@ static bool has_number(const can_t *can)
 /* Looks through what has come over CAN. One request is answered in a tick: one that waits for its answer, or else the
  * first one that has come. One more waits here, and those behind it in the hardware layer. Frames of other nodes are
  * taken in every tick, so that none of them stands before a request.
- * returns whether a request has been taken, or one that waited has been answered */
-static bool listen_to_bus(can_t *can, const wire_tick_t *tick)
+ * returns how much it has done (wire.h) */
+static uint32_t listen_to_bus(can_t *can, const wire_tick_t *tick)
 {
     can_requests_t *requests = &can->bus_port.requests;
     brace_can_frame_t frame;
     const bool has_room = has_room_for_an_answer(&can->bus_port);
     bool is_busy = requests->waits || !has_room;
-    bool has_worked = requests->waits && has_room && answer(can, ON_BUS, tick, requests->waiting);
+    const bool is_late = requests->waits && has_room && answer(can, ON_BUS, tick, requests->waiting);
+    uint32_t done = is_late ? WIRE_ANSWERED_LATE : WIRE_NOTHING;
     if (!is_busy && requests->has_next) {
         requests->has_next = false;
         (void)answer(can, ON_BUS, tick, requests->next);
-        is_busy = has_worked = true;
+        is_busy = true;
+        done = WIRE_TAKEN;
     }
     for (uint32_t i = 0; i < FRAMES_PER_TICK && !requests->has_next; i++) {
         if (!can_bus_receive(&can->bus, tick->hal, &frame)) {
@@ -109,28 +112,29 @@ static bool listen_to_bus(can_t *can, const wire_tick_t *tick)
             requests->has_next = true;
         } else {
             (void)answer(can, ON_BUS, tick, frame.data);
-            is_busy = has_worked = true;
+            is_busy = true;
+            done = WIRE_TAKEN;
         }
     }
-    return has_worked;
+    return done;
 }
 
 /* The same as text. What comes meanwhile waits on its line: to read a frame from it costs as much as a short answer. */
-static bool listen_to_text(can_t *can, const wire_tick_t *tick)
+static uint32_t listen_to_text(can_t *can, const wire_tick_t *tick)
 {
     const can_requests_t *requests = &can->text_port.requests;
     brace_can_frame_t frame;
     if (!has_room_for_an_answer(&can->text_port)) {
-        return false;
+        return WIRE_NOTHING;
     }
     if (requests->waits) {
-        return answer(can, AS_TEXT, tick, requests->waiting);
+        return answer(can, AS_TEXT, tick, requests->waiting) ? WIRE_ANSWERED_LATE : WIRE_NOTHING;
     }
     if (!slcan_receive(&can->text, tick->hal, &frame) || !is_request(can, tick, &frame)) {
-        return false;
+        return WIRE_NOTHING;
     }
     (void)answer(can, AS_TEXT, tick, frame.data);
-    return true;
+    return WIRE_TAKEN;
 }
 
 /* ----------------------------------------------------------------------------------------------- out -- */
@@ -151,8 +155,9 @@ static bool send(can_t *can, way_t way, const wire_tick_t *tick, brace_can_frame
 static void send_answers(can_t *can, way_t way, const wire_tick_t *tick)
 {
     can_answers_t *answers = &port_of(can, way)->requests.answers;
+    const uint32_t most = way == ON_BUS ? ANSWERS_PER_TICK : TEXT_ANSWERS_PER_TICK;
     brace_can_frame_t frame;
-    for (uint32_t i = 0; i < ANSWERS_PER_TICK; i++) {
+    for (uint32_t i = 0; i < most; i++) {
         const uint8_t *data = can_answers_next(answers);
         if (data == NULL) {
             break;
@@ -239,8 +244,7 @@ uint32_t can_listen(can_t *can, const wire_tick_t *tick)
     tick->counters->frames_lost = can->bus.frames_lost;
     can_requests_tick(&can->bus_port.requests, tick);
     can_requests_tick(&can->text_port.requests, tick);
-    const bool on_bus = listen_to_bus(can, tick), as_text = listen_to_text(can, tick);
-    return (uint32_t)on_bus + (uint32_t)as_text;
+    return listen_to_bus(can, tick) + listen_to_text(can, tick);
 }
 
 uint32_t can_speak(can_t *can, const wire_tick_t *tick, uint32_t most)
@@ -254,5 +258,5 @@ uint32_t can_speak(can_t *can, const wire_tick_t *tick, uint32_t most)
     slcan_flush(&can->text, tick->hal);
     const uint32_t now_us = tick->now_us;
     const bool has_taken = can->bus_port.process.worked_us == now_us || can->text_port.process.worked_us == now_us;
-    return told + more + (uint32_t)has_taken;
+    return told + more + (has_taken ? 1u : 0u);
 }

@@ -45,8 +45,8 @@ typedef struct {
  * can_bus_start. */
 void can_start(can_t *can, const brace_hal_t *hal, const brace_parameters_t *parameters);
 
-/* One tick of both ports, first half: takes and answers requests. returns how many requests it has taken, and of those that
- * waited answered */
+/* One tick of both ports, first half: takes and answers requests.
+ * returns how much both have done (wire/wire.h) */
 uint32_t can_listen(can_t *can, const wire_tick_t *tick);
 
 /* Second half: sends what is due.

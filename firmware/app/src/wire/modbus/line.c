@@ -166,12 +166,12 @@ static bool end_frame(modbus_line_t *line, modbus_server_t *server, const wire_t
     return false;
 }
 
-bool modbus_line_tick(modbus_line_t *line, modbus_server_t *server, const wire_tick_t *tick)
+uint32_t modbus_line_tick(modbus_line_t *line, modbus_server_t *server, const wire_tick_t *tick)
 {
     modbus_link_t *link = &line->link;
-    bool has_worked = false;
+    uint32_t done = WIRE_NOTHING;
     if (link->is_waiting) {
-        has_worked = answer(line, server, tick);
+        done = answer(line, server, tick) ? WIRE_ANSWERED_LATE : WIRE_NOTHING;
     } else if (!link->is_sending) { /* else what comes waits in the port */
         const bool bytes_came = gather(line, tick);
         const uint32_t silent_us = tick->now_us - link->active_us;
@@ -179,12 +179,12 @@ bool modbus_line_tick(modbus_line_t *line, modbus_server_t *server, const wire_t
         if (bytes_came || silent_us < line->silence_us || is_behind) {
             check_on(line, link->count, CHECKED_PER_TICK);
         } else if (link->count > 0u || link->is_skipping) {
-            has_worked = end_frame(line, server, tick, silent_us);
+            done = end_frame(line, server, tick, silent_us) ? WIRE_TAKEN : WIRE_NOTHING;
         }
     }
     if (link->is_sending) {
         seal(line, tick);
         modbus_link_send(link, tick, BRACE_SERIAL_MODBUS);
     }
-    return has_worked;
+    return done;
 }
