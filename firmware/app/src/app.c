@@ -411,7 +411,7 @@ static void work_on_softening(controller_t *controller)
 static bool work(controller_t *controller, const brace_snapshot_t *now, uint32_t told)
 {
     softening_t *softening = &controller->softening;
-    if (told > TOLD_MOST) {
+    if (told > TOLD_MOST || controller->parameters.comes_in_force) { /* then the model may be that of the set before */
         return false;
     }
     if (softening_is_overdue(softening)) {
