@@ -16,6 +16,7 @@
 enum {
     TICKS = ON_BOARD ? 1000 : 2000, /* of one limb under one flood */
     TICKS_BETWEEN = 100,     /* in MONITOR, from one loading test or take-up to the next */
+    TURNS_LEAST = ON_BOARD ? 1 : 2, /* loading tests and take-ups that end meanwhile */
     TICKS_HELD = 30,         /* with the backlash taken up, before the joints are let go */
     REGISTERS_MOST = 125,
     ASKED_THETA1 = 0x400c,   /* docs/modbus.md */
@@ -364,6 +365,8 @@ static void flood_limb(int limb, bool has_play)
                (unsigned)taking_up.with_k, (unsigned)loading_test.ticks, (unsigned)loading_test.with_k);
         TEST_ASSERT_TRUE(monitor.ticks > 100u && loading_test.ticks > 100u);
         TEST_ASSERT_EQUAL(has_play, taking_up.ticks > 100u);
+        TEST_ASSERT_GREATER_OR_EQUAL(TURNS_LEAST, turn); /* no flood stops a job: tests come to their ends, */
+        TEST_ASSERT_EQUAL(limb == IN_SPACE && now()->load.is_counted, !isnan(app.controller.softening.factor));
         TEST_ASSERT_EQUAL(monitor.ticks, monitor.with_k);
         TEST_ASSERT_EQUAL(taking_up.ticks, taking_up.with_k);
         TEST_ASSERT_EQUAL(loading_test.ticks, loading_test.with_k);
