@@ -9,8 +9,9 @@
 #include "brace_hal.h"
 #include "brace/requests.h"
 
-/* How much a port has done in a tick. A request that waited asked for K, whose answer costs as much as two others. */
-enum { WIRE_NOTHING = 0, WIRE_TAKEN = 1, WIRE_ANSWERED_LATE = 2 };
+/* How much a port has done in a tick. To take a question for K costs as much as two other requests, and so does its
+ * answer later. */
+enum { WIRE_NOTHING = 0, WIRE_ANSWERED = 1, WIRE_K_ASKED = 2, WIRE_K_ANSWERED = 2 };
 
 typedef struct {
     const brace_hal_t *hal;

@@ -93,12 +93,11 @@ static uint32_t listen_to_bus(can_t *can, const wire_tick_t *tick)
     const bool has_room = has_room_for_an_answer(&can->bus_port);
     bool is_busy = requests->waits || !has_room;
     const bool is_late = requests->waits && has_room && answer(can, ON_BUS, tick, requests->waiting);
-    uint32_t done = is_late ? WIRE_ANSWERED_LATE : WIRE_NOTHING;
+    uint32_t done = is_late ? WIRE_K_ANSWERED : WIRE_NOTHING;
     if (!is_busy && requests->has_next) {
         requests->has_next = false;
-        (void)answer(can, ON_BUS, tick, requests->next);
+        done = answer(can, ON_BUS, tick, requests->next) ? WIRE_ANSWERED : WIRE_K_ASKED;
         is_busy = true;
-        done = WIRE_TAKEN;
     }
     for (uint32_t i = 0; i < FRAMES_PER_TICK && !requests->has_next; i++) {
         if (!can_bus_receive(&can->bus, tick->hal, &frame)) {
@@ -111,9 +110,8 @@ static uint32_t listen_to_bus(can_t *can, const wire_tick_t *tick)
             memcpy(requests->next, frame.data, sizeof requests->next);
             requests->has_next = true;
         } else {
-            (void)answer(can, ON_BUS, tick, frame.data);
+            done = answer(can, ON_BUS, tick, frame.data) ? WIRE_ANSWERED : WIRE_K_ASKED;
             is_busy = true;
-            done = WIRE_TAKEN;
         }
     }
     return done;
@@ -128,13 +126,12 @@ static uint32_t listen_to_text(can_t *can, const wire_tick_t *tick)
         return WIRE_NOTHING;
     }
     if (requests->waits) {
-        return answer(can, AS_TEXT, tick, requests->waiting) ? WIRE_ANSWERED_LATE : WIRE_NOTHING;
+        return answer(can, AS_TEXT, tick, requests->waiting) ? WIRE_K_ANSWERED : WIRE_NOTHING;
     }
     if (!slcan_receive(&can->text, tick->hal, &frame) || !is_request(can, tick, &frame)) {
         return WIRE_NOTHING;
     }
-    (void)answer(can, AS_TEXT, tick, frame.data);
-    return WIRE_TAKEN;
+    return answer(can, AS_TEXT, tick, frame.data) ? WIRE_ANSWERED : WIRE_K_ASKED;
 }
 
 /* ----------------------------------------------------------------------------------------------- out -- */

@@ -148,8 +148,8 @@ static void seal(modbus_line_t *line, const wire_tick_t *tick)
 }
 
 /* The line is silent: what has come is a frame, or broken, or a part whose rest is held back.
- * returns whether a request has been taken */
-static bool end_frame(modbus_line_t *line, modbus_server_t *server, const wire_tick_t *tick, uint32_t silent_us)
+ * returns how much it has done (wire.h) */
+static uint32_t end_frame(modbus_line_t *line, modbus_server_t *server, const wire_tick_t *tick, uint32_t silent_us)
 {
     modbus_link_t *link = &line->link;
     check_on(line, link->count, MODBUS_LINK_BYTES);
@@ -158,12 +158,11 @@ static bool end_frame(modbus_line_t *line, modbus_server_t *server, const wire_t
             modbus_link_break(link, server, tick);
         }
     } else if (!is_own_answer(line) && is_for_us(link, server)) {
-        (void)answer(line, server, tick);
-        return true;
+        return answer(line, server, tick) ? WIRE_ANSWERED : WIRE_K_ASKED;
     } else {
         modbus_link_rest(link);
     }
-    return false;
+    return WIRE_NOTHING;
 }
 
 uint32_t modbus_line_tick(modbus_line_t *line, modbus_server_t *server, const wire_tick_t *tick)
@@ -171,7 +170,7 @@ uint32_t modbus_line_tick(modbus_line_t *line, modbus_server_t *server, const wi
     modbus_link_t *link = &line->link;
     uint32_t done = WIRE_NOTHING;
     if (link->is_waiting) {
-        done = answer(line, server, tick) ? WIRE_ANSWERED_LATE : WIRE_NOTHING;
+        done = answer(line, server, tick) ? WIRE_K_ANSWERED : WIRE_NOTHING;
     } else if (!link->is_sending) { /* else what comes waits in the port */
         const bool bytes_came = gather(line, tick);
         const uint32_t silent_us = tick->now_us - link->active_us;
@@ -179,7 +178,7 @@ uint32_t modbus_line_tick(modbus_line_t *line, modbus_server_t *server, const wi
         if (bytes_came || silent_us < line->silence_us || is_behind) {
             check_on(line, link->count, CHECKED_PER_TICK);
         } else if (link->count > 0u || link->is_skipping) {
-            done = end_frame(line, server, tick, silent_us) ? WIRE_TAKEN : WIRE_NOTHING;
+            done = end_frame(line, server, tick, silent_us);
         }
     }
     if (link->is_sending) {

@@ -98,13 +98,12 @@ static bool answer(modbus_link_t *link, modbus_server_t *server, const wire_tick
 static uint32_t take_request(modbus_link_t *link, modbus_server_t *server, const wire_tick_t *tick)
 {
     if (link->is_waiting) {
-        return answer(link, server, tick) ? WIRE_ANSWERED_LATE : WIRE_NOTHING;
+        return answer(link, server, tick) ? WIRE_K_ANSWERED : WIRE_NOTHING;
     }
     if (link->is_skipping) {
         skip(link, server, tick);
     } else if (gather(link, tick)) {
-        (void)answer(link, server, tick);
-        return WIRE_TAKEN;
+        return answer(link, server, tick) ? WIRE_ANSWERED : WIRE_K_ASKED;
     } else if (link->count > 0u && tick->now_us - link->active_us > PATIENCE_US) {
         modbus_link_break(link, server, tick);
     }
