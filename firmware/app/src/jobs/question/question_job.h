@@ -1,8 +1,8 @@
 /* Questions for K where the limb is not: one at a time, each asker in its turn.
  *
  * K under a load costs a fifth of the instructions that a tick may take, and in space a third. So the tick that takes a
- * question does not compute K; the job computes it in steps in the next ticks: two in the plane, seven in space. The port
- * that asks repeats its question in every tick until it gets the answer. A port that stops asking loses its place.
+ * question does not compute K; the job computes it in steps in the next ticks: two in the plane, seven in space. The
+ * port that asks repeats its question in every tick until it gets the answer. A port that stops asking loses its place.
  * Other jobs give way, and have a tick for themselves after eight steps.
  */
 #ifndef BRACE_JOBS_QUESTION_QUESTION_JOB_H
