@@ -177,9 +177,9 @@ static void finish(question_job_t *job, question_slot_t *slot, brace_status_t st
 bool question_job_work(question_job_t *job, const question_inputs_t *inputs, uint32_t steps_most)
 {
     int32_t status = MODEL_LATER;
-    uint32_t steps = 0;
+    bool has_worked = false;
     /* No step follows an answer: its asker takes it in the next tick, before another one's takes its place. */
-    while (steps < steps_most && status == MODEL_LATER) {
+    for (uint32_t i = 0; i < steps_most && status == MODEL_LATER; i++) {
         const bool may_begin = job->steps_in_a_row < STEPS_IN_A_ROW;
         question_slot_t *slot = may_begin || is_under_way(job) ? next_slot(job) : NULL;
         if (slot == NULL) {
@@ -190,8 +190,8 @@ bool question_job_work(question_job_t *job, const question_inputs_t *inputs, uin
             finish(job, slot, (brace_status_t)status);
         }
         job->steps_in_a_row++;
-        steps++;
+        has_worked = true;
     }
-    job->steps_in_a_row = steps > 0u ? job->steps_in_a_row : 0u;
-    return steps > 0u;
+    job->steps_in_a_row = has_worked ? job->steps_in_a_row : 0u;
+    return has_worked;
 }
