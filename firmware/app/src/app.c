@@ -13,6 +13,7 @@
 /* So many answers and process data (wires.h) leave room for a job's step; in space the tick's own K costs more. */
 #define TOLD_MOST 4u
 #define TOLD_MOST_IN_SPACE 3u
+#define STEPS_IN_A_QUIET_TICK 2u
 #define LISTENED_US 20000u /* a tick that comes later has not listened meanwhile, and has not moved the limb either */
 #define LATE_PERIODS 3u /* a tick that comes more than three periods after the one before is more than two late */
 
@@ -421,7 +422,7 @@ static bool work(controller_t *controller, const brace_snapshot_t *now, uint32_t
         work_on_softening(controller);
         return true;
     }
-    if (work_on_question(controller, told == 0u ? 2u : 1u)) {
+    if (work_on_question(controller, told == 0u ? STEPS_IN_A_QUIET_TICK : 1u)) {
         return true;
     }
     if (work_on_drift(controller)) {

@@ -49,10 +49,10 @@ brace_status_t brace_loaded_space_stiffness(const brace_loaded_space_t *loaded, 
                                             brace_space_result_t *result);
 
 /* Both together in steps, for a controller that cannot spend so much at once. Begin; after BRACE_OK step with the same
- * loaded and work until a step, the fifth at the latest, returns true. The same bits come out.
+ * loaded and work until a step, the seventh at the latest, returns true. The same bits come out.
  * No pointer may be null. status (out): as the two calls above. result: written by the last step, on BRACE_OK only.
  * brace_loaded_space_begin returns as brace_loaded_space_settle.
- * Cost on a Cortex-M4F: to begin 900 instructions, a step at most 1,150; stack at most 900 bytes. */
+ * Cost on a Cortex-M4F: to begin 140 instructions, a step at most 1,150; stack at most 900 bytes. */
 brace_status_t brace_loaded_space_begin(const brace_loaded_space_t *loaded, float theta1_rad, float theta2_rad,
                                         const brace_space_load_t *load, brace_space_work_t *work);
 bool brace_loaded_space_step(const brace_loaded_space_t *loaded, brace_space_work_t *work,

@@ -186,9 +186,11 @@ brace_status_t brace_loaded_space_settle(const brace_loaded_space_t *loaded, flo
     brace_space_pose_t drives;
     step_from_straight(loaded, rest, &factors);
     bend_first(loaded, rest, &curls, &drives);
-    const bool has_settled = step_from_bent(&factors, &drives, rest);
+    if (!(step_from_bent(&factors, &drives, rest) && is_within(&rest->pose))) {
+        return BRACE_E_SINGULAR;
+    }
     bend_second(loaded, rest, &curls);
-    return has_settled && is_within(&rest->pose) ? BRACE_OK : BRACE_E_SINGULAR;
+    return BRACE_OK;
 }
 
 /* How far the tip has moved from where the commanded limb has it. */
@@ -254,42 +256,32 @@ brace_status_t brace_loaded_space_stiffness(const brace_loaded_space_t *loaded, 
 
 /* --- in steps ------------------------------------------------------------------------------------------------- */
 
-enum { BEND_FIRST = 0, STEP_AND_BEND, ELIMINATE, SUM_FIRST, SUM_SECOND };
+enum { STEP_FIRST = 0, BEND_FIRST, STEP_SECOND, BEND_SECOND, ELIMINATE, SUM_FIRST, SUM_SECOND };
 
 brace_status_t brace_loaded_space_begin(const brace_loaded_space_t *loaded, float theta1_rad, float theta2_rad,
                                         const brace_space_load_t *load, brace_space_work_t *work)
 {
-    const brace_status_t status = take(loaded, theta1_rad, theta2_rad, load, &work->rest);
-    if (status == BRACE_OK) {
-        step_from_straight(loaded, &work->rest, &work->of.settling.factors);
-        work->step = BEND_FIRST;
-    }
-    return status;
-}
-
-/* returns whether the limb has settled within reach */
-static bool step_and_bend(const brace_loaded_space_t *loaded, brace_space_work_t *work)
-{
-    const bool has_settled =
-        step_from_bent(&work->of.settling.factors, &work->of.settling.drives, &work->rest);
-    bend_second(loaded, &work->rest, &work->of.settling.curls);
-    return has_settled && is_within(&work->rest.pose);
+    work->step = STEP_FIRST;
+    return take(loaded, theta1_rad, theta2_rad, load, &work->rest);
 }
 
 bool brace_loaded_space_step(const brace_loaded_space_t *loaded, brace_space_work_t *work,
                              brace_space_result_t *result, brace_status_t *status)
 {
     brace_space_rest_t *rest = &work->rest;
-    const freedoms_t *free = &work->of.summing.freedoms;
+    factors_t *factors = &work->of.settling.factors;
+    curls_t *curls = &work->of.settling.curls;
+    brace_space_pose_t *drives = &work->of.settling.drives;
+    freedoms_t *free = &work->of.summing.freedoms;
     axes_t *coxa = &work->of.summing.coxa;
     sum_t *sum = &work->of.summing.sum;
     bool goes_on = true;
     switch (work->step++) {
-    case BEND_FIRST:
-        bend_first(loaded, rest, &work->of.settling.curls, &work->of.settling.drives);
-        break;
-    case STEP_AND_BEND: goes_on = step_and_bend(loaded, work); break;
-    case ELIMINATE: goes_on = eliminate_rest(loaded, rest, &work->of.summing.freedoms); break;
+    case STEP_FIRST: step_from_straight(loaded, rest, factors); break;
+    case BEND_FIRST: bend_first(loaded, rest, curls, drives); break;
+    case STEP_SECOND: goes_on = step_from_bent(factors, drives, rest) && is_within(&rest->pose); break;
+    case BEND_SECOND: bend_second(loaded, rest, curls); break;
+    case ELIMINATE: goes_on = eliminate_rest(loaded, rest, free); break;
     case SUM_FIRST: sum_first(loaded, rest, free, coxa, sum); break;
     default: *status = sum_second(loaded, rest, free, coxa, sum, result); return true; /* SUM_SECOND */
     }

@@ -243,20 +243,19 @@ static void sum_outer(const brace_loaded_space_t *loaded, const brace_space_rest
     const brace_space_turns_t *turns = &rest->turns;
     const brace_space_pose_t *pose = &rest->pose;
     const vec3_t none = {0.0f, 0.0f, 0.0f};
-    sum_t s = {.by_turn = {none, none, none},
-               .c = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f},
-               .tip_mm = none,
-               .tibia_mm = axes_times(&frames->tibia, rest->tibia.chord_mm)};
-    add_link(&s, &loaded->tibia, pose->tibia, &rest->tibia, &free->tibia, &frames->tibia, true);
-    axes_about_y(&s.by_turn, turns->tibia_y);
-    add_joint(&s, &free->knee);
-    axes_about_z(&s.by_turn, turns->knee);
-    axes_about_y(&s.by_turn, turns->femur_y);
-    axes_about_x(&s.by_turn, turns->femur_x);
-    add_link(&s, &loaded->femur, pose->femur, &rest->femur, &free->femur, &frames->femur, false);
-    axes_about_y(&s.by_turn, turns->femur_y);
-    add_joint(&s, &free->hip);
-    *sum = s;
+    sum->by_turn = (axes_t){none, none, none};
+    sum->c = (sym3_t){0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
+    sum->tip_mm = none;
+    sum->tibia_mm = axes_times(&frames->tibia, rest->tibia.chord_mm);
+    add_link(sum, &loaded->tibia, pose->tibia, &rest->tibia, &free->tibia, &frames->tibia, true);
+    axes_about_y(&sum->by_turn, turns->tibia_y);
+    add_joint(sum, &free->knee);
+    axes_about_z(&sum->by_turn, turns->knee);
+    axes_about_y(&sum->by_turn, turns->femur_y);
+    axes_about_x(&sum->by_turn, turns->femur_x);
+    add_link(sum, &loaded->femur, pose->femur, &rest->femur, &free->femur, &frames->femur, false);
+    axes_about_y(&sum->by_turn, turns->femur_y);
+    add_joint(sum, &free->hip);
 }
 
 /* From the hip to the base. */
@@ -265,21 +264,19 @@ static void sum_inner(const brace_loaded_space_t *loaded, const brace_space_rest
 {
     const brace_space_turns_t *turns = &rest->turns;
     const float coxa_mm = loaded->coxa.length_mm;
-    sum_t s = *sum;
-    axes_about_z(&s.by_turn, turns->hip);
-    axes_about_y(&s.by_turn, turns->coxa_y);
-    axes_about_x(&s.by_turn, turns->coxa_x);
-    add_link(&s, &loaded->coxa, rest->pose.coxa, &rest->coxa, &free->coxa, coxa, false);
-    axes_about_y(&s.by_turn, turns->coxa_y);
-    axes_about_z(&s.by_turn, turns->coxa_z);
-    add_freedom(&s, &free->yaw, s.by_turn.y);
-    axes_about_y(&s.by_turn, turns->yaw);
+    axes_about_z(&sum->by_turn, turns->hip);
+    axes_about_y(&sum->by_turn, turns->coxa_y);
+    axes_about_x(&sum->by_turn, turns->coxa_x);
+    add_link(sum, &loaded->coxa, rest->pose.coxa, &rest->coxa, &free->coxa, coxa, false);
+    axes_about_y(&sum->by_turn, turns->coxa_y);
+    axes_about_z(&sum->by_turn, turns->coxa_z);
+    add_freedom(sum, &free->yaw, sum->by_turn.y);
+    axes_about_y(&sum->by_turn, turns->yaw);
     const vec3_t up = {-turns->base.z, turns->base.x, 0.0f};
-    add_move(&s, vec3_plus_scaled(s.by_turn.z, up, -coxa_mm), free->base_yields);
-    s.c.xx += loaded->base_x_mm_per_n;
-    s.c.yy += loaded->base_z_mm_per_n;
-    s.tip_mm = vec3_plus_scaled(s.tip_mm, vec3(turns->base.x, turns->base.z, 0.0f), -coxa_mm);
-    *sum = s;
+    add_move(sum, vec3_plus_scaled(sum->by_turn.z, up, -coxa_mm), free->base_yields);
+    sum->c.xx += loaded->base_x_mm_per_n;
+    sum->c.yy += loaded->base_z_mm_per_n;
+    sum->tip_mm = vec3_plus_scaled(sum->tip_mm, vec3(turns->base.x, turns->base.z, 0.0f), -coxa_mm);
 }
 
 #endif

@@ -53,6 +53,14 @@ int32_t question_job_ask(question_job_t *job, brace_asker_t asker, const brace_k
     return job->status;
 }
 
+bool question_job_is_coming(question_job_t *job, brace_asker_t asker)
+{
+    question_slot_t *slot = &job->slot[asker];
+    const bool is_coming = slot->phase == TAKEN;
+    slot->ticks_unasked = is_coming ? 0u : slot->ticks_unasked;
+    return is_coming;
+}
+
 void question_job_forget(question_job_t *job)
 {
     drop(job);
@@ -178,7 +186,8 @@ bool question_job_work(question_job_t *job, const question_inputs_t *inputs, uin
 {
     int32_t status = MODEL_LATER;
     bool has_worked = false;
-    /* No step follows an answer: its asker takes it in the next tick, before another one's takes its place. */
+    /* At most two steps. None follows an answer: its asker takes it in the next tick, before another one's takes its
+     * place. */
     for (uint32_t i = 0; i < steps_most && status == MODEL_LATER; i++) {
         const bool may_begin = job->steps_in_a_row < STEPS_IN_A_ROW;
         question_slot_t *slot = may_begin || is_under_way(job) ? next_slot(job) : NULL;

@@ -1,7 +1,7 @@
 /* Questions for K where the limb is not: one at a time, each asker in its turn.
  *
  * K under a load costs a fifth of the instructions that a tick may take, and in space a third. So the tick that takes a
- * question does not compute K; the job computes it in steps in the next ticks: two in the plane, seven in space. The
+ * question does not compute K; the job computes it in steps in the next ticks: two in the plane, nine in space. The
  * port that asks repeats its question in every tick until it gets the answer. A port that stops asking loses its place.
  * Other jobs give way, and have a tick for themselves after eight steps.
  */
@@ -50,11 +50,14 @@ typedef struct {
 int32_t question_job_ask(question_job_t *job, brace_asker_t asker, const brace_k_question_t *question,
                          brace_k_answer_t *answer);
 
+/* Is the asker's question still being worked out? This keeps its place, as to ask again does. */
+bool question_job_is_coming(question_job_t *job, brace_asker_t asker);
+
 /* A tick passes: a question that is asked no longer is forgotten. */
 void question_job_age(question_job_t *job);
 
-/* Steps of what has been asked, at most so many. returns whether there was one. At most 1,900 instructions each, in
- * space 1,400. */
+/* Steps of what has been asked, at most so many [1, 2]. returns whether there was one. At most 1,900 instructions each,
+ * in space 1,300. */
 bool question_job_work(question_job_t *job, const question_inputs_t *inputs, uint32_t steps_most);
 
 /* What was asked is forgotten, because it belongs to parameters that are in force no longer; who asks again begins

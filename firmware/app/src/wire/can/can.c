@@ -92,7 +92,8 @@ static uint32_t listen_to_bus(can_t *can, const wire_tick_t *tick)
     brace_can_frame_t frame;
     const bool has_room = has_room_for_an_answer(&can->bus_port);
     bool is_busy = requests->waits || !has_room;
-    const bool is_late = requests->waits && has_room && answer(can, ON_BUS, tick, requests->waiting);
+    const bool is_late = requests->waits && has_room && !brace_app_k_is_coming(tick->app, BRACE_ASKER_CAN) &&
+                         answer(can, ON_BUS, tick, requests->waiting);
     uint32_t done = is_late ? WIRE_K_ANSWERED : WIRE_NOTHING;
     if (!is_busy && requests->has_next) {
         requests->has_next = false;
@@ -126,7 +127,9 @@ static uint32_t listen_to_text(can_t *can, const wire_tick_t *tick)
         return WIRE_NOTHING;
     }
     if (requests->waits) {
-        return answer(can, AS_TEXT, tick, requests->waiting) ? WIRE_K_ANSWERED : WIRE_NOTHING;
+        const bool is_late = !brace_app_k_is_coming(tick->app, BRACE_ASKER_SLCAN) &&
+                             answer(can, AS_TEXT, tick, requests->waiting);
+        return is_late ? WIRE_K_ANSWERED : WIRE_NOTHING;
     }
     if (!slcan_receive(&can->text, tick->hal, &frame) || !is_request(can, tick, &frame)) {
         return WIRE_NOTHING;

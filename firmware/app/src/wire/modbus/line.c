@@ -170,7 +170,9 @@ uint32_t modbus_line_tick(modbus_line_t *line, modbus_server_t *server, const wi
     modbus_link_t *link = &line->link;
     uint32_t done = WIRE_NOTHING;
     if (link->is_waiting) {
-        done = answer(line, server, tick) ? WIRE_K_ANSWERED : WIRE_NOTHING;
+        const bool is_late =
+            !brace_app_k_is_coming(tick->app, BRACE_ASKER_MODBUS_LINE) && answer(line, server, tick);
+        done = is_late ? WIRE_K_ANSWERED : WIRE_NOTHING;
     } else if (!link->is_sending) { /* else what comes waits in the port */
         const bool bytes_came = gather(line, tick);
         const uint32_t silent_us = tick->now_us - link->active_us;

@@ -98,7 +98,9 @@ static bool answer(modbus_link_t *link, modbus_server_t *server, const wire_tick
 static uint32_t take_request(modbus_link_t *link, modbus_server_t *server, const wire_tick_t *tick)
 {
     if (link->is_waiting) {
-        return answer(link, server, tick) ? WIRE_K_ANSWERED : WIRE_NOTHING;
+        const bool is_late =
+            !brace_app_k_is_coming(tick->app, BRACE_ASKER_MODBUS_TCP) && answer(link, server, tick);
+        return is_late ? WIRE_K_ANSWERED : WIRE_NOTHING;
     }
     if (link->is_skipping) {
         skip(link, server, tick);
