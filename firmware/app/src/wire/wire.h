@@ -9,9 +9,15 @@
 #include "brace_hal.h"
 #include "brace/requests.h"
 
-/* How much a port has done in a tick. To take a question for K costs as much as two other requests, and so does its
- * answer later. */
-enum { WIRE_NOTHING = 0, WIRE_ANSWERED = 1, WIRE_K_ASKED = 2, WIRE_K_ANSWERED = 2 };
+/* How much a port has done in a tick, counted in short answers. */
+enum {
+    WIRE_NOTHING = 0,
+    WIRE_ANSWERED = 1,
+    WIRE_DATA_ARE_TAKEN = 1, /* a snapshot for process data */
+    WIRE_K_ASKED = 2,
+    WIRE_K_ANSWERED = 2,
+    WIRE_DATA_ARE_SET_UP = 3 /* their periods, for another set of parameters */
+};
 
 typedef struct {
     const brace_hal_t *hal;

@@ -192,11 +192,10 @@ static uint32_t send_process_data(can_t *can, way_t way, const wire_tick_t *tick
                                .bit_rate = can->bit_rate,
                                .fd_bit_rate = way == ON_BUS ? can->bus.setup.fd_bit_rate : 0u};
     process_t *process = &port_of(can, way)->process;
-    const process_t *other = &port_of(can, way == ON_BUS ? AS_TEXT : ON_BUS)->process;
     brace_can_frame_t frame;
     /* A snapshot is long, and so is a change of the rates: the two ports do not both work in the same tick. */
-    if (other->worked_us != tick->now_us) {
-        process_tick(process, &bus, tick);
+    if (can->data_done == 0u) {
+        can->data_done = process_tick(process, &bus, tick);
     }
     for (uint32_t i = 0; i < most; i++) {
         if (!process_next(process, tick, &frame) || !send(can, way, tick, &frame)) {
@@ -252,11 +251,10 @@ uint32_t can_speak(can_t *can, const wire_tick_t *tick, uint32_t most)
     const bool data_wait = most == 0u && can->data_waited < DATA_WAIT_MOST;
     can->data_waited = data_wait ? (uint8_t)(can->data_waited + 1u) : 0u;
     most = most > 0u ? most : 1u;
+    can->data_done = WIRE_NOTHING;
     can->text_first = !can->text_first; /* The ports share the tick's frames of process data. */
     const uint32_t told = speak(can, can->text_first ? AS_TEXT : ON_BUS, tick, most);
     const uint32_t more = speak(can, can->text_first ? ON_BUS : AS_TEXT, tick, most - told);
     slcan_flush(&can->text, tick->hal);
-    const uint32_t now_us = tick->now_us;
-    const bool has_taken = can->bus_port.process.worked_us == now_us || can->text_port.process.worked_us == now_us;
-    return told + more + (has_taken ? 1u : 0u);
+    return told + more + can->data_done;
 }

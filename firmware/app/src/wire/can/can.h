@@ -37,6 +37,7 @@ typedef struct {
     slcan_t text;
     bool text_first;         /* in the last tick the text port spoke before the bus did */
     uint8_t data_waited;     /* ticks in a row in which process data have waited for answers */
+    uint32_t data_done;      /* in this tick, by process_tick */
     can_port_t bus_port;
     can_port_t text_port;
 } can_t;
@@ -54,8 +55,7 @@ uint32_t can_listen(can_t *can, const wire_tick_t *tick);
  *     16 ticks in a row; then one leaves
  * Both halves take about 300 instructions when nothing happens. A request adds what its answer costs, each frame sent
  * 160, as text 380.
- * returns how much it has done for process data: frames that have left, and one for a snapshot taken for them or their
- *   periods worked out */
+ * returns how much it has done for process data: frames that have left, and what process_tick has done */
 uint32_t can_speak(can_t *can, const wire_tick_t *tick, uint32_t most);
 
 /* Has the CAN controller left the bus? */
