@@ -24,7 +24,7 @@ enum {
     FLOOD_CAN = 1, FLOOD_SLCAN = 2, FLOOD_LINE = 4, FLOOD_TCP = 8, FLOOD_PORTS = 4,
     K_MOST_TICKS = 4 * 2,    /* four ports, two steps each, */
     SPACE_MOST_TICKS = 4 * 9, /* and nine of a limb in space */
-    JOBS_TICKS = 1 + 2,      /* other jobs have a step after eight, and ticks that tell much have none, */
+    JOBS_TICKS = 1 + 1,      /* other jobs have a step after eight, and a tick that tells much has none, */
     SPACE_JOBS_TICKS = 4 + 4, /* and a step towards the buckling factor is due in each ninth tick */
     LINE_TICKS = 4 + 5,      /* on the line: bytes and the silence that ends them, read in every other tick; and a long
                                 answer, which leaves in five */
