@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import signal
 import time
 from collections.abc import Callable
@@ -12,7 +13,13 @@ from typing import Any
 import pytest
 
 from brace.diagnose.beside import beside
+from brace.diagnose.diagnosis import NextExperiment
+from brace.diagnose.loading import outcome
+from brace.diagnose.one import diagnosed, load
+from brace.diagnose.options import Options
+from brace.diagnose.report import pictures
 from brace.errors import UsageError
+from brace.plots import figure
 
 
 def _never() -> int:
@@ -56,15 +63,38 @@ def test_leaving_ends_it() -> None:
     assert time.monotonic() - begun < 60.0
 
 
-def test_one_process_and_two_write_the_same_bytes(
-    brace: Callable[..., Any], tmp_path: Path, paper_limb: Path, paper_rig: Path
-) -> None:
-    hidden = paper_limb.read_text().replace("[joint.tibia]\n", "[joint.tibia]\ngap_rad = 0.006\n")
+@pytest.fixture
+def record(brace: Callable[..., Any], tmp_path: Path, paper_limb: Path, paper_rig: Path) -> Path:
+    """Of a limb with play."""
+    hidden = re.sub(r"(?m)^(\[joint\.tibia\].*)$", r"\1\ngap_rad = 0.006", paper_limb.read_text())
+    assert "gap_rad = 0.006" in hidden
     (tmp_path / "hidden.toml").write_text(hidden)
     record = tmp_path / "record"
     assert brace("simulate", "--model", tmp_path / "hidden.toml", "--rig", paper_rig, "--out", record).code == 0
+    return record
+
+
+def test_one_process_and_two_write_the_same_bytes(
+    brace: Callable[..., Any], tmp_path: Path, paper_limb: Path, record: Path
+) -> None:
     for jobs in (1, 2):
         arguments = ("diagnose", record, "--model", paper_limb, "--out", tmp_path / str(jobs), "--jobs", jobs)
         assert brace(*arguments).code == 0
     for leaf in ("diagnosis.json", "limb.toml", "report.html"):
         assert (tmp_path / "1" / leaf).read_bytes() == (tmp_path / "2" / leaf).read_bytes()
+
+
+def test_the_second_process_plans_and_draws_while_the_first_loads_and_draws(
+    monkeypatch: pytest.MonkeyPatch, paper_limb: Path, record: Path
+) -> None:
+    loading: list[int] = []
+    monkeypatch.setattr(figure, "load", lambda: loading.append(os.getpid()))
+    monkeypatch.setattr(outcome, "next_experiment", lambda *_: NextExperiment(str(os.getpid()), (), 1.0, 1.0))
+    for name in ("disagreement", "gap"):
+        monkeypatch.setattr(pictures, name, lambda *_: f"{os.getpid()}")
+    here = str(os.getpid())
+    found, written = diagnosed(load(record, paper_limb), Options(processes=2))
+    assert found.next_experiment is not None and found.next_experiment.action != here
+    assert loading == [os.getpid()]
+    drawn = re.findall(r"<div class=\"pic\">(\d+)", written.files["report.html"].decode())
+    assert drawn[0] == here and drawn[-1] != here and len(drawn) == 2, drawn

@@ -5,7 +5,7 @@ from __future__ import annotations
 import gc
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from brace.dataset import Dataset, load_dataset
@@ -60,9 +60,16 @@ def diagnosed(
     given: Given, options: Options, advance: Advance = silent, report: bool = True
 ) -> tuple[Diagnosis, Written]:
     """The diagnosis, and what it leaves behind; `report` as for `contents`."""
+
+    def load_figures() -> None:
+        from brace.plots.figure import load
+
+        load()
+
     with _cycles_sought_rarely():
-        found = diagnose(given.dataset, given.believed, options, advance)
-        written = contents(given.dataset, given.believed, given.believed_text, found, report)
+        asked = replace(options, meanwhile=load_figures) if report else options
+        found = diagnose(given.dataset, given.believed, asked, advance)
+        written = contents(given.dataset, given.believed, given.believed_text, found, report, options.processes)
     return written.diagnosis, written
 
 

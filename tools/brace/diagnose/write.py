@@ -33,9 +33,14 @@ class Written:
 
 
 def contents(
-    dataset: Dataset, believed: LimbModel | None, believed_text: str, found: Diagnosis, report: bool = True
+    dataset: Dataset,
+    believed: LimbModel | None,
+    believed_text: str,
+    found: Diagnosis,
+    report: bool = True,
+    processes: int = 1,
 ) -> Written:
-    """The three files of a diagnosis; without the report two of them, in half the time."""
+    """The three files of a diagnosis; without the report two of them, in half the time. `processes` may draw it."""
     from brace.diagnose.report.page import page
 
     origin = provenance(dataset, believed_text)
@@ -48,7 +53,7 @@ def contents(
         MODEL: exported.text.encode(),
     }
     if report:
-        files[REPORT] = page(dataset, believed, found, origin).encode()
+        files[REPORT] = page(dataset, believed, found, origin, processes).encode()
     return Written(data, files, found)
 
 

@@ -41,6 +41,12 @@ def new_figure(width_in: float, height_in: float, layout: Literal["constrained"]
     return Figure(figsize=(width_in, height_in), layout=layout)
 
 
+def load() -> None:
+    """Loads what figures are drawn with, which takes half a second."""
+    import matplotlib.backends.backend_svg
+    import matplotlib.figure  # noqa: F401
+
+
 def place_panels(
     figure: Figure,
     rows: int,

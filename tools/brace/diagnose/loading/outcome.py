@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from brace.diagnose.beside import beside
 from brace.diagnose.diagnosis import (
     Candidate,
     Diagnosis,
@@ -69,13 +70,34 @@ def diagnosis_of(
     options: Options,
 ) -> Diagnosis:
     """`whole` is all that was measured, `record` the part that was searched,
-    `locked` its rows that `twin` never saw."""
+    `locked` its rows that `twin` never saw. A second process plans what to measure next."""
+    contested = contest(final)
+    named = final.decision.verdict in ("effect", "ambiguous")
+
+    def following() -> NextExperiment | None:
+        return next_experiment(record, final, believed, options) if named else _more_of_the_same(final)
+
+    with beside(following, following, options.processes if named else 1) as next_one:
+        found = _all_but_next(whole, record, locked, believed, final, twin, contested, options)
+        options.meanwhile()
+        return replace(found, next_experiment=_told_by(next_one(), contested))
+
+
+def _all_but_next(
+    whole: Record,
+    record: Record,
+    locked: np.ndarray,
+    believed: LimbModel,
+    final: Pass,
+    twin: Pass | None,
+    contested: Contest | None,
+    options: Options,
+) -> Diagnosis:
     decision = final.decision
     best = decision.chosen.best.fit
     judged = twin or final
     named = decision.verdict in ("effect", "ambiguous")
     after = best if named else final.base.fit
-    contested = contest(final)
     resolved = resolve(record, final, contested, believed, options.take)
     shown = believed if decision.verdict == "unknown" else limb_of(believed, after.model)
     agreed = agreement(record, locked, final, twin, options.seed)
@@ -86,7 +108,6 @@ def diagnosis_of(
         effects = tuple(replace(one, confidence=min(one.confidence, most)) for one in effects)
     held = held_out(final.record, after, locked) if decision.verdict != "unknown" else ()
     late = tuple(_trouble(one, 1.0 / (1.0 + np.exp(-one.lead))) for one in final.troubles if one.name == LAG)
-    following = next_experiment(record, final, believed, options) if named else _more_of_the_same(final)
     return Diagnosis(
         verdict=_verdict(final, resolved),
         sentence=_sentence(final, effects, resolved, contested) + _beside(final, resolved),
@@ -99,7 +120,7 @@ def diagnosis_of(
         localised=_localised(record, final, options),
         held_out=held,
         unexplained=_unexplained(final, after),
-        next_experiment=_told_by(following, contested),
+        next_experiment=None,
         data_faults=(*record.dataset.faults, *(trouble.fault for trouble in final.troubles)),
         candidates=tuple(
             Candidate(item.label, final.base.fit.cost - item.best.fit.cost, item.posterior)

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from brace.dataset import Dataset
 from brace.diagnose import plain_words as words
+from brace.diagnose.beside import beside
 from brace.diagnose.diagnosis import Diagnosis, NamedEffect
 from brace.diagnose.export import changed
 from brace.diagnose.report import html
@@ -19,16 +20,24 @@ if TYPE_CHECKING:
 MOST_FAULTS, MOST_CANDIDATES = 60, 14
 
 
-def page(dataset: Dataset, believed: LimbModel | None, found: Diagnosis, origin: Provenance) -> str:
-    """report.html."""
+def page(
+    dataset: Dataset, believed: LimbModel | None, found: Diagnosis, origin: Provenance, processes: int = 1
+) -> str:
+    """report.html. A second process draws some of the pictures, where `processes` has one."""
     seen = view(dataset, found)
     faulty = found.verdict == "data_fault"
+
+    def gap() -> str:
+        return _gap(found, seen)
+
+    with beside(gap, gap, processes if found.gap is not None else 1) as closed:
+        where, how_far = _where(found, seen), closed()
     parts = [
         _top(believed, found, origin),
         _faults(found) if faulty else "",
-        _where(found, seen),
+        where,
         _missing(believed, found),
-        _gap(found, seen),
+        how_far,
         _unexplained(found),
         _apart(found),
         _next(found),
