@@ -186,8 +186,8 @@ bool question_job_work(question_job_t *job, const question_inputs_t *inputs, uin
 {
     int32_t status = MODEL_LATER;
     bool has_worked = false;
-    /* At most two steps. None follows an answer: its asker takes it in the next tick, before another one's takes its
-     * place. */
+    /* One step, or at most two. None follows an answer: its asker takes it in the next tick, before another one's takes
+     * its place. */
     for (uint32_t i = 0; i < steps_most && status == MODEL_LATER; i++) {
         const bool may_begin = job->steps_in_a_row < STEPS_IN_A_ROW;
         question_slot_t *slot = may_begin || is_under_way(job) ? next_slot(job) : NULL;

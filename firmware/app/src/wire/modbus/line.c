@@ -6,9 +6,9 @@
 
 enum { ADDRESS_BYTES = 1, CRC_BYTES = 2, FRAME_LEAST = ADDRESS_BYTES + 1 + CRC_BYTES, FRAME_MOST = 256, EVERYBODY = 0 };
 
-/* A whole frame may come at once, from an adapter. Its check is worked out in four ticks, mostly before silence ends
+/* A whole frame may come at once, from an adapter. Its check is worked out in three ticks, mostly before silence ends
  * it. */
-#define CHECKED_PER_TICK 64u
+#define CHECKED_PER_TICK ((FRAME_MOST + 2u) / 3u)
 
 /* The check of an answer is worked out so many bytes ahead of what the line carries in a tick: no gap tears it, also
  * where a tick comes late. */
