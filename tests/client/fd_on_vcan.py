@@ -19,6 +19,8 @@ import cantools
 import pytest
 from conftest import LIMB, PROJECT
 
+from brace.cli import main as brace_main
+
 INTERFACE = PROJECT / "firmware" / "interface"
 PROBE_ALL = 7
 LINE = re.compile(r"\((\d+\.\d+)\) vcan0 501##[15]([0-9A-F]{128})(?: [RT])?")
@@ -35,9 +37,10 @@ def limb(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return path
 
 
-@pytest.fixture
+@pytest.fixture(scope="module")
 def sim(limb: Path) -> Iterator[dict[str, Any]]:
-    """`brace sim` on vcan0. The limb's sensor is free of noise: K counts the force that it reads."""
+    """`brace sim` on vcan0, for all tests here: its start is most of their work. The limb's sensor is free of noise: K
+    counts the force that it reads."""
     quiet = limb.with_name("quiet.toml")
     quiet.write_text(limb.read_text() + "\n[sensor]\nnoise_n = 0.0\n")
     command = [sys.executable, "-m", "brace", "sim", "--model", str(limb), "--plant", str(quiet), "--json", "--can",
@@ -47,6 +50,23 @@ def sim(limb: Path) -> Iterator[dict[str, Any]]:
     yield json.loads(process.stdout.readline())
     process.send_signal(signal.SIGTERM)
     process.communicate(timeout=60)
+
+
+def test_an_interface_for_classic_frames_gets_classic_ones(limb: Path) -> None:
+    # The first test: two simulations at once would be slow.
+    subprocess.run(["ip", "link", "add", "vcan8", "type", "vcan"], check=True)
+    subprocess.run(["ip", "link", "set", "vcan8", "mtu", "16"], check=True)
+    subprocess.run(["ip", "link", "set", "vcan8", "up"], check=True)
+    command = [sys.executable, "-m", "brace", "sim", "--model", str(limb), "--json", "--can", "vcan8", "--modbus",
+               "none"]
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
+    assert process.stdout is not None and process.stdout.readline()
+    done = subprocess.run(["candump", "-L", "-T", "1500", "-n", "100", "vcan8"], capture_output=True, text=True,
+                          timeout=90)
+    process.send_signal(signal.SIGTERM)
+    process.communicate(timeout=60)
+    subprocess.run(["ip", "link", "del", "vcan8"], check=True)
+    assert " 181#" in done.stdout and "##" not in done.stdout
 
 
 def test_candump_shows_two_hashes(sim: dict[str, Any]) -> None:
@@ -61,12 +81,12 @@ def test_candump_shows_two_hashes(sim: dict[str, Any]) -> None:
     assert 6 <= statistics.median(steps) <= 12, steps  # 100 Hz, counted on the controller's clock of 1 kHz
 
 
-def test_python_can_and_cantools_read_the_k_that_brace_reads(sim: dict[str, Any]) -> None:
+def test_python_can_and_cantools_read_the_k_that_brace_reads(
+    sim: dict[str, Any], capsys: pytest.CaptureFixture[str]
+) -> None:
     database = cantools.database.load_file(INTERFACE / "brace_fd.dbc")
-    asked = json.loads(subprocess.run(
-        [sys.executable, "-m", "brace", "query", "--bus", "vcan0", "--json"], capture_output=True, text=True,
-        timeout=90, check=True
-    ).stdout)
+    assert brace_main(["query", "--bus", "vcan0", "--json"]) == 0
+    asked = json.loads(capsys.readouterr().out)
     with can.Bus(interface="socketcan", channel="vcan0", fd=True) as bus:
         until = time.monotonic() + 30
         decoded: list[dict[str, Any]] = []
@@ -96,29 +116,14 @@ def test_the_c_client_reads_them(sim: dict[str, Any], probe: Any) -> None:
     assert posture.code == 0 and posture.values["k_xx"] > 0
 
 
-def test_brace_records_and_replays_them(sim: dict[str, Any], tmp_path: Path) -> None:
-    run = [sys.executable, "-m", "brace"]
+def test_brace_records_and_replays_them(
+    sim: dict[str, Any], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     log = tmp_path / "fd.log"
-    subprocess.run([*run, "record", "--bus", "vcan0", "--out", log, "--seconds", "2"], check=True, capture_output=True,
-                   timeout=90)
+    assert brace_main(["record", "--bus", "vcan0", "--out", str(log), "--seconds", "2"]) == 0
     assert sum(LINE.fullmatch(line) is not None for line in log.read_text().splitlines()) > 60
-    again = subprocess.run([*run, "replay", log, "--json"], check=True, capture_output=True, text=True,
-                           timeout=90).stdout
+    capsys.readouterr()
+    assert brace_main(["replay", str(log), "--json"]) == 0
+    again = capsys.readouterr().out
     snapshots = [entry for line in again.splitlines() if "k_xx_n_per_mm" in (entry := json.loads(line))]
     assert len(snapshots) > 60 and all(entry["k_is_valid"] and "theta1_rad" in entry for entry in snapshots)
-
-
-def test_an_interface_for_classic_frames_gets_classic_ones(limb: Path) -> None:
-    subprocess.run(["ip", "link", "add", "vcan8", "type", "vcan"], check=True)
-    subprocess.run(["ip", "link", "set", "vcan8", "mtu", "16"], check=True)
-    subprocess.run(["ip", "link", "set", "vcan8", "up"], check=True)
-    command = [sys.executable, "-m", "brace", "sim", "--model", str(limb), "--json", "--can", "vcan8", "--modbus",
-               "none"]
-    process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
-    assert process.stdout is not None and process.stdout.readline()
-    done = subprocess.run(["candump", "-L", "-T", "1500", "-n", "100", "vcan8"], capture_output=True, text=True,
-                          timeout=90)
-    process.send_signal(signal.SIGTERM)
-    process.communicate(timeout=60)
-    subprocess.run(["ip", "link", "del", "vcan8"], check=True)
-    assert " 181#" in done.stdout and "##" not in done.stdout

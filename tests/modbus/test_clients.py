@@ -34,6 +34,35 @@ def wait_for_k(client: Client) -> dict[str, float]:
         assert time.monotonic() < end, f"no valid K within 10 s: {values}"
 
 
+# First: an emulated board works as long as it is there, and the one of the tests below stays until the last of them.
+def test_a_parameter_is_staged_committed_read_back_and_rolled_back(client_of_fresh_server: Client) -> None:
+    client = client_of_fresh_server
+    name, wanted = "geometry.tibia_mm", 231.25
+    enter(client, "CONFIGURATION")
+    before, crc = get(client, name), get(client, "parameter_crc")
+    with pytest.raises(Refused) as refused:
+        put(client, name, -1.0)
+    assert refused.value.code == 3
+    put(client, name, wanted)
+    assert get(client, name) == wanted and get(client, "parameter_crc") == crc
+    store(client, "commit")
+    assert get(client, name) == wanted
+    enter(client, "MONITOR")
+    values = wait_for_k(client)
+    assert values["parameter_crc"] != crc and get(client, name) == wanted
+    enter(client, "CONFIGURATION")
+    store(client, "rollback")
+    assert get(client, name) == before
+    enter(client, "MONITOR")
+    assert wait_for_k(client)["parameter_crc"] == crc
+
+
+def version() -> str:
+    """The project's."""
+    text = (PROJECT / "tools/pyproject.toml").read_text()
+    return str(tomllib.loads(text)["project"]["version"])
+
+
 def test_probes_tell_the_word_order(client: Client) -> None:
     assert client.read("input", 0, 4) == [0x4640, 0xE600, 0x0102, 0x0304]
     assert get(client, "probe_f32") == 12345.5 and get(client, "probe_u32") == 0x01020304
@@ -127,34 +156,6 @@ def test_friction_margin_is_of_the_force_that_is_told(client: Client) -> None:
     answered = block(client, "asked_margin", "asked_contact")
     assert abs(answered["asked_margin"] - (0.5 * told["force_z"] - abs(told["force_x"]))) < 0.5
     assert answered["asked_contact"] in (0, 1, 2)
-
-
-def test_a_parameter_is_staged_committed_read_back_and_rolled_back(client_of_fresh_server: Client) -> None:
-    client = client_of_fresh_server
-    name, wanted = "geometry.tibia_mm", 231.25
-    enter(client, "CONFIGURATION")
-    before, crc = get(client, name), get(client, "parameter_crc")
-    with pytest.raises(Refused) as refused:
-        put(client, name, -1.0)
-    assert refused.value.code == 3
-    put(client, name, wanted)
-    assert get(client, name) == wanted and get(client, "parameter_crc") == crc
-    store(client, "commit")
-    assert get(client, name) == wanted
-    enter(client, "MONITOR")
-    values = wait_for_k(client)
-    assert values["parameter_crc"] != crc and get(client, name) == wanted
-    enter(client, "CONFIGURATION")
-    store(client, "rollback")
-    assert get(client, name) == before
-    enter(client, "MONITOR")
-    assert wait_for_k(client)["parameter_crc"] == crc
-
-
-def version() -> str:
-    """The project's."""
-    text = (PROJECT / "tools/pyproject.toml").read_text()
-    return str(tomllib.loads(text)["project"]["version"])
 
 
 @pytest.mark.parametrize("kind", [Libmodbus, Pymodbus])

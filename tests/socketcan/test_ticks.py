@@ -158,8 +158,8 @@ def _gaps(wire: Wire, pairs: int) -> tuple[np.ndarray, np.ndarray]:
 
 
 SNAPSHOTS = 1_000_000
-LIMBS = 4
-QUESTIONS = 100  # of each limb, at once
+LIMBS = 16  # the bus takes all of them, and a tick of many costs less for each than a tick of a few
+QUESTIONS = 25  # of each limb, at once
 STEPS_A_CHECK = 10
 
 

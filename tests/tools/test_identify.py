@@ -128,9 +128,15 @@ def test_the_split_reaches_as_far_as_the_knee_can_be_exchanged(tmp_path: Path) -
     assert most - 0.01 <= found.allowed[1] < most + 0.06
 
 
+def identified(folder: Path, record: Path) -> tuple[object, ...]:
+    """A command for the slopes, which do not depend on what is fitted: one number, which takes the least time."""
+    files = (record, "--model", limb(folder), "--out", folder / "f.toml")
+    return ("identify", *files, "--only", "link.femur.bending_mm_per_n", "--json")
+
+
 def test_slopes_by_both_estimators(tmp_path: Path, brace: Callable[..., Outcome]) -> None:
     folder = write_loading(tmp_path / "d", loading_rows(noise_n=0.0))
-    outcome = brace("identify", folder, "--model", limb(tmp_path), "--out", tmp_path / "f.toml", "--json")
+    outcome = brace(*identified(tmp_path, folder))
     slopes = json.loads(outcome.out)["slopes"]
     assert [entry["config"] for entry in slopes] == [1, 2, 3, 4, 5]
     for (theta1, theta2), entry in zip(POSES, slopes):
@@ -145,7 +151,7 @@ def test_the_papers_estimator_is_its_own(tmp_path: Path, brace: Callable[..., Ou
     rows = loading_rows(noise_n=0.0)
     rows[1][11] = f"{float(rows[1][11]) + 1.0:.6f}"  # first run, along x, first step, 0.635 mm; two repeats
     folder = write_loading(tmp_path / "d", rows)
-    outcome = brace("identify", folder, "--model", limb(tmp_path), "--out", tmp_path / "f.toml", "--json")
+    outcome = brace(*identified(tmp_path, folder))
     first = json.loads(outcome.out)["slopes"][0]
     places = np.array([1, 2, 3, 4, 3, 2, 1, -1, -2, -3, -4, -3, -2, -1]) * 0.635  # steps at 0 are not counted
     k_xx = physics_k(*POSES[0])[0, 0]

@@ -53,7 +53,7 @@ def press(one: Node, limb: LimbModel, press_n: float, towards_rad: float) -> Non
             break
         pull_mm = pulled_n / STRING_N_PER_MM
         one.press(pull_mm[0], pull_mm[1], hold_n_per_mm=STRING_N_PER_MM)
-        one.step(3.0)
+        one.step(1.0)
         pulled_n = pulled_n + wanted_n - force_of(one)
     truth = one.raw_truth()
     rest = under_force(limb, truth.motor_rad[1], truth.motor_rad[2], force_of(one))

@@ -23,7 +23,7 @@ DBC = PROJECT / "firmware" / "interface" / "brace.dbc"
 DBC_FD = DBC.with_name("brace_fd.dbc")
 SUFFIX = {"": "", "1": "_ratio", "N/mm": "_n_per_mm", "rad": "_rad", "ms": "_ms", "mm": "_mm", "N": "_n",
           "N mm": "_n_mm"}
-RANDOM = 1000
+RANDOM = 250  # codes of each signal: all its bits have been 0 and 1 long before
 
 
 @pytest.fixture(scope="module")

@@ -198,9 +198,19 @@ def test_ranking_is_by_noise_floors_and_faulty_records_lead() -> None:
     assert overview.as_json(outcomes)["limbs"][0]["gap_in_noise_floors"] is None
 
 
+def _worked_s(parent: int) -> float:
+    """Processor time of a process' children."""
+    children = Path(f"/proc/{parent}/task/{parent}/children").read_text().split()
+    after_name = [Path(f"/proc/{child}/stat").read_text().rpartition(")")[2].split() for child in children]
+    return sum(int(words[11]) + int(words[12]) for words in after_name) / os.sysconf("SC_CLK_TCK")
+
+
 def test_ctrl_c_ends_a_fleet(fleet: list[Path], tmp_path: Path) -> None:
     process = spawn("diagnose", *(fleet[:3] * 6), "--out", tmp_path / "out", "--jobs", 2)
-    time.sleep(5.0)
+    end = time.monotonic() + 60.0
+    while _worked_s(process.pid) < 3.0:  # two processes spend one of these on their imports; then they diagnose
+        assert time.monotonic() < end and process.poll() is None
+        time.sleep(0.1)
     process.send_signal(signal.SIGINT)
     _, err = process.communicate(timeout=120)
     assert process.returncode == 130 and "interrupted" in err and "Traceback" not in err, err
