@@ -10,9 +10,7 @@
  * than 100 ms in either case. */
 #define GUARDED_WORDS_PER_MS 8u
 #define GUARDED_WORDS_MOST 24u /* of the 364 */
-/* So many answers and process data (wires.h) leave room for a job's step; in space the tick's own K costs more. */
-#define TOLD_MOST 4u
-#define TOLD_MOST_IN_SPACE 3u
+#define TOLD_MOST 3u /* so many requests and process data (wire.h) leave room for a job's step */
 #define STEPS_IN_A_QUIET_TICK 2u
 #define LISTENED_US 20000u /* a tick that comes later has not listened meanwhile, and has not moved the limb either */
 #define LATE_PERIODS 3u /* a tick that comes more than three periods after the one before is more than two late */
@@ -414,8 +412,7 @@ static void work_on_softening(controller_t *controller)
 static bool work(controller_t *controller, const brace_snapshot_t *now, uint32_t told)
 {
     softening_t *softening = &controller->softening;
-    const uint32_t told_most = controller->model.is_spatial ? TOLD_MOST_IN_SPACE : TOLD_MOST;
-    if (told > told_most || controller->parameters.comes_in_force) { /* then the model may be that of the set before */
+    if (told > TOLD_MOST || controller->parameters.comes_in_force) { /* then the model may be that of the set before */
         return false;
     }
     if (softening_is_overdue(softening)) {

@@ -12,10 +12,9 @@
 /* How much a port has done in a tick, counted in short answers. */
 enum {
     WIRE_NOTHING = 0,
-    WIRE_ANSWERED = 1,
+    WIRE_TAKEN = 1,          /* a request, answered or not */
     WIRE_DATA_ARE_TAKEN = 1, /* a snapshot for process data */
-    WIRE_K_ASKED = 2,
-    WIRE_K_ANSWERED = 2,
+    WIRE_K_ANSWERED = 2,     /* to a request that has waited for it */
     WIRE_DATA_ARE_SET_UP = 3 /* their periods, for another set of parameters */
 };
 

@@ -97,7 +97,8 @@ static uint32_t listen_to_bus(can_t *can, const wire_tick_t *tick)
     uint32_t done = is_late ? WIRE_K_ANSWERED : WIRE_NOTHING;
     if (!is_busy && requests->has_next) {
         requests->has_next = false;
-        done = answer(can, ON_BUS, tick, requests->next) ? WIRE_ANSWERED : WIRE_K_ASKED;
+        (void)answer(can, ON_BUS, tick, requests->next);
+        done = WIRE_TAKEN;
         is_busy = true;
     }
     for (uint32_t i = 0; i < FRAMES_PER_TICK && !requests->has_next; i++) {
@@ -111,7 +112,8 @@ static uint32_t listen_to_bus(can_t *can, const wire_tick_t *tick)
             memcpy(requests->next, frame.data, sizeof requests->next);
             requests->has_next = true;
         } else {
-            done = answer(can, ON_BUS, tick, frame.data) ? WIRE_ANSWERED : WIRE_K_ASKED;
+            (void)answer(can, ON_BUS, tick, frame.data);
+            done = WIRE_TAKEN;
             is_busy = true;
         }
     }
@@ -134,7 +136,8 @@ static uint32_t listen_to_text(can_t *can, const wire_tick_t *tick)
     if (!slcan_receive(&can->text, tick->hal, &frame) || !is_request(can, tick, &frame)) {
         return WIRE_NOTHING;
     }
-    return answer(can, AS_TEXT, tick, frame.data) ? WIRE_ANSWERED : WIRE_K_ASKED;
+    (void)answer(can, AS_TEXT, tick, frame.data);
+    return WIRE_TAKEN;
 }
 
 /* ----------------------------------------------------------------------------------------------- out -- */

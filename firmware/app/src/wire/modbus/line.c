@@ -158,7 +158,8 @@ static uint32_t end_frame(modbus_line_t *line, modbus_server_t *server, const wi
             modbus_link_break(link, server, tick);
         }
     } else if (!is_own_answer(line) && is_for_us(link, server)) {
-        return answer(line, server, tick) ? WIRE_ANSWERED : WIRE_K_ASKED;
+        (void)answer(line, server, tick);
+        return WIRE_TAKEN;
     } else {
         modbus_link_rest(link);
     }

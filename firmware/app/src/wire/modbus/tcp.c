@@ -105,7 +105,8 @@ static uint32_t take_request(modbus_link_t *link, modbus_server_t *server, const
     if (link->is_skipping) {
         skip(link, server, tick);
     } else if (gather(link, tick)) {
-        return answer(link, server, tick) ? WIRE_ANSWERED : WIRE_K_ASKED;
+        (void)answer(link, server, tick);
+        return WIRE_TAKEN;
     } else if (link->count > 0u && tick->now_us - link->active_us > PATIENCE_US) {
         modbus_link_break(link, server, tick);
     }
