@@ -388,6 +388,50 @@ static void test_a_question_is_kept_for_six_ticks(void)
     }
 }
 
+/* ------------------------------------------------------------------------------------------ in space -- */
+
+static void start_in_space(void)
+{
+    bench_board();
+    bench_store(&parameters);
+    fake.joint[BRACE_COXA].absent = false;
+    fake.joint[BRACE_COXA].sample.motor_rad = 0.4f;
+    fake.force_x_n = 2.0f;
+    fake.force_z_n = 6.0f;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_start(&app, &fake.hal));
+    ticks(50);
+    TEST_ASSERT_TRUE(now()->space.is_valid && now()->load.is_counted);
+}
+
+/* Asked for where the limb stands, under the load that it bears, the job finds the K that the tick tells: nine steps, of
+ * which a tick does one or two. */
+static void test_K_in_space_is_that_of_the_tick(void)
+{
+    brace_k_answer_t found;
+    int32_t status = BRACE_APP_LATER;
+    int waited = 0;
+    start_in_space();
+    const float *unbent_rad = app.controller.posture.unbent_rad;
+    const brace_snapshot_load_t *load = &now()->load;
+    const brace_k_question_t question = {.where = BRACE_K_IN_SPACE,
+                                         .theta_rad = {unbent_rad[0], unbent_rad[1], unbent_rad[2]},
+                                         .tip_force = {load->force_x_n, load->force_z_n},
+                                         .force_across_n = load->force_y_n};
+    for (; waited < 20 && status == BRACE_APP_LATER; waited++) {
+        status = brace_app_ask_k(&app, BRACE_ASKER_PROGRAM, &question, &found);
+        ticks(status == BRACE_APP_LATER);
+    }
+    TEST_ASSERT_EQUAL(BRACE_OK, status);
+    TEST_ASSERT_LESS_OR_EQUAL(1 + 9, waited);
+    const brace_stiffness_spatial_t *told = &now()->space.now, *k = &found.in_space;
+    const float largest = told->lambda_n_per_mm[2];
+    TEST_ASSERT_FLOAT_WITHIN(1e-4f * largest, told->k_xx_n_per_mm, k->k_xx_n_per_mm);
+    TEST_ASSERT_FLOAT_WITHIN(1e-4f * largest, told->k_xy_n_per_mm, k->k_xy_n_per_mm);
+    TEST_ASSERT_FLOAT_WITHIN(1e-4f * largest, told->k_yz_n_per_mm, k->k_yz_n_per_mm);
+    TEST_ASSERT_FLOAT_WITHIN(1e-4f * largest, told->k_zz_n_per_mm, k->k_zz_n_per_mm);
+    TEST_ASSERT_FLOAT_WITHIN(1e-3f, load->moved_y_mm, found.moved_across_mm);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -404,5 +448,6 @@ int main(void)
     RUN_TEST(test_the_main_computer_sets_where_down_is_until_the_next_start);
     RUN_TEST(test_down_is_set_over_Modbus_too);
     RUN_TEST(test_a_question_is_kept_for_six_ticks);
+    RUN_TEST(test_K_in_space_is_that_of_the_tick);
     return UNITY_END();
 }
