@@ -388,7 +388,7 @@ static void test_a_question_is_kept_for_six_ticks(void)
     }
 }
 
-/* ------------------------------------------------------------------------------------------ in space -- */
+/* --------------------------------------------------------------------------------------- in space -- */
 
 static void start_in_space(void)
 {
@@ -403,8 +403,8 @@ static void start_in_space(void)
     TEST_ASSERT_TRUE(now()->space.is_valid && now()->load.is_counted);
 }
 
-/* Asked for where the limb stands, under the load that it bears, the job finds the K that the tick tells: nine steps, of
- * which a tick does one or two. */
+/* Asked for where the limb stands, under the load that it bears, the job finds the K that the tick tells: nine steps,
+ * of which a tick does one or two. */
 static void test_K_in_space_is_that_of_the_tick(void)
 {
     brace_k_answer_t found;
