@@ -27,7 +27,7 @@ TICK_COUNT = 1_000_000
 FUNCTION = "brace_app_tick"
 BUILDS = {M4F.name: "m4f", M3.name: "m3"}
 
-KINDS = {"M": "monitor", "T": "taking up", "L": "loading test", "R": "loading test: a reading, with the drift check",
+KINDS = {"M": "monitor", "T": "taking up", "L": "loading test", "R": "loading test: the drift check takes a reading in",
          "J": "loading test: its slopes", "K": "loading test: slopes against the model",
          "C": "configuration", "W": "keeping what the drift check knows",
          "S": "storing parameters, putting them in force",

@@ -6,10 +6,12 @@
 #include "stiffness/stiffness.h"
 #include "tip_load.h"
 
-/* Of what must not change, so many words are looked over: all of them in less than 100 ms. */
+/* Of what must not change, so many words are looked over, and half as many beside a job's work: all of them in less
+ * than 100 ms in either case. */
 #define GUARDED_WORDS_PER_MS 8u
 #define GUARDED_WORDS_MOST 24u /* of the 364 */
-#define GUARDED_WORDS_IN_A_DEAR_TICK 2u /* a job works out a K in it, or may; at most two of three ticks are dear */
+#define TOLD_MOST 3u /* so many requests and process data (wire.h) leave room for a job's step */
+#define STEPS_IN_A_QUIET_TICK 2u
 #define LISTENED_US 20000u /* a tick that comes later has not listened meanwhile, and has not moved the limb either */
 #define LATE_PERIODS 3u /* a tick that comes more than three periods after the one before is more than two late */
 
@@ -78,27 +80,24 @@ static bool configure_step(controller_t *controller)
     }
 }
 
-static drift_inputs_t drift_inputs(const controller_t *controller, bool may_work)
+static drift_inputs_t drift_inputs(const controller_t *controller)
 {
     const brace_mode_t mode = controller->mode.now;
     return (drift_inputs_t){.hal = controller->hal,
                             .parameters = &controller->parameters.in_force,
                             .parameter_crc = controller->parameters.crc,
                             .origin = controller->parameters.origin,
-                            .may_work = may_work && !controller->question.has_worked,
                             .may_write = (mode == BRACE_MODE_MONITOR || mode == BRACE_MODE_FAULT) &&
                                          !parameter_job_is_busy(&controller->parameters)};
 }
 
-static question_inputs_t question_inputs(controller_t *controller, bool may_work)
+static question_inputs_t question_inputs(controller_t *controller)
 {
     return (question_inputs_t){.model = &controller->model,
                                .parameters = &controller->parameters.in_force,
                                .origin = controller->parameters.origin,
                                .joints = &controller->joints,
-                               .down = controller->gravity.down,
-                               .may_work = may_work,
-                               .may_begin = !(controller->has_worked && controller->model.is_spatial)};
+                               .down = controller->gravity.down};
 }
 
 static void blank_snapshot(const controller_t *controller, brace_snapshot_t *snapshot)
@@ -160,10 +159,10 @@ brace_status_t brace_app_start(brace_app_t *app, const brace_hal_t *hal)
         done = configure_step(controller);
     }
     controller->drift.is_erased = false; /* what the journal knows of this set counts */
-    const drift_inputs_t inputs = drift_inputs(controller, true);
+    const drift_inputs_t inputs = drift_inputs(controller);
     const uint32_t steps_most = 2u + (uint32_t)BRACE_JOURNAL_SCANS; /* learn the limb, open the journal, search it */
     for (uint32_t i = 0; i < steps_most && drift_job_is_starting(&controller->drift); i++) {
-        drift_job_step(&controller->drift, &inputs);
+        (void)drift_job_work(&controller->drift, &inputs);
     }
     controller->faults.now = controller->parameters.faults;
     blank_snapshot(controller, &controller->snapshot[0]);
@@ -282,32 +281,16 @@ static void take_place(const controller_t *controller, brace_snapshot_t *snapsho
     snapshot->gravity_lean_rad = controller->gravity.lean_rad;
 }
 
-/* One step of the loading test; its reading goes to the drift check. returns whether it has worked out a K */
-static bool step_loading(controller_t *controller, const brace_snapshot_t *now, bool may_work)
-{
-    const loading_inputs_t inputs = controller_loading_inputs(controller, now, may_work);
-    loading_reading_t reading;
-    loading_step(&controller->loading, &inputs, &controller->recorder, &reading);
-    if (reading.is_there && reading.is_fit) {
-        drift_job_take(&controller->drift, &reading.reading, &reading.model, reading.run_ends);
-    } else if (reading.is_there) {
-        drift_job_end_run(&controller->drift);
-    }
-    return reading.has_worked;
-}
-
 /* Looks over another slice of what must not change. What has changed is made anew from the store; where down is, as
  * the main computer told it, has to be told again. */
-static void step_guard(controller_t *controller, bool is_dear)
+static void step_guard(controller_t *controller, bool has_worked)
 {
     if (controller->parameters.comes_in_force) {
         return;
     }
     const guard_span_t span = guarded(controller, controller->guard.span);
-    const uint32_t plain = controller->parameters.in_force.controller.tick_us * GUARDED_WORDS_PER_MS / 1000u;
-    const uint32_t words = is_dear                      ? GUARDED_WORDS_IN_A_DEAR_TICK
-                           : plain < GUARDED_WORDS_MOST ? plain
-                                                        : GUARDED_WORDS_MOST;
+    const uint32_t due = controller->parameters.in_force.controller.tick_us * GUARDED_WORDS_PER_MS / 1000u;
+    const uint32_t most = due < GUARDED_WORDS_MOST ? due : GUARDED_WORDS_MOST, words = has_worked ? most / 2u : most;
     if (!guard_step(&controller->guard, &span, GUARDED_SPANS, words)) {
         controller->memory_is_wrong = true;
     }
@@ -339,11 +322,12 @@ enum {
     PART_SENSED = 1,
     PART_STIFFNESS = 2,
     PART_JOBS = 3,
-    PART_GUARDED = 4,
-    PART_COMMANDED = 5,
-    PART_TOLD = 6
+    PART_COMMANDED = 4,
+    PART_TOLD = 5,
+    PART_WORKED = 6,
+    PART_GUARDED = 7
 };
-#define ALL_PARTS 0x123456u
+#define ALL_PARTS 0x1234567u
 
 static void part_is_done(controller_t *controller, uint32_t part)
 {
@@ -363,74 +347,102 @@ static void watch_sensors(controller_t *controller)
     frozen_watch(&controller->frozen, &inputs);
 }
 
-/* What the jobs have done in a tick. */
-typedef struct {
-    bool may_work;        /* those that need a K of their own may work on it */
-    bool has_worked;      /* one of those jobs has worked on a K */
-    bool softening_works; /* no job has, and it is the turn of the search for the buckling factor, which has waited */
-    bool has_factor;      /* of a limb in space under a load, so that there is a buckling factor to search for */
-} jobs_done_t;
-
-/* One step of each job. Those that need a K of their own take turns: one of them works on it in a tick, and none in a
- * tick that has to tell process data whatever else there is. */
-static jobs_done_t step_jobs(brace_app_t *app, const brace_snapshot_t *snapshot)
+/* A tick passes for every job. */
+static void step_jobs(brace_app_t *app, const brace_snapshot_t *snapshot)
 {
     controller_t *controller = &app->controller;
-    const bool may_work = !wires_data_are_overdue(&app->wires), is_held = controller->ownership.is_held;
-    const question_inputs_t question = question_inputs(controller, may_work);
-    question_job_step(&controller->question, &question);
-    const bool question_has_worked = controller->question.has_worked;
-    const drift_inputs_t drift = drift_inputs(controller, may_work);
-    drift_job_step(&controller->drift, &drift); /* takes the reading that the loading test made in the tick before */
-    if (!is_held) {
+    if (!controller->ownership.is_held) {
+        const loading_inputs_t inputs = controller_loading_inputs(controller, snapshot);
         takeup_step(&controller->takeup, &controller->flank);
+        loading_step(&controller->loading, &inputs);
     }
-    const bool loading_has_worked =
-        !is_held && step_loading(controller, snapshot, may_work && !question_has_worked);
     step_parameters(app);
-    const bool has_worked = question_has_worked || loading_has_worked;
-    const bool softening_works = softening_is_overdue(&controller->softening) && may_work && !has_worked;
-    controller->has_worked = has_worked || softening_works;
-    return (jobs_done_t){.may_work = may_work,
-                         .has_worked = has_worked,
-                         .softening_works = softening_works,
-                         .has_factor = controller->model.is_spatial && snapshot->load.is_counted};
+    question_job_age(&controller->question);
+    softening_age(&controller->softening, controller->model.is_spatial && snapshot->load.is_counted);
 }
 
-/* Watches sensors and memory. A tick that works out a K beside its own, or may do so, skips the sensors and looks over
- * less memory. That delays little, because the proof of a stuck sensor takes a quarter of a second anyway. */
-static void step_watches(controller_t *controller)
+/* The wires answer what has come and send what is due. returns how much that was */
+static uint32_t tell(brace_app_t *app, uint32_t now_us)
 {
-    const bool is_dear = controller->has_worked || softening_may_search(&controller->softening);
-    if (!is_dear) {
+    controller_t *controller = &app->controller;
+    controller->ownership.is_by_wire = true;
+    const uint32_t told = wires_tick(&app->wires, controller->hal, app, &controller->counters, now_us);
+    controller->ownership.is_by_wire = false;
+    return told;
+}
+
+/* returns whether there was work, as all the next */
+static bool work_on_question(controller_t *controller, uint32_t steps_most)
+{
+    const question_inputs_t inputs = question_inputs(controller);
+    return question_job_work(&controller->question, &inputs, steps_most);
+}
+
+static bool work_on_drift(controller_t *controller)
+{
+    const drift_inputs_t inputs = drift_inputs(controller);
+    return drift_job_work(&controller->drift, &inputs);
+}
+
+/* A reading of the test goes to the drift check. */
+static bool work_on_loading(controller_t *controller, const brace_snapshot_t *now)
+{
+    const loading_inputs_t inputs = controller_loading_inputs(controller, now);
+    loading_reading_t reading;
+    const bool has_worked = loading_work(&controller->loading, &inputs, &controller->recorder, &reading);
+    if (reading.is_there && reading.is_fit) {
+        drift_job_take(&controller->drift, &reading.reading, &reading.model, reading.run_ends);
+    } else if (reading.is_there) {
+        drift_job_end_run(&controller->drift);
+    }
+    return has_worked;
+}
+
+static void work_on_softening(controller_t *controller)
+{
+    softening_work(&controller->softening, &controller->model, &controller->parameters.in_force.limb,
+                   controller->posture.unbent_rad);
+}
+
+/* What costs much and moves nothing comes last, where the wires have left room for it: one step of one job. The first
+ * that has something to do takes it; each of them leaves a tick to those behind it now and then. Where nobody asked for
+ * anything else, a question has room for two steps.
+ *   told: how much the wires have told in this tick
+ * returns whether a job has worked */
+static bool work(controller_t *controller, const brace_snapshot_t *now, uint32_t told)
+{
+    softening_t *softening = &controller->softening;
+    if (told > TOLD_MOST || controller->parameters.comes_in_force) { /* then the model may be that of the set before */
+        return false;
+    }
+    if (softening_is_overdue(softening)) {
+        work_on_softening(controller);
+        return true;
+    }
+    if (work_on_question(controller, told == 0u ? STEPS_IN_A_QUIET_TICK : 1u)) {
+        return true;
+    }
+    if (work_on_drift(controller)) {
+        return true;
+    }
+    if (!controller->ownership.is_held && work_on_loading(controller, now)) {
+        return true;
+    }
+    if (told == 0u && softening_is_due(softening)) {
+        work_on_softening(controller);
+        return true;
+    }
+    return false;
+}
+
+/* Watches sensors and memory. A tick in which a job has worked skips the sensors and looks over less memory. That
+ * delays little, because the proof of a stuck sensor takes a quarter of a second anyway. */
+static void step_watches(controller_t *controller, bool has_worked)
+{
+    if (!has_worked) {
         watch_sensors(controller);
     }
-    step_guard(controller, is_dear);
-}
-
-/* The wires answer as many requests as the tick has room for beside the jobs' work.
- * returns whether the wires have answered a request or sent process data */
-static bool answer_wires(brace_app_t *app, uint32_t now_us)
-{
-    controller_t *controller = &app->controller;
-    const bool is_spatial = controller->model.is_spatial;
-    const wires_room_t room = controller->has_worked                       ? (is_spatial ? WIRES_NONE : WIRES_ONE)
-                              : is_spatial && controller->drift.has_worked ? WIRES_ONE
-                                                                           : WIRES_ALL;
-    controller->ownership.is_by_wire = true;
-    const bool have_worked = wires_tick(&app->wires, controller->hal, app, &controller->counters, room, now_us);
-    controller->ownership.is_by_wire = false;
-    return have_worked;
-}
-
-/* One step of the search for the buckling factor of a limb in space. The search works in ticks in which neither a job
- * nor a wire has worked. When it has waited for long, it works in another tick. */
-static void step_softening(controller_t *controller, const jobs_done_t *jobs, bool wires_have_worked)
-{
-    const bool is_quiet = !wires_have_worked && !question_job_is_asked(&controller->question);
-    softening_step(&controller->softening, &controller->model, &controller->parameters.in_force.limb,
-                   controller->posture.unbent_rad, jobs->has_factor,
-                   jobs->may_work && !jobs->has_worked && (jobs->softening_works || is_quiet));
+    step_guard(controller, has_worked);
 }
 
 static void update_faults(controller_t *controller, bool late, bool bus_off)
@@ -523,10 +535,8 @@ void brace_app_tick(brace_app_t *app, uint32_t now_us)
     take_place(controller, snapshot);
     part_is_done(controller, PART_STIFFNESS);
 
-    const jobs_done_t jobs = step_jobs(app, snapshot);
+    step_jobs(app, snapshot);
     part_is_done(controller, PART_JOBS);
-    step_watches(controller);
-    part_is_done(controller, PART_GUARDED);
 
     /* Faults and mode, and what follows from them. */
     update_faults(controller, late, wires_are_bus_off(&app->wires));
@@ -534,11 +544,14 @@ void brace_app_tick(brace_app_t *app, uint32_t now_us)
     command_drives(controller);
     part_is_done(controller, PART_COMMANDED);
 
-    /* Tell. */
+    /* Tell, and work on what takes longer than a tick. */
     publish(controller, snapshot);
-    const bool wires_have_worked = answer_wires(app, now_us);
-    step_softening(controller, &jobs, wires_have_worked);
+    const uint32_t told = tell(app, now_us);
     part_is_done(controller, PART_TOLD);
+    const bool has_worked = work(controller, snapshot, told);
+    part_is_done(controller, PART_WORKED);
+    step_watches(controller, has_worked);
+    part_is_done(controller, PART_GUARDED);
 
     /* A tick that left a part out, or did one twice, feeds no watchdog. */
     if (controller->parts_done == ALL_PARTS) {

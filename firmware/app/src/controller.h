@@ -47,12 +47,11 @@ typedef struct {
     model_t model;
     softening_t softening;
     brace_loading_t loading;
-    model_work_t loading_work;
+    model_work_t loading_k; /* that the test works out */
     brace_recorder_t recorder;
     drift_job_t drift;
     question_job_t question;
     parameter_job_t parameters;
-    bool has_worked;         /* a job has worked on a K beside the tick's own; of a limb in space requests wait then */
     uint8_t configure_part;  /* of putting parameters in force, the next one */
     guard_t guard;
     bool memory_is_wrong;    /* parameters or their constants have changed by themselves, until they are made anew */
@@ -91,20 +90,17 @@ static inline void controller_forget(controller_t *controller)
 }
 
 /* What the loading test is given.
- *   now: the snapshot that it works from
- *   may_work: it may take a dear step */
-static inline loading_inputs_t controller_loading_inputs(controller_t *controller, const brace_snapshot_t *now,
-                                                         bool may_work)
+ *   now: the snapshot that it works from */
+static inline loading_inputs_t controller_loading_inputs(controller_t *controller, const brace_snapshot_t *now)
 {
     return (loading_inputs_t){.now = now,
                               .joints = &controller->joints,
                               .flank = &controller->flank,
                               .posture = &controller->posture,
                               .model = &controller->model,
-                              .work = &controller->loading_work,
+                              .work = &controller->loading_k,
                               .parameters = &controller->parameters.in_force,
-                              .down = controller->gravity.down,
-                              .may_work = may_work};
+                              .down = controller->gravity.down};
 }
 
 #endif

@@ -16,6 +16,11 @@ int32_t brace_app_ask_k(brace_app_t *app, brace_asker_t asker, const brace_k_que
                : question_job_ask(&controller_of(app)->question, asker, question, answer);
 }
 
+bool brace_app_k_is_coming(brace_app_t *app, brace_asker_t asker)
+{
+    return app != NULL && question_job_is_coming(&controller_of(app)->question, asker);
+}
+
 brace_status_t brace_app_contact_force(const brace_app_t *app, brace_displacement_t displacement,
                                        brace_contact_force_t *contact)
 {

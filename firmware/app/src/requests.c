@@ -96,7 +96,7 @@ brace_status_t brace_app_loading_start(brace_app_t *app, const brace_loading_set
     if (controller->hal->joint_command == NULL) {
         return BRACE_E_UNSUPPORTED;
     }
-    const loading_inputs_t inputs = controller_loading_inputs(controller, brace_app_snapshot(app), false);
+    const loading_inputs_t inputs = controller_loading_inputs(controller, brace_app_snapshot(app));
     const brace_status_t status = loading_start(&controller->loading, &inputs, setup);
     if (status == BRACE_OK) {
         drift_job_end_run(&controller->drift);

@@ -2,7 +2,7 @@
  * requests at any time and on every port, bad samples, late ticks, traffic. Prints one letter per tick, which says
  * what kind of tick it was. The plugin counts meanwhile.
  *
- *   M monitor  T taking up  L loading test  R a reading of it, which the drift check takes in  J its slopes
+ *   M monitor  T taking up  L loading test  R the drift check takes a reading of it in  J its slopes
  *   K its slopes against the model
  *   C configuration  S storing parameters, the last of these puts them in force  A start  F fault
  *   W a piece of a record of what the drift check knows
@@ -273,7 +273,7 @@ static char kind_in_plane(const controller_t *c)
     case BRACE_MODE_CONFIGURATION: return parameter_job_is_busy(&c->parameters) ? 'S' : 'C';
     default: break;
     }
-    return c->loading.phase == LOADING_READ      ? 'R'
+    return c->drift.has_reading                  ? 'R'
            : c->loading.phase == LOADING_JUDGE   ? 'J'
            : c->loading.phase == LOADING_COMPARE ? 'K'
                                                  : 'L';

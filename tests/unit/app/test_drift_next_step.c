@@ -72,12 +72,12 @@ static void test_learning_anew_forgets_what_was_kept(void)
     const brace_parameters_t parameters = bench_parameters();
     bench_board();
     const drift_inputs_t inputs = {
-        .hal = &fake.hal, .parameters = &parameters, .origin = BRACE_PARAMETERS_DEFAULT, .may_work = true};
+        .hal = &fake.hal, .parameters = &parameters, .origin = BRACE_PARAMETERS_DEFAULT};
     job.kept_state = BRACE_DRIFT_DRIFTED;
     job.kept_steps = 1234;
     job.kept_evidence[0] = job.kept_evidence[BRACE_DRIFT_CAUSE_COUNT] = 17.0f;
     drift_job_configure(&job, true);
-    drift_job_step(&job, &inputs);
+    (void)drift_job_work(&job, &inputs);
     TEST_ASSERT_EQUAL(BRACE_DRIFT_LEARNING, job.kept_state);
     TEST_ASSERT_EQUAL(0, job.kept_steps);
     TEST_ASSERT_EQUAL_FLOAT(0.0f, job.kept_evidence[0]);
@@ -91,7 +91,7 @@ static void test_the_journal_of_a_fresh_set_is_not_searched(void)
     const brace_parameters_t p = bench_parameters();
     bench_start(&p);
     const drift_inputs_t inputs = {.hal = &fake.hal, .parameters = &p, .parameter_crc = brace_parameters_crc(&p),
-                                   .origin = BRACE_PARAMETERS_SLOT_A, .may_work = true, .may_write = false};
+                                   .origin = BRACE_PARAMETERS_SLOT_A, .may_write = false};
     for (int is_fresh = 0; is_fresh < 2; is_fresh++) {
         memset(&job, 0, sizeof job);
         job.is_erased = is_fresh == 0; /* this belongs to the set before, like all that waits */
@@ -99,16 +99,16 @@ static void test_the_journal_of_a_fresh_set_is_not_searched(void)
         drift_job_configure(&job, is_fresh != 0);
         TEST_ASSERT_TRUE(job.learns_anew);
         TEST_ASSERT_FALSE(job.opens || job.scans || job.has_reading || job.looks || job.foresees || job.has_outlook);
-        drift_job_step(&job, &inputs);
+        (void)drift_job_work(&job, &inputs);
         TEST_ASSERT_TRUE(job.opens && !job.learns_anew);
-        drift_job_step(&job, &inputs);
+        (void)drift_job_work(&job, &inputs);
         TEST_ASSERT_FALSE(job.opens);
         TEST_ASSERT_EQUAL(is_fresh == 0, job.scans);
         for (int i = 0; i < 2000 && job.scans; i++) {
-            drift_job_step(&job, &inputs);
+            (void)drift_job_work(&job, &inputs);
         }
         TEST_ASSERT_FALSE(job.scans);
-        drift_job_step(&job, &inputs);
+        (void)drift_job_work(&job, &inputs);
         TEST_ASSERT_EQUAL(BRACE_DRIFT_LEARNING, job.report.state);
     }
 }
@@ -120,17 +120,16 @@ static void test_the_journal_is_written_in_one_tick_of_eight(void)
     int last = -100, kept = 0;
     bench_start(&p);
     drift_inputs_t inputs = {.hal = &fake.hal, .parameters = &p, .parameter_crc = brace_parameters_crc(&p),
-                             .origin = BRACE_PARAMETERS_SLOT_A, .may_work = true, .may_write = false};
+                             .origin = BRACE_PARAMETERS_SLOT_A, .may_write = false};
     memset(&job, 0, sizeof job);
     drift_job_configure(&job, true);
     for (int i = 0; i < 10; i++) {
-        drift_job_step(&job, &inputs);
+        (void)drift_job_work(&job, &inputs);
     }
     inputs.may_write = true;
     for (int i = 0; i < 80; i++) {
         job.looks = true;
-        drift_job_step(&job, &inputs);
-        if (job.has_worked) {
+        if (drift_job_work(&job, &inputs)) {
             TEST_ASSERT_GREATER_OR_EQUAL(8, i - last);
             last = i;
             kept++;

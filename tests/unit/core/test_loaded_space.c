@@ -22,6 +22,27 @@ void setUp(void)
 
 void tearDown(void) {}
 
+/* In steps the same comes out, bit by bit, and a refusal leaves the result as it was. */
+static void assert_steps_find(const brace_loaded_space_t *loaded, float theta1_rad, float theta2_rad,
+                              brace_status_t whole, const brace_space_result_t *result)
+{
+    static brace_space_work_t work;
+    brace_space_result_t untouched, found;
+    memset(&untouched, 0x5a, sizeof untouched);
+    found = untouched;
+    brace_status_t status = brace_loaded_space_begin(loaded, theta1_rad, theta2_rad, &load, &work);
+    bool is_done = status != BRACE_OK;
+    int steps = 0;
+    for (; steps < 7 && !is_done; steps++) {
+        TEST_ASSERT_EQUAL_MEMORY(&untouched, &found, sizeof found);
+        is_done = brace_loaded_space_step(loaded, &work, &found, &status);
+    }
+    TEST_ASSERT_TRUE(is_done);
+    TEST_ASSERT_EQUAL(whole, status);
+    TEST_ASSERT_TRUE(whole != BRACE_OK || steps == 7);
+    TEST_ASSERT_EQUAL_MEMORY(whole == BRACE_OK ? result : &untouched, &found, sizeof found);
+}
+
 static brace_status_t status_at(float theta1_rad, float theta2_rad, brace_space_result_t *result)
 {
     brace_loaded_space_t loaded;
@@ -31,8 +52,10 @@ static brace_status_t status_at(float theta1_rad, float theta2_rad, brace_space_
         const float yields = limb.joint[i].compliance_rad_per_n_mm;
         *joint[i] = (brace_loaded_joint_t){yields, yields};
     }
-    const brace_status_t status = brace_loaded_space_settle(&loaded, theta1_rad, theta2_rad, &load, &rest);
-    return status == BRACE_OK ? brace_loaded_space_stiffness(&loaded, &rest, result) : status;
+    brace_status_t status = brace_loaded_space_settle(&loaded, theta1_rad, theta2_rad, &load, &rest);
+    status = status == BRACE_OK ? brace_loaded_space_stiffness(&loaded, &rest, result) : status;
+    assert_steps_find(&loaded, theta1_rad, theta2_rad, status, result);
+    return status;
 }
 
 static brace_space_result_t at(float theta1_rad, float theta2_rad)

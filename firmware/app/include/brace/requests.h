@@ -185,14 +185,19 @@ brace_status_t brace_app_store_status(const brace_app_t *app, brace_store_status
 /* ------------------------------------------------------------------------------------------ questions --
  * What they answer is untouched unless BRACE_OK is returned. */
 
-/* Asks for such a K. It is worked out in the ticks to come, one question in every other tick: ask the same again in
- * every tick until the answer comes. Four ports that ask at once have theirs within eight ticks, or nine where a
- * loading test works out a K itself; of a limb in space within twelve, or sixteen. Whoever does not ask for seven ticks
- * loses its place.
+/* Asks for such a K. It is worked out in the ticks to come: ask the same again in every tick until the answer comes.
+ * One question has its answer in the second tick after, of a limb in space in the fifth, or up to the tenth while
+ * other ports are asked or process data leave; process data that have waited for long, and a step towards the buckling
+ * factor, take one tick more each. Four that ask at once are worked out one after the other. Whoever does not ask for
+ * seven ticks loses its place.
  * returns BRACE_APP_LATER, BRACE_OK, BRACE_E_NULL, what brace_kinematics_inverse and brace_loaded_stiffness return, in
  *   space also BRACE_E_UNSUPPORTED: the limb has no coxa joint. At most 80 instructions. */
 int32_t brace_app_ask_k(brace_app_t *app, brace_asker_t asker, const brace_k_question_t *question,
                         brace_k_answer_t *answer);
+
+/* Is the K that was asked for by such an asker still being worked out? It need not be asked for again then: this keeps
+ * its place. At most 30 instructions. */
+bool brace_app_k_is_coming(brace_app_t *app, brace_asker_t asker);
 
 /* Where down is, from now until the next start: directions as the parameters of [gravity] have them. NaN for both: the
  * parameters' own again.

@@ -239,7 +239,7 @@ brace_status_t model_loaded(const model_t *model, const brace_limb_t *limb, cons
     return status == BRACE_OK ? tell_space(limb, &found, rest) : status;
 }
 
-/* --- in two steps ------------------------------------------------------------------------------------------------ */
+/* --- in steps ---------------------------------------------------------------------------------------------------- */
 
 int32_t model_loaded_begin(const model_t *model, const float unbent_rad[BRACE_LINK_COUNT],
                            const brace_loaded_joint_t springs[BRACE_LINK_COUNT], brace_vec3_t tip_n,
@@ -249,28 +249,37 @@ int32_t model_loaded_begin(const model_t *model, const float unbent_rad[BRACE_LI
     work->hip_yields_rad_per_n_mm = springs[BRACE_FEMUR].yields_by_rad_per_n_mm;
     if (model->is_spatial) {
         const brace_space_load_t load = space_load(springs, tip_n, down);
-        status = space_path_settle(&model->loaded_space, unbent_rad[BRACE_FEMUR], unbent_rad[BRACE_TIBIA], &load,
-                                   &work->rest.space);
+        status = space_path_begin(&model->loaded_space, unbent_rad[BRACE_FEMUR], unbent_rad[BRACE_TIBIA], &load,
+                                  &work->of.space);
     } else {
         const brace_load_t load = plane_load(springs, tip_n, down);
-        status = plane_settle(&model->loaded, unbent_rad, &load, &work->rest.plane);
+        status = plane_settle(&model->loaded, unbent_rad, &load, &work->of.plane);
     }
-    work->is_half_done = status == BRACE_OK;
-    return work->is_half_done ? (int32_t)MODEL_LATER : status;
+    work->is_under_way = status == BRACE_OK;
+    return work->is_under_way ? (int32_t)MODEL_LATER : status;
 }
 
-brace_status_t model_loaded_end(const model_t *model, const brace_limb_t *limb, model_work_t *work, model_rest_t *rest)
+static int32_t go_on_in_space(const model_t *model, const brace_limb_t *limb, model_work_t *work, model_rest_t *rest)
 {
-    work->is_half_done = false;
+    brace_space_result_t found;
+    brace_status_t status;
+    if (!space_path_step(&model->loaded_space, &work->of.space, &found, &status)) {
+        return MODEL_LATER;
+    }
+    work->is_under_way = false;
+    return status == BRACE_OK ? tell_space(limb, &found, rest) : status;
+}
+
+int32_t model_loaded_go_on(const model_t *model, const brace_limb_t *limb, model_work_t *work, model_rest_t *rest)
+{
     if (model->is_spatial) {
-        brace_space_result_t found;
-        const brace_status_t status = space_path_stiffness(&model->loaded_space, &work->rest.space, &found);
-        return status == BRACE_OK ? tell_space(limb, &found, rest) : status;
+        return go_on_in_space(model, limb, work, rest);
     }
     brace_loaded_stiffness_t found;
-    const brace_status_t status = plane_stiffness(&model->loaded, &work->rest.plane, &found);
+    const brace_status_t status = plane_stiffness(&model->loaded, &work->of.plane, &found);
     if (status == BRACE_OK) {
         tell_plane(limb, work->hip_yields_rad_per_n_mm, &found, rest);
     }
+    work->is_under_way = false;
     return status;
 }

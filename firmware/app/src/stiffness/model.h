@@ -93,30 +93,29 @@ brace_status_t model_loaded(const model_t *model, const brace_limb_t *limb, cons
                             const brace_loaded_joint_t springs[BRACE_LINK_COUNT], brace_vec3_t tip_n,
                             brace_vec3_t down, model_place_t *place, model_rest_t *rest);
 
-/* The same in two steps, for a job that cannot spend so much in a tick: the equilibrium, and K there. */
+/* The same in steps, for a job that cannot spend so much in a tick: begin, then go on until there is an answer. */
 
-enum { MODEL_LATER = 1 }; /* the second step finds the answer */
+enum { MODEL_LATER = 1 }; /* a later step finds the answer */
 
-/* What the first step leaves for the second. */
+/* What a step leaves for the next. */
 typedef struct {
-    bool is_half_done;
+    bool is_under_way;
     float hip_yields_rad_per_n_mm; /* the joint alone */
     union {
         model_plane_rest_t plane;
-        space_path_rest_t space;
-    } rest;
+        space_path_work_t space;
+    } of;
 } model_work_t;
 
-/* returns MODEL_LATER, or why there is no K, as model_loaded. At most 1,200 instructions in the plane, 3,200 in
+/* returns MODEL_LATER, or why there is no K, as model_loaded. At most 1,200 instructions in the plane, 300 in
  * space. */
 int32_t model_loaded_begin(const model_t *model, const float unbent_rad[BRACE_LINK_COUNT],
                            const brace_loaded_joint_t springs[BRACE_LINK_COUNT], brace_vec3_t tip_n,
                            brace_vec3_t down, model_work_t *work);
 
-/* After MODEL_LATER.
+/* After MODEL_LATER. The first call of it finds the answer in the plane, the seventh in space.
  *   rest (out): after BRACE_OK
- * returns as model_loaded. At most 1,500 instructions in the plane, 3,300 in space. */
-brace_status_t model_loaded_end(const model_t *model, const brace_limb_t *limb, model_work_t *work,
-                                model_rest_t *rest);
+ * returns MODEL_LATER, or as model_loaded. At most 1,500 instructions in the plane, 1,200 in space. */
+int32_t model_loaded_go_on(const model_t *model, const brace_limb_t *limb, model_work_t *work, model_rest_t *rest);
 
 #endif

@@ -1,7 +1,8 @@
 #include "stiffness/softening.h"
 
-#define EVERY_TICKS 3u
-#define PATIENCE_TICKS 9u /* in which requests go first */
+#define EVERY_TICKS 2u
+#define STEPS_A_ROUND 4u  /* K without load, and three of the search */
+#define PATIENCE_TICKS 7u /* in which requests go first */
 #define TOLD_TICKS_MOST 240u /* two searches, and ticks in which requests or other jobs went first */
 
 static void forget_unloaded(softening_t *softening)
@@ -13,8 +14,7 @@ static void forget_unloaded(softening_t *softening)
 
 void softening_start(softening_t *softening)
 {
-    *softening = (softening_t){
-        .is_searchs_turn = true, .ticks_since_step = EVERY_TICKS - 1u, .factor = __builtin_nanf("")};
+    *softening = (softening_t){.ticks_since_step = EVERY_TICKS - 1u, .factor = __builtin_nanf("")};
     forget_unloaded(softening);
 }
 
@@ -37,46 +37,42 @@ static void find_unloaded(softening_t *softening, model_t *model, const brace_li
     }
 }
 
-void softening_step(softening_t *softening, model_t *model, const brace_limb_t *limb,
-                    const float unbent_rad[BRACE_LINK_COUNT], bool is_counted, bool may_work)
+void softening_age(softening_t *softening, bool is_counted)
 {
     grow_old(softening, is_counted);
     softening->runs = softening->runs && is_counted;
+    softening->is_needed = is_counted;
     if (softening->ticks_since_step < UINT8_MAX) {
         softening->ticks_since_step++;
     }
-    const bool is_due = softening->ticks_since_step % EVERY_TICKS == 0u ||
-                        softening->ticks_since_step >= EVERY_TICKS + PATIENCE_TICKS;
-    if (!is_counted || !may_work || !is_due) {
-        softening->is_needed = is_counted;
-        return;
-    }
-    softening->ticks_since_step = 0;
-    softening->is_searchs_turn = !softening->is_searchs_turn;
-    if (!softening->is_searchs_turn) {
-        find_unloaded(softening, model, limb, unbent_rad);
-        if (!softening->runs) {
-            softening->runs = true;
-            space_path_buckling_begin(&model->loaded_space, &softening->now.at, &softening->shape, &softening->search);
-        }
-        return;
-    }
-    if (softening->runs &&
-        space_path_buckling_step(&model->loaded_space, &softening->shape, &softening->search, &softening->factor)) {
-        softening->runs = false;
-        softening->ticks_told = 0;
-    }
 }
 
-bool softening_may_search(const softening_t *softening)
+bool softening_is_due(const softening_t *softening)
 {
-    const bool is_due = (softening->ticks_since_step + 1u) % EVERY_TICKS == 0u;
-    return softening->is_needed && !softening->is_searchs_turn && is_due;
+    return softening->is_needed && softening->ticks_since_step % EVERY_TICKS == 0u;
 }
 
 bool softening_is_overdue(const softening_t *softening)
 {
-    return softening->is_needed && softening->ticks_since_step + 1u >= EVERY_TICKS + PATIENCE_TICKS;
+    return softening->is_needed && softening->ticks_since_step >= EVERY_TICKS + PATIENCE_TICKS;
+}
+
+void softening_work(softening_t *softening, model_t *model, const brace_limb_t *limb,
+                    const float unbent_rad[BRACE_LINK_COUNT])
+{
+    softening->ticks_since_step = 0;
+    const bool is_rounds_first = softening->step_of_round == 0u;
+    softening->step_of_round = (uint8_t)((softening->step_of_round + 1u) % STEPS_A_ROUND);
+    if (is_rounds_first) {
+        find_unloaded(softening, model, limb, unbent_rad);
+    } else if (!softening->runs) {
+        softening->runs = true;
+        space_path_buckling_begin(&model->loaded_space, &softening->now.at, &softening->shape, &softening->search);
+    } else if (space_path_buckling_step(&model->loaded_space, &softening->shape, &softening->search,
+                                        &softening->factor)) {
+        softening->runs = false;
+        softening->ticks_told = 0;
+    }
 }
 
 uint32_t softening_flags(const softening_t *softening)

@@ -1,8 +1,8 @@
 /* How far the load softens a limb in space: its buckling factor, and K without the load. Both together cost more
- * instructions than K under the load itself, and no other part of the tick needs them. So every third tick does
- * one step, in turn: K without the load, and a fifth of the search for the buckling factor. The steps
- * wait while requests come, while somebody waits for a K, or while another job works; a step that has waited too long
- * goes first. Without such waiting, K without load is at most 6 ticks old, the factor at most 58. */
+ * instructions than K under the load itself, and no other part of the tick needs them. So every second tick does one
+ * step, in turn: K without the load, and three of sixteen steps towards the buckling factor. The steps wait while
+ * requests come, while somebody waits for a K, or while another job works; a step that has waited too long goes first.
+ * Without such waiting, K without load is at most 8 ticks old, the factor at most 86. */
 #ifndef BRACE_STIFFNESS_SOFTENING_H
 #define BRACE_STIFFNESS_SOFTENING_H
 
@@ -14,10 +14,10 @@
 typedef struct {
     model_place_t now;       /* where the limb rests in this tick; the tick writes it */
     space_path_shape_t shape; /* of the equilibrium whose factor is searched */
-    brace_buckling_search_t search;
+    space_path_search_t search;
     bool runs;
-    bool is_searchs_turn;
-    bool is_needed;          /* as far as the last tick knows */
+    uint8_t step_of_round;
+    bool is_needed;
     uint8_t ticks_since_step;
     uint8_t ticks_told;      /* since the factor was found */
     float factor;            /* NaN: not known, as all below */
@@ -28,18 +28,19 @@ typedef struct {
 /* Nothing is known. */
 void softening_start(softening_t *softening);
 
-/* One step, if one is due and may be done now. At most 2,500 instructions.
- *   unbent_rad: the posture of this tick
- *   is_counted: the limb is one in space, and rests at `now`
- *   may_work: no other job has worked on a K in this tick, and the wires have had nothing to tell */
-void softening_step(softening_t *softening, model_t *model, const brace_limb_t *limb,
-                    const float unbent_rad[BRACE_LINK_COUNT], bool is_counted, bool may_work);
+/* A tick passes. is_counted: the limb is one in space, and rests at `now` */
+void softening_age(softening_t *softening, bool is_counted);
 
-/* May a step of the search be done in the coming tick? While steps do not wait, every sixth tick is one of those. */
-bool softening_may_search(const softening_t *softening);
+/* Is a step to be done where a tick is quiet? */
+bool softening_is_due(const softening_t *softening);
 
-/* Has a step waited so long for a tick with quiet wires that the coming one is to keep them waiting? */
+/* Has a step waited so long for a quiet tick that other jobs have to wait for it? */
 bool softening_is_overdue(const softening_t *softening);
+
+/* One step. At most 1,200 instructions.
+ *   unbent_rad: the posture of this tick */
+void softening_work(softening_t *softening, model_t *model, const brace_limb_t *limb,
+                    const float unbent_rad[BRACE_LINK_COUNT]);
 
 /* What the factor means for K: SOFTENED, NEAR_SINGULAR; 0 while it is not known. */
 uint32_t softening_flags(const softening_t *softening);

@@ -2,6 +2,10 @@
 #ifndef BRACE_LOADED_SPACE_TYPES_H
 #define BRACE_LOADED_SPACE_TYPES_H
 
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "brace/buckling_search.h"
 #include "brace/loaded.h"
 #include "brace/stiffness.h"
 #include "brace/vec.h"
@@ -107,5 +111,97 @@ typedef struct {
     brace_vec3_t tibia_mm;        /* from the knee to the tip at the equilibrium */
     float yaw_turn_rad, hip_turn_rad, knee_turn_rad; /* how far the load has turned the joints, without the base */
 } brace_space_result_t;
+
+/* --- between steps. Other code must not read their members. ---------------------------------------------------- */
+
+/* Of the straight limb: an eliminated coordinate's row, its compliance with the load included, one over its pivot. */
+typedef struct {
+    brace_vec3_t row;
+    float yields, per_pivot;
+} brace_space_joint_factor_t;
+
+/* The turns of a link about y and z, in this order; between: the matrix's entry for both. */
+typedef struct {
+    brace_space_joint_factor_t y, z;
+    float between, twist_rad_per_n_mm;
+} brace_space_link_factor_t;
+
+typedef struct {
+    brace_space_link_factor_t coxa, femur, tibia;
+    brace_space_joint_factor_t yaw, hip, knee;
+    float base_yields, base_per_pivot;
+} brace_space_factors_t;
+
+/* Twists of coxa and femur that bending and springs together make. */
+typedef struct {
+    float coxa, femur;
+} brace_space_curls_t;
+
+/* Of the bent limb: a coordinate's compliance, load included, and how all beyond follows when the places before it
+ * turn: its row times that compliance, less. */
+typedef struct {
+    brace_vec3_t follows;
+    float yields;
+} brace_space_freedom_t;
+
+/* A link's springs first, then its turns about x, y and z: each adds to those after it. */
+typedef struct {
+    brace_space_freedom_t across, sideways, x, y, z;
+    brace_vec3_t by_across, by_sideways; /* to x, y and z */
+    float y_by_x, z_by_x, z_by_y;
+} brace_space_link_freedoms_t;
+
+typedef struct {
+    brace_space_link_freedoms_t coxa, femur, tibia;
+    brace_space_freedom_t yaw, hip, knee;
+    float base_yields;
+} brace_space_freedoms_t;
+
+/* What all beyond a place resists when it is turned about the axes there, and its moment. */
+typedef struct {
+    brace_sym3_t resists;
+    brace_vec3_t moment_n_mm;
+} brace_space_held_t;
+
+/* Of all coordinates: 1 without a load, 0 where the load has softened the limb to nothing. sign_bits: their IEEE bits,
+ * or-ed. */
+typedef struct {
+    uint32_t sign_bits;
+    float product;
+} brace_space_pivots_t;
+
+/* A search for the buckling factor. */
+typedef struct {
+    brace_buckling_search_t known;
+    uint8_t links_held; /* of the limb under the next load, from the tip */
+    brace_space_held_t held;
+    brace_space_pivots_t pivots;
+} brace_space_search_t;
+
+/* C so far, and how the tip moves when all beyond a place turns about the axes there; the tip from there and from the
+ * knee. All in the limb's plane's frame. */
+typedef struct {
+    brace_axes_t by_turn;
+    brace_sym3_t c;
+    brace_vec3_t tip_mm, tibia_mm;
+} brace_space_sum_t;
+
+/* K that is being worked out. */
+typedef struct {
+    brace_space_rest_t rest;
+    union {
+        struct {
+            brace_space_factors_t factors;
+            brace_space_curls_t curls;
+            brace_space_pose_t drives;
+        } settling;
+        struct {
+            brace_space_freedoms_t freedoms;
+            brace_axes_t coxa;
+            brace_space_sum_t sum;
+        } summing;
+    } of;
+    uint8_t step;
+} brace_space_work_t;
 
 #endif

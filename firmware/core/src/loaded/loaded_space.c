@@ -68,12 +68,34 @@ static void see_straight(const brace_loaded_space_t *loaded, const brace_space_r
     at[2] = (forces_t){tibia_n, vec3_scaled(tibia_down, loaded->tibia.weight_n)};
 }
 
-INLINE void bend_to(const brace_loaded_space_t *loaded, const commanded_t *commanded, brace_space_rest_t *rest,
-                    curls_t *curls, bool is_driven, brace_space_pose_t *drives)
+static commanded_t commanded_of(const brace_space_rest_t *rest)
 {
-    turns_of(&rest->pose, *curls, commanded, &rest->turns);
+    return (commanded_t){rest->hip_commanded, rest->knee_commanded};
+}
+
+/* curls: of the shape before; then of this one */
+INLINE void bend_to(const brace_loaded_space_t *loaded, brace_space_rest_t *rest, curls_t *curls, bool is_driven,
+                    brace_space_pose_t *drives)
+{
+    const commanded_t commanded = commanded_of(rest);
+    turns_of(&rest->pose, *curls, &commanded, &rest->turns);
     see_forces(loaded, rest->tip_n, rest->down, rest);
     bend_limb(loaded, rest, curls, is_driven, drives);
+}
+
+/* As the first step has bent it. */
+static void bend_first(const brace_loaded_space_t *loaded, brace_space_rest_t *rest, curls_t *curls,
+                       brace_space_pose_t *drives)
+{
+    *curls = (curls_t){0.0f, 0.0f};
+    bend_to(loaded, rest, curls, true, drives);
+}
+
+/* As both steps have bent it. */
+static void bend_second(const brace_loaded_space_t *loaded, brace_space_rest_t *rest, curls_t *curls)
+{
+    brace_space_pose_t drives;
+    bend_to(loaded, rest, curls, false, &drives);
 }
 
 /* What two steps leave is about the third of such a series, second^2/first, or the second itself where that is less:
@@ -83,23 +105,27 @@ INLINE bool is_settled(float first2, float second2)
     return second2 * second2 <= LEFT_MOST_RAD2 * (first2 + second2);
 }
 
-/* Two steps with the matrix of the straight limb, the second of them prolonged. Then the bent limb.
- * returns whether they have settled */
-INLINE bool find_rest(const brace_loaded_space_t *loaded, const commanded_t *commanded, brace_space_rest_t *rest)
+/* The first step with the matrix of the straight limb. */
+static void step_from_straight(const brace_loaded_space_t *loaded, brace_space_rest_t *rest, factors_t *factors)
 {
     static const brace_space_pose_t straight;
+    const commanded_t commanded = commanded_of(rest);
     forces_t at[3];
-    factors_t factors;
-    brace_space_pose_t drives, step;
-    curls_t curls = {0.0f, 0.0f};
-    see_straight(loaded, rest, commanded, at);
-    straight_limb(loaded, at, commanded, rest, &factors, &drives);
-    solve_straight(&factors, &drives, &straight, commanded, &rest->pose);
-    bend_to(loaded, commanded, rest, &curls, true, &drives);
-    solve_straight(&factors, &drives, &rest->pose, commanded, &step);
+    brace_space_pose_t drives;
+    see_straight(loaded, rest, &commanded, at);
+    straight_limb(loaded, at, &commanded, rest, factors, &drives);
+    solve_straight(factors, &drives, &straight, &commanded, &rest->pose);
+}
+
+/* The second step, prolonged. drives: what the limb bent by the first is still driven by. returns whether both have
+ * settled */
+static bool step_from_bent(const factors_t *factors, const brace_space_pose_t *drives, brace_space_rest_t *rest)
+{
+    const commanded_t commanded = commanded_of(rest);
+    brace_space_pose_t step;
+    solve_straight(factors, drives, &rest->pose, &commanded, &step);
     const float first2 = dot_of_poses(&rest->pose, &rest->pose), second2 = dot_of_poses(&step, &step);
     add_to_pose(&rest->pose, &step, over_second_step(dot_of_poses(&step, &rest->pose), first2));
-    bend_to(loaded, commanded, rest, &curls, false, &drives);
     return is_settled(first2, second2);
 }
 
@@ -127,25 +153,44 @@ static float inverse(const sym3_t *c, sym3_t *k)
     return det;
 }
 
-brace_status_t brace_loaded_space_settle(const brace_loaded_space_t *loaded, float theta1_rad, float theta2_rad,
-                                         const brace_space_load_t *load, brace_space_rest_t *rest)
+/* Takes the inputs over. returns as brace_loaded_space_settle */
+static brace_status_t take(const brace_loaded_space_t *loaded, float theta1_rad, float theta2_rad,
+                           const brace_space_load_t *load, brace_space_rest_t *rest)
 {
     const float reach = brace_fma(theta1_rad, theta1_rad, theta2_rad * theta2_rad);
     const float force = fabsf(load->tip_n.x) + fabsf(load->tip_n.y) + fabsf(load->tip_n.z);
     if (!(reach <= BRACE_REACH_RAD2 && force <= FORCE_MOST_N)) {
         return brace_refusal_of(reach, force);
     }
-    const commanded_t commanded = {brace_direction(theta1_rad), brace_direction(-theta2_rad)};
     const vec3_t tip_n = seen_from_coxa(load->tip_n), down = seen_from_coxa(load->down);
-    rest->hip_commanded = commanded.hip;
-    rest->knee_commanded = commanded.knee;
+    rest->hip_commanded = brace_direction(theta1_rad);
+    rest->knee_commanded = brace_direction(-theta2_rad);
     rest->tip_n = tip_n;
     rest->down = down;
     rest->whole_n = vec3_plus_scaled(tip_n, down, loaded->beyond_coxa_n);
     rest->yaw = load->yaw;
     rest->hip = load->hip;
     rest->knee = load->knee;
-    return find_rest(loaded, &commanded, rest) && is_within(&rest->pose) ? BRACE_OK : BRACE_E_SINGULAR;
+    return BRACE_OK;
+}
+
+brace_status_t brace_loaded_space_settle(const brace_loaded_space_t *loaded, float theta1_rad, float theta2_rad,
+                                         const brace_space_load_t *load, brace_space_rest_t *rest)
+{
+    factors_t factors;
+    curls_t curls;
+    const brace_status_t status = take(loaded, theta1_rad, theta2_rad, load, rest);
+    if (status != BRACE_OK) {
+        return status;
+    }
+    brace_space_pose_t drives;
+    step_from_straight(loaded, rest, &factors);
+    bend_first(loaded, rest, &curls, &drives);
+    if (!(step_from_bent(&factors, &drives, rest) && is_within(&rest->pose))) {
+        return BRACE_E_SINGULAR;
+    }
+    bend_second(loaded, rest, &curls);
+    return BRACE_OK;
 }
 
 /* How far the tip has moved from where the commanded limb has it. */
@@ -160,29 +205,88 @@ static vec3_t moved_mm(const brace_loaded_space_t *loaded, const brace_space_res
     return moved;
 }
 
-brace_status_t brace_loaded_space_stiffness(const brace_loaded_space_t *loaded, const brace_space_rest_t *rest,
-                                            brace_space_result_t *result)
+/* returns whether the equilibrium is stable */
+static bool eliminate_rest(const brace_loaded_space_t *loaded, const brace_space_rest_t *rest, freedoms_t *free)
 {
-    freedoms_t free;
-    const pivots_t pivots = eliminate_limb(loaded, rest, &free);
-    if (!(is_stable(&pivots) && pivots.product > SINGULAR)) {
-        return BRACE_E_SINGULAR;
-    }
+    const pivots_t pivots = eliminate_limb(loaded, rest, free);
+    return is_stable(&pivots) && pivots.product > SINGULAR;
+}
+
+static void sum_first(const brace_loaded_space_t *loaded, const brace_space_rest_t *rest, const freedoms_t *free,
+                      axes_t *coxa, sum_t *sum)
+{
     frames_t frames;
-    sum_t sum;
-    sym3_t k;
     frames_of(&rest->turns, &frames);
-    sum_limb(loaded, rest, &free, &frames, &sum);
-    if (!(inverse(&sum.c, &k) > 0.0f)) {
+    sum_outer(loaded, rest, free, &frames, sum);
+    *coxa = frames.coxa;
+}
+
+/* sum: as sum_first has left it; then whole
+ * returns as brace_loaded_space_stiffness */
+static brace_status_t sum_second(const brace_loaded_space_t *loaded, const brace_space_rest_t *rest,
+                                 const freedoms_t *free, const axes_t *coxa, sum_t *sum,
+                                 brace_space_result_t *result)
+{
+    sym3_t k;
+    sum_inner(loaded, rest, free, coxa, sum);
+    if (!(inverse(&sum->c, &k) > 0.0f)) {
         return BRACE_E_SINGULAR;
     }
     result->k = (brace_k3_t){k.xx, -k.xz, k.xy, k.zz, -k.yz, k.yy};
-    result->displacement_mm = seen_from_plane(moved_mm(loaded, rest, sum.tip_mm));
-    result->tibia_mm = seen_from_plane(sum.tibia_mm);
+    result->displacement_mm = seen_from_plane(moved_mm(loaded, rest, sum->tip_mm));
+    result->tibia_mm = seen_from_plane(sum->tibia_mm);
     result->yaw_turn_rad = rest->pose.yaw;
     result->hip_turn_rad = rest->pose.hip;
     result->knee_turn_rad = rest->pose.knee;
     return BRACE_OK;
+}
+
+brace_status_t brace_loaded_space_stiffness(const brace_loaded_space_t *loaded, const brace_space_rest_t *rest,
+                                            brace_space_result_t *result)
+{
+    freedoms_t free;
+    axes_t coxa;
+    sum_t sum;
+    if (!eliminate_rest(loaded, rest, &free)) {
+        return BRACE_E_SINGULAR;
+    }
+    sum_first(loaded, rest, &free, &coxa, &sum);
+    return sum_second(loaded, rest, &free, &coxa, &sum, result);
+}
+
+/* --- in steps ------------------------------------------------------------------------------------------------- */
+
+enum { STEP_FIRST = 0, BEND_FIRST, STEP_SECOND, BEND_SECOND, ELIMINATE, SUM_FIRST, SUM_SECOND };
+
+brace_status_t brace_loaded_space_begin(const brace_loaded_space_t *loaded, float theta1_rad, float theta2_rad,
+                                        const brace_space_load_t *load, brace_space_work_t *work)
+{
+    work->step = STEP_FIRST;
+    return take(loaded, theta1_rad, theta2_rad, load, &work->rest);
+}
+
+bool brace_loaded_space_step(const brace_loaded_space_t *loaded, brace_space_work_t *work,
+                             brace_space_result_t *result, brace_status_t *status)
+{
+    brace_space_rest_t *rest = &work->rest;
+    factors_t *factors = &work->of.settling.factors;
+    curls_t *curls = &work->of.settling.curls;
+    brace_space_pose_t *drives = &work->of.settling.drives;
+    freedoms_t *free = &work->of.summing.freedoms;
+    axes_t *coxa = &work->of.summing.coxa;
+    sum_t *sum = &work->of.summing.sum;
+    bool goes_on = true;
+    switch (work->step++) {
+    case STEP_FIRST: step_from_straight(loaded, rest, factors); break;
+    case BEND_FIRST: bend_first(loaded, rest, curls, drives); break;
+    case STEP_SECOND: goes_on = step_from_bent(factors, drives, rest) && is_within(&rest->pose); break;
+    case BEND_SECOND: bend_second(loaded, rest, curls); break;
+    case ELIMINATE: goes_on = eliminate_rest(loaded, rest, free); break;
+    case SUM_FIRST: sum_first(loaded, rest, free, coxa, sum); break;
+    default: *status = sum_second(loaded, rest, free, coxa, sum, result); return true; /* SUM_SECOND */
+    }
+    *status = goes_on ? BRACE_OK : BRACE_E_SINGULAR;
+    return !goes_on;
 }
 
 brace_status_t brace_loaded_space_in_plane(const brace_k3_t *k, brace_stiffness_t *plane)
@@ -245,40 +349,58 @@ brace_status_t brace_loaded_space_turn(float theta0_rad, const brace_k3_t *k, br
 /* --- buckling ------------------------------------------------------------------------------------------------- */
 
 void brace_loaded_space_buckling_begin(const brace_loaded_space_t *loaded, const brace_space_rest_t *rest,
-                                       brace_space_shape_t *shape, brace_buckling_search_t *search)
+                                       brace_space_shape_t *shape, brace_space_search_t *search)
 {
     shape_limb(loaded, rest, shape);
-    search->step = 0;
+    search->known.step = 0;
+    search->links_held = 0;
+}
+
+/* What the limb is like under a load is known. returns whether the search ends with it; then writes factor */
+static bool narrow(brace_space_search_t *search, float at, float *factor)
+{
+    brace_buckling_search_t *known = &search->known;
+    const pivots_t *pivots = &search->pivots;
+    const int step = known->step;
+    if (step == 0) {
+        *known = buckling_search_from(pivots->product);
+    } else {
+        space_search_narrow(known, at, (softened_t){pivots->product, is_stable(pivots)});
+    }
+    const bool is_last = step == SPACE_SEARCH_STEPS;
+    known->step = is_last ? 0 : step + 1;
+    if (is_last) {
+        *factor = space_search_end(known);
+    }
+    return is_last;
 }
 
 bool brace_loaded_space_buckling_step(const brace_loaded_space_t *loaded, const brace_space_shape_t *shape,
-                                      brace_buckling_search_t *search, float *factor)
+                                      brace_space_search_t *search, float *factor)
 {
-    const bool is_first = search->step == 0;
-    const float at = is_first ? 1.0f : space_search_at(search, search->step - 1);
-    const pivots_t p = pivots_at(loaded, shape, at);
-    if (is_first) {
-        *search = buckling_search_from(p.product);
-    } else {
-        space_search_narrow(search, at, (softened_t){p.product, is_stable(&p)});
+    const int step = search->known.step, link = BRACE_TIBIA - (int)search->links_held;
+    const float at = step == 0 ? 1.0f : space_search_at(&search->known, step - 1);
+    if (link == BRACE_TIBIA) {
+        search->held = (held_t){{0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}};
+        search->pivots = (pivots_t){0u, 1.0f};
     }
-    const int step = is_first ? 1 : search->step + 1;
-    search->step = step;
-    if (step <= SPACE_SEARCH_STEPS) {
+    hold_link(loaded, shape, link, at, &search->held, &search->pivots);
+    if (link > BRACE_COXA) {
+        search->links_held++;
         return false;
     }
-    search->step = 0;
-    *factor = space_search_end(search);
-    return true;
+    search->links_held = 0;
+    hold_base(loaded, shape, at, &search->held, &search->pivots);
+    return narrow(search, at, factor);
 }
 
 float brace_loaded_space_buckling_factor(const brace_loaded_space_t *loaded, const brace_space_rest_t *rest)
 {
     brace_space_shape_t shape;
-    brace_buckling_search_t search;
+    brace_space_search_t search;
     float factor = INFINITY;
     brace_loaded_space_buckling_begin(loaded, rest, &shape, &search);
-    for (int step = 0; step <= SPACE_SEARCH_STEPS; step++) {
+    for (int link = 0; link < BRACE_LINK_COUNT * (SPACE_SEARCH_STEPS + 1); link++) {
         (void)brace_loaded_space_buckling_step(loaded, &shape, &search, &factor);
     }
     return factor;

@@ -12,10 +12,7 @@
 #include "base/trig.h"
 #include "loaded/space_straight.h"
 
-/* Twists of coxa and femur that bending and springs together make. */
-typedef struct {
-    float coxa, femur;
-} curls_t;
+typedef brace_space_curls_t curls_t;
 
 /* more_rad: [-pi/2, pi/2] */
 INLINE brace_vec_t joint_turn(brace_vec_t commanded, float more_rad)

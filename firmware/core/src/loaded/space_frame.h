@@ -12,15 +12,9 @@
 #include "brace/vec.h"
 
 typedef brace_vec3_t vec3_t;
+typedef brace_sym3_t sym3_t;
 
-typedef struct {
-    float xx, xy, xz, yy, yz, zz;
-} sym3_t;
-
-/* Three vectors, one for each axis of a frame. */
-typedef struct {
-    vec3_t x, y, z;
-} axes_t;
+typedef brace_axes_t axes_t;
 
 INLINE vec3_t vec3(float x, float y, float z)
 {

@@ -244,32 +244,35 @@ INLINE void hold_part(const brace_space_link_t *link, const brace_space_part_t *
     held_about_y(held, part->about_y);
 }
 
-/* The pivots with each force taken `times` times, at the shape that the limb has under its load. */
-static pivots_t pivots_at(const brace_loaded_space_t *loaded, const brace_space_shape_t *shape, float times)
+/* Adds link i and the joint before it, with each force taken `times` times, at the shape that the limb has under its
+ * load. */
+static void hold_link(const brace_loaded_space_t *loaded, const brace_space_shape_t *shape, int i, float times,
+                      held_t *held, pivots_t *pivots)
 {
     const brace_space_link_t *const links[BRACE_LINK_COUNT] = {&loaded->coxa, &loaded->femur, &loaded->tibia};
-    held_t held = {{0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}};
-    pivots_t pivots = {0u, 1.0f};
-    for (int i = BRACE_TIBIA; i >= 0; i--) {
-        const int from = first_part[i], parts = first_part[i + 1] - from;
-        const float share = 1.0f / (float)parts;
-        hold_end(links[i], vec3_scaled(shape->end_n[i], times), shape->end_mm[i], &held, &pivots);
-        for (int k = from + parts - 1; k >= from; k--) {
-            hold_part(links[i], &shape->part[k], share, times, &held, &pivots);
-        }
-        if (i > 0) {
-            (void)eliminate_joint(&held, shape->joint_rad_per_n_mm[i], &pivots);
-        }
-        held_about_z(&held, shape->about_joint[i]);
+    const int from = first_part[i], parts = first_part[i + 1] - from;
+    const float share = 1.0f / (float)parts;
+    hold_end(links[i], vec3_scaled(shape->end_n[i], times), shape->end_mm[i], held, pivots);
+    for (int k = from + parts - 1; k >= from; k--) {
+        hold_part(links[i], &shape->part[k], share, times, held, pivots);
     }
-    const sym3_t r = held.resists;
-    const vec3_t m = held.moment_n_mm, row = vec3(brace_fma(-0.5f, m.z, r.xy), r.yy, brace_fma(0.5f, m.x, r.yz));
-    (void)eliminate(&held, row, r.yy, shape->joint_rad_per_n_mm[BRACE_COXA], &pivots);
-    held_about_y(&held, shape->yaw);
+    if (i > 0) {
+        (void)eliminate_joint(held, shape->joint_rad_per_n_mm[i], pivots);
+    }
+    held_about_z(held, shape->about_joint[i]);
+}
+
+/* Adds the coxa joint and the base. */
+static void hold_base(const brace_loaded_space_t *loaded, const brace_space_shape_t *shape, float times, held_t *held,
+                      pivots_t *pivots)
+{
+    const sym3_t r = held->resists;
+    const vec3_t m = held->moment_n_mm, row = vec3(brace_fma(-0.5f, m.z, r.xy), r.yy, brace_fma(0.5f, m.x, r.yz));
+    (void)eliminate(held, row, r.yy, shape->joint_rad_per_n_mm[BRACE_COXA], pivots);
+    held_about_y(held, shape->yaw);
     const float base_x_n = times * about_z(shape->whole_n, back(shape->base)).x;
-    const float entry = brace_fma(-loaded->coxa.length_mm, base_x_n, held.resists.zz);
-    (void)eliminate(&held, held.moment_n_mm, entry, loaded->base_rotation_rad_per_n_mm, &pivots);
-    return pivots;
+    const float entry = brace_fma(-loaded->coxa.length_mm, base_x_n, held->resists.zz);
+    (void)eliminate(held, held->moment_n_mm, entry, loaded->base_rotation_rad_per_n_mm, pivots);
 }
 
 #endif

@@ -20,29 +20,10 @@ typedef struct {
     vec3_t beyond_n, own_n;
 } forces_t;
 
-/* An eliminated coordinate: its row, its compliance with the load included, and one over its pivot. */
-typedef struct {
-    vec3_t row;
-    float yields, per_pivot;
-} joint_factor_t;
-
-/* The turns of a link about y and z, in this order; between: the matrix's entry for both. */
-typedef struct {
-    joint_factor_t y, z;
-    float between, twist_rad_per_n_mm;
-} link_factor_t;
-
-typedef struct {
-    link_factor_t coxa, femur, tibia;
-    joint_factor_t yaw, hip, knee;
-    float base_yields, base_per_pivot;
-} factors_t;
-
-/* What all beyond a place resists when it is turned about the axes there, and its moment. */
-typedef struct {
-    sym3_t resists;
-    vec3_t moment_n_mm;
-} held_t;
+typedef brace_space_joint_factor_t joint_factor_t;
+typedef brace_space_link_factor_t link_factor_t;
+typedef brace_space_factors_t factors_t;
+typedef brace_space_held_t held_t;
 
 INLINE joint_factor_t eliminated(sym3_t *resists, vec3_t row, float entry, float rad_per_n_mm)
 {

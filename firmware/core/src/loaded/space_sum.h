@@ -12,32 +12,10 @@
 
 #include "loaded/space_bent.h"
 
-/* A coordinate's compliance, load included, and how all beyond follows when the places before it turn: its row times
- * that compliance, less. */
-typedef struct {
-    vec3_t follows;
-    float yields;
-} freedom_t;
-
-/* A link's springs first, then its turns about x, y and z: each adds to those after it. */
-typedef struct {
-    freedom_t across, sideways, x, y, z;
-    vec3_t by_across, by_sideways; /* to x, y and z */
-    float y_by_x, z_by_x, z_by_y;
-} link_freedoms_t;
-
-typedef struct {
-    link_freedoms_t coxa, femur, tibia;
-    freedom_t yaw, hip, knee;
-    float base_yields;
-} freedoms_t;
-
-/* Of all coordinates: 1 without a load, 0 where the load has softened the limb to nothing. sign_bits: their IEEE bits,
- * or-ed. */
-typedef struct {
-    uint32_t sign_bits;
-    float product;
-} pivots_t;
+typedef brace_space_freedom_t freedom_t;
+typedef brace_space_link_freedoms_t link_freedoms_t;
+typedef brace_space_freedoms_t freedoms_t;
+typedef brace_space_pivots_t pivots_t;
 
 INLINE bool is_stable(const pivots_t *pivots)
 {
@@ -191,13 +169,7 @@ INLINE pivots_t eliminate_limb(const brace_loaded_space_t *loaded, const brace_s
 
 /* --- C -------------------------------------------------------------------------------------------------------- */
 
-/* C so far, and how the tip moves when all beyond a place turns about the axes there; the tip from the base and from
- * the knee. All in the limb's plane's frame. */
-typedef struct {
-    axes_t by_turn;
-    sym3_t c;
-    vec3_t tip_mm, tibia_mm;
-} sum_t;
+typedef brace_space_sum_t sum_t;
 
 INLINE void add_move(sum_t *sum, vec3_t move, float yields)
 {
@@ -264,37 +236,47 @@ INLINE void add_link(sum_t *sum, const brace_space_link_t *link, vec3_t turn, co
     sum->tip_mm = vec3_plus(sum->tip_mm, axes_times(axes, chord));
 }
 
-static void sum_limb(const brace_loaded_space_t *loaded, const brace_space_rest_t *rest, const freedoms_t *free,
-                     const frames_t *frames, sum_t *sum)
+/* From the tip to the hip. */
+static void sum_outer(const brace_loaded_space_t *loaded, const brace_space_rest_t *rest, const freedoms_t *free,
+                      const frames_t *frames, sum_t *sum)
 {
     const brace_space_turns_t *turns = &rest->turns;
     const brace_space_pose_t *pose = &rest->pose;
-    const float coxa_mm = loaded->coxa.length_mm;
     const vec3_t none = {0.0f, 0.0f, 0.0f};
-    sum_t s = {.by_turn = {none, none, none},
-               .c = {loaded->base_x_mm_per_n, 0.0f, 0.0f, loaded->base_z_mm_per_n, 0.0f, 0.0f},
-               .tip_mm = vec3(-coxa_mm * turns->base.x, -coxa_mm * turns->base.z, 0.0f),
-               .tibia_mm = axes_times(&frames->tibia, rest->tibia.chord_mm)};
-    add_link(&s, &loaded->tibia, pose->tibia, &rest->tibia, &free->tibia, &frames->tibia, true);
-    axes_about_y(&s.by_turn, turns->tibia_y);
-    add_joint(&s, &free->knee);
-    axes_about_z(&s.by_turn, turns->knee);
-    axes_about_y(&s.by_turn, turns->femur_y);
-    axes_about_x(&s.by_turn, turns->femur_x);
-    add_link(&s, &loaded->femur, pose->femur, &rest->femur, &free->femur, &frames->femur, false);
-    axes_about_y(&s.by_turn, turns->femur_y);
-    add_joint(&s, &free->hip);
-    axes_about_z(&s.by_turn, turns->hip);
-    axes_about_y(&s.by_turn, turns->coxa_y);
-    axes_about_x(&s.by_turn, turns->coxa_x);
-    add_link(&s, &loaded->coxa, pose->coxa, &rest->coxa, &free->coxa, &frames->coxa, false);
-    axes_about_y(&s.by_turn, turns->coxa_y);
-    axes_about_z(&s.by_turn, turns->coxa_z);
-    add_freedom(&s, &free->yaw, s.by_turn.y);
-    axes_about_y(&s.by_turn, turns->yaw);
+    sum->by_turn = (axes_t){none, none, none};
+    sum->c = (sym3_t){0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
+    sum->tip_mm = none;
+    sum->tibia_mm = axes_times(&frames->tibia, rest->tibia.chord_mm);
+    add_link(sum, &loaded->tibia, pose->tibia, &rest->tibia, &free->tibia, &frames->tibia, true);
+    axes_about_y(&sum->by_turn, turns->tibia_y);
+    add_joint(sum, &free->knee);
+    axes_about_z(&sum->by_turn, turns->knee);
+    axes_about_y(&sum->by_turn, turns->femur_y);
+    axes_about_x(&sum->by_turn, turns->femur_x);
+    add_link(sum, &loaded->femur, pose->femur, &rest->femur, &free->femur, &frames->femur, false);
+    axes_about_y(&sum->by_turn, turns->femur_y);
+    add_joint(sum, &free->hip);
+}
+
+/* From the hip to the base. */
+static void sum_inner(const brace_loaded_space_t *loaded, const brace_space_rest_t *rest, const freedoms_t *free,
+                      const axes_t *coxa, sum_t *sum)
+{
+    const brace_space_turns_t *turns = &rest->turns;
+    const float coxa_mm = loaded->coxa.length_mm;
+    axes_about_z(&sum->by_turn, turns->hip);
+    axes_about_y(&sum->by_turn, turns->coxa_y);
+    axes_about_x(&sum->by_turn, turns->coxa_x);
+    add_link(sum, &loaded->coxa, rest->pose.coxa, &rest->coxa, &free->coxa, coxa, false);
+    axes_about_y(&sum->by_turn, turns->coxa_y);
+    axes_about_z(&sum->by_turn, turns->coxa_z);
+    add_freedom(sum, &free->yaw, sum->by_turn.y);
+    axes_about_y(&sum->by_turn, turns->yaw);
     const vec3_t up = {-turns->base.z, turns->base.x, 0.0f};
-    add_move(&s, vec3_plus_scaled(s.by_turn.z, up, -coxa_mm), free->base_yields);
-    *sum = s;
+    add_move(sum, vec3_plus_scaled(sum->by_turn.z, up, -coxa_mm), free->base_yields);
+    sum->c.xx += loaded->base_x_mm_per_n;
+    sum->c.yy += loaded->base_z_mm_per_n;
+    sum->tip_mm = vec3_plus_scaled(sum->tip_mm, vec3(turns->base.x, turns->base.z, 0.0f), -coxa_mm);
 }
 
 #endif

@@ -174,13 +174,9 @@ static bool keep_if_due(drift_job_t *job)
     return true;
 }
 
-void drift_job_step(drift_job_t *job, const drift_inputs_t *inputs)
+bool drift_job_work(drift_job_t *job, const drift_inputs_t *inputs)
 {
     const brace_limb_t *limb = &inputs->parameters->limb;
-    job->has_worked = inputs->may_work;
-    if (!inputs->may_work) {
-        return;
-    }
     if (job->learns_anew) {
         learn_anew(job, inputs);
     } else if (job->opens) {
@@ -197,8 +193,9 @@ void drift_job_step(drift_job_t *job, const drift_inputs_t *inputs)
             brace_drift_outlook(&job->drift, limb, &job->model, &job->widest, &job->outlook) == BRACE_OK;
         job->foresees = false;
     } else {
-        job->has_worked = job->looks && inputs->may_write && keep_if_due(job);
+        return job->looks && inputs->may_write && keep_if_due(job);
     }
+    return true;
 }
 
 /* Would another test at this posture show whether the suspected cause is the one? */

@@ -31,7 +31,6 @@ typedef struct {
     bool reports;                 /* the report is older than the check */
     bool foresees;                /* the outlook is older than the check */
     bool looks;                   /* is a record worth writing? */
-    bool has_worked;              /* the last step had something to do */
     brace_drift_reading_t reading;
     brace_stiffness_t model;
     brace_drift_reading_t widest; /* of the readings at this posture, the one of the largest displacement */
@@ -50,7 +49,6 @@ typedef struct {
     const brace_parameters_t *parameters;
     uint32_t parameter_crc;
     brace_parameter_origin_t origin;
-    bool may_work;  /* no question's K has been worked out in this tick */
     bool may_write; /* to the memory: MONITOR or FAULT, and no set is being stored */
 } drift_inputs_t;
 
@@ -68,9 +66,9 @@ void drift_job_take(drift_job_t *job, const brace_drift_reading_t *reading, cons
 /* The next reading begins a new run. */
 void drift_job_end_run(drift_job_t *job);
 
-/* Does the next piece of the job's work, if it may. Cost: at most 2,500 instructions, or 1,000 and two calls of the
- * HAL's memory. */
-void drift_job_step(drift_job_t *job, const drift_inputs_t *inputs);
+/* Does the next piece of the job's work. returns whether there was one. Cost: at most 2,500 instructions, or 1,000 and
+ * two calls of the HAL's memory. */
+bool drift_job_work(drift_job_t *job, const drift_inputs_t *inputs);
 
 /* Is anything due before the check can be trusted: learning anew, opening the journal, searching it? */
 static inline bool drift_job_is_starting(const drift_job_t *job)

@@ -21,14 +21,11 @@ typedef struct {
     model_work_t *work;          /* the test's own */
     const brace_parameters_t *parameters;
     brace_vec3_t down;            /* where the weight pulls */
-    bool may_work;               /* no question's K has been worked out in this tick */
 } loading_inputs_t;
 
 /* What a step hands to the drift check. */
 typedef struct {
-    bool has_worked;         /* this step was a dear one: a K under a load, or how sure the model is of its own; written
-                                always, as is_there */
-    bool is_there;           /* a reading has been worked out in this step */
+    bool is_there;           /* a reading has been worked out in this step; always written */
     bool run_ends;           /* later readings belong to a new run: friction has turned round with the motion */
     bool is_fit;             /* the force was sensed, no gap was open, the limb is calibrated: reading counts */
     brace_drift_reading_t reading;

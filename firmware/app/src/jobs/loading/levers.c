@@ -8,8 +8,7 @@
 enum { LISTENED = 50 }; /* ticks whose mean is the load */
 /* The rest is worked out at the posture first, then to both sides of it. Where a link's angle is measured, it is worked
  * out at the posture twice: first with the motor at the link's angle, then with the motor where that rest puts it. */
-enum { AT_POSTURE = 2, PLACES = 6, EVERY = 10 }; /* the test begins 100 or 110 ticks later, and leaves others theirs */
-enum { STRAIGHT = AT_POSTURE * EVERY - 1 }; /* the motors' angles are known then, and no rest is worked out */
+enum { AT_POSTURE = 2, PLACES = 6 };
 
 static void take_straight_levers(brace_loading_t *test, const brace_pose_t *pose)
 {
@@ -28,21 +27,35 @@ void levers_begin(brace_loading_t *test, const loading_inputs_t *inputs)
     }
     test->lever_force_n = (brace_vec3_t){0};
     test->lever_step = 0;
-    inputs->work->is_half_done = false;
+    inputs->work->is_under_way = false;
 }
 
-static void listen(brace_loading_t *test, const brace_snapshot_load_t *load)
+bool levers_listen(brace_loading_t *test, const loading_inputs_t *inputs)
 {
+    const brace_snapshot_load_t *load = &inputs->now->load;
     const float share = 1.0f / (float)LISTENED;
+    if (!load->is_counted || test->lever_step >= LISTENED) {
+        return false;
+    }
     test->lever_force_n.x += share * load->force_x_n;
     test->lever_force_n.y += share * load->force_y_n;
     test->lever_force_n.z += share * load->force_z_n;
+    test->lever_step++;
+    return true;
+}
+
+/* Once the motors' angles are known. */
+static void see_straight(brace_loading_t *test, const brace_limb_t *limb)
+{
+    brace_pose_t pose;
+    brace_kinematics_pose(limb, test->lever_rad[BRACE_FEMUR], test->lever_rad[BRACE_TIBIA], &pose);
+    take_straight_levers(test, &pose);
 }
 
 static int32_t rest_at(const brace_loading_t *test, const loading_inputs_t *inputs, uint32_t place, model_rest_t *rest)
 {
-    if (inputs->work->is_half_done) {
-        return model_loaded_end(inputs->model, &inputs->parameters->limb, inputs->work, rest);
+    if (inputs->work->is_under_way) {
+        return model_loaded_go_on(inputs->model, &inputs->parameters->limb, inputs->work, rest);
     }
     brace_loaded_joint_t springs[BRACE_LINK_COUNT];
     float theta_rad[BRACE_LINK_COUNT] = {test->lever_rad[0], test->lever_rad[1], test->lever_rad[2]};
@@ -71,56 +84,27 @@ static void add_difference(brace_point_t *lever, brace_displacement_t ahead, bra
     lever->z_mm += (ahead.z_mm - behind.z_mm) / (2.0f * ASIDE_RAD);
 }
 
-static bool has_work(const brace_loading_t *test, const loading_inputs_t *inputs)
+bool levers_work(brace_loading_t *test, const loading_inputs_t *inputs)
 {
-    const uint32_t step = test->lever_step;
-    return inputs->work->is_half_done || (step >= LISTENED && (step - LISTENED) % EVERY == 0u);
-}
-
-bool levers_are_due(const brace_loading_t *test, const loading_inputs_t *inputs)
-{
-    return inputs->model->is_spatial || has_work(test, inputs);
-}
-
-bool levers_step(brace_loading_t *test, const loading_inputs_t *inputs, bool *has_worked)
-{
+    const uint32_t place = test->lever_step - LISTENED;
     model_rest_t rest;
-    if (!inputs->now->load.is_counted || test->lever_step >= LISTENED + PLACES * EVERY) {
+    if (!inputs->now->load.is_counted || test->lever_step < LISTENED) { /* the load has been lost on the way */
         return true;
     }
-    const bool is_due = has_work(test, inputs);
-    test->lever_step++;
-    if (test->lever_step <= LISTENED) {
-        listen(test, &inputs->now->load);
-        return false;
+    if (place == AT_POSTURE && !inputs->work->is_under_way) {
+        see_straight(test, &inputs->parameters->limb);
     }
-    const uint32_t step = test->lever_step - 1u - LISTENED;
-    if (step == STRAIGHT) {
-        brace_pose_t pose;
-        brace_kinematics_pose(&inputs->parameters->limb, test->lever_rad[BRACE_FEMUR], test->lever_rad[BRACE_TIBIA],
-                              &pose);
-        take_straight_levers(test, &pose);
-    }
-    if (!is_due) {
-        return false;
-    }
-    const uint32_t place = step / EVERY;
-    *has_worked = true;
     const int32_t status = rest_at(test, inputs, place, &rest);
-    if (status == MODEL_LATER) {
-        return false;
-    }
     if (status != BRACE_OK) {
-        test->lever_step = LISTENED + PLACES * EVERY;
-        return true;
+        return status != MODEL_LATER;
     }
     if (place < AT_POSTURE) {
-        if (!go_to_motors(test, inputs->posture, rest.bend.joint_turn_rad)) {
-            test->lever_step += (AT_POSTURE - 1) * EVERY;
-        }
+        const bool again = go_to_motors(test, inputs->posture, rest.bend.joint_turn_rad);
+        test->lever_step = (uint8_t)(LISTENED + (again ? place + 1u : AT_POSTURE));
         return false;
     }
     test->lever_moved_mm[place - AT_POSTURE] = (brace_displacement_t){rest.bend.tip_mm.x, rest.bend.tip_mm.z};
+    test->lever_step++;
     if (place + 1u < PLACES) {
         return false;
     }

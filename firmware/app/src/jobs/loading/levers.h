@@ -10,20 +10,17 @@
 #include "brace/loading.h"
 #include "jobs/loading/inputs.h"
 
-/* The straight links' levers, from where a test begins. Where a load is counted, steps are due. */
+/* The straight links' levers, from where a test begins. Where a load is counted, more is to do. */
 void levers_begin(brace_loading_t *test, const loading_inputs_t *inputs);
 
-/* Does the next step need a tick of its own? One that works out a displacement does; in space, where requests wait for
- * it, also those between, so that they stay apart. */
-bool levers_are_due(const brace_loading_t *test, const loading_inputs_t *inputs);
+/* Takes the load's mean over fifty ticks; one noisy sample would turn the levers. returns whether it still does */
+bool levers_listen(brace_loading_t *test, const loading_inputs_t *inputs);
 
-/* Takes the load's mean over fifty steps; one noisy sample would turn the levers. Then works out one displacement under
- * it in every tenth step: five of them, at the posture and a little to each side of it by either joint. Their central
- * differences are added to the straight links' levers; where a displacement cannot be told, the straight links' levers
- * stay.
- *   has_worked (out): true when a displacement has been worked out; else untouched
- * returns whether the levers are there. At most 2,900 instructions. */
-bool levers_step(brace_loading_t *test, const loading_inputs_t *inputs, bool *has_worked);
+/* One step, after that: works out five displacements under the load, at the posture and a little to each side of it by
+ * either joint. Their central differences are added to the straight links' levers; where a displacement cannot be told,
+ * the straight links' levers stay.
+ * returns whether the levers are there. At most 1,900 instructions. */
+bool levers_work(brace_loading_t *test, const loading_inputs_t *inputs);
 
 /* Joint offsets that move the tip's free shape by 1 mm along the axis, by these levers.
  * returns whether the levers allow it; per_mm untouched if not */

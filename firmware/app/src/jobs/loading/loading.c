@@ -15,7 +15,6 @@
 #define RESTING_US 20000u        /* a motor on its way through the target does not rest this long */
 #define TRIM_RATE_RAD_PER_S 0.1f
 #define SAME_POSTURE_RAD 0.01f
-#define APART_TICKS 10u          /* between two K that it works out, for questions */
 #define TIME_SPARE_US 2000000u
 #define TIME_MOST_US 3.0e9f
 
@@ -127,7 +126,7 @@ brace_status_t loading_start(brace_loading_t *test, const loading_inputs_t *inpu
     const float step_us = 2.0f * ((float)setup->dwell_us + 1e6f * setup->step_mm / setup->rate_mm_per_s);
     const float all_us = (float)step_count(test) * (step_us + (float)SETTLE_US);
     test->limit_us = (uint32_t)smaller_of(all_us, TIME_MOST_US) + TIME_SPARE_US;
-    test->phase = LOADING_LEVERS;
+    test->phase = LOADING_LISTEN;
     return BRACE_OK;
 }
 
@@ -143,7 +142,7 @@ void loading_end(brace_loading_t *test, brace_loading_outcome_t outcome)
 
 void loading_forget(brace_loading_t *test)
 {
-    if (test->phase == LOADING_LEVERS) {
+    if (test->phase == LOADING_LISTEN || test->phase == LOADING_LEVERS) {
         test->result.outcome = BRACE_LOADING_STOPPED;
         test->phase = LOADING_IDLE;
     }
@@ -294,11 +293,19 @@ static void go_back(brace_loading_t *test, const loading_inputs_t *inputs, float
     }
 }
 
-static void find_levers(brace_loading_t *test, const loading_inputs_t *inputs, bool *has_worked)
+static void listen(brace_loading_t *test, const loading_inputs_t *inputs)
 {
-    if (!levers_step(test, inputs, has_worked)) {
+    if (!levers_listen(test, inputs)) {
+        test->phase = LOADING_LEVERS;
+    }
+}
+
+static void find_levers(brace_loading_t *test, const loading_inputs_t *inputs)
+{
+    if (!levers_work(test, inputs)) {
         return;
     }
+    inputs->work->is_under_way = false; /* also where the load has been lost on the way */
     test->phase = LOADING_MOVE;
     if (!set_out(test, inputs)) {
         loading_end(test, BRACE_LOADING_E_FLAT);
@@ -319,19 +326,16 @@ static void read(brace_loading_t *test, const loading_inputs_t *inputs, brace_re
     test->phase = is_first ? LOADING_MODEL : test->step < step_count(test) ? LOADING_MOVE : LOADING_JUDGE;
 }
 
-static void find_model(brace_loading_t *test, const loading_inputs_t *inputs, loading_reading_t *reading)
+static void find_model(brace_loading_t *test, const loading_inputs_t *inputs)
 {
-    if (reading_model_now(test, inputs, reading)) {
+    if (reading_model_now(test, inputs)) {
         test->phase = LOADING_REFERENCE;
-        test->phase_us = 0;
     }
 }
 
-static void find_reference(brace_loading_t *test, const loading_inputs_t *inputs, loading_reading_t *reading)
+static void find_reference(brace_loading_t *test, const loading_inputs_t *inputs)
 {
-    test->phase_us += inputs->parameters->controller.tick_us;
-    const bool is_apart = test->phase_us >= APART_TICKS * inputs->parameters->controller.tick_us;
-    if (is_apart && reading_model_at_reference(test, inputs, reading)) {
+    if (reading_model_at_reference(test, inputs)) {
         test->phase = LOADING_MOVE;
     }
 }
@@ -377,24 +381,11 @@ static void compare(brace_loading_t *test, const brace_limb_t *limb)
                             result->sigma_model_k_z_n_per_mm);
 }
 
-/* Is the next step one of the dear ones? */
-static bool is_dear(const brace_loading_t *test, const loading_inputs_t *inputs)
-{
-    return (test->phase == LOADING_LEVERS && levers_are_due(test, inputs)) || test->phase == LOADING_READ ||
-           test->phase == LOADING_MODEL ||
-           test->phase == LOADING_REFERENCE || test->phase == LOADING_JUDGE || test->phase == LOADING_COMPARE;
-}
-
-void loading_step(brace_loading_t *test, const loading_inputs_t *inputs, brace_recorder_t *recorder,
-                  loading_reading_t *reading)
+void loading_step(brace_loading_t *test, const loading_inputs_t *inputs)
 {
     const uint32_t tick_us = inputs->parameters->controller.tick_us;
     const float step_mm = test->result.setup.rate_mm_per_s * 1e-6f * (float)tick_us;
-    reading->is_there = reading->has_worked = false;
-    if (!loading_runs(test)) {
-        return;
-    }
-    test->test_us += tick_us;
+    test->test_us += loading_runs(test) ? tick_us : 0u;
     if (test->phase == LOADING_MOVE || test->phase == LOADING_DWELL) {
         const brace_loading_outcome_t broken = broken_bound(test, inputs);
         if (broken != BRACE_LOADING_RUNNING) {
@@ -402,22 +393,29 @@ void loading_step(brace_loading_t *test, const loading_inputs_t *inputs, brace_r
             return;
         }
     }
-    if (is_dear(test, inputs) && !inputs->may_work) {
-        return;
-    }
     switch (test->phase) {
-    case LOADING_LEVERS: find_levers(test, inputs, &reading->has_worked); break;
+    case LOADING_LISTEN: listen(test, inputs); break;
     case LOADING_MOVE: move(test, inputs, step_mm); break;
     case LOADING_DWELL: dwell(test, inputs); break;
-    case LOADING_READ: read(test, inputs, recorder, reading); break;
-    case LOADING_MODEL: find_model(test, inputs, reading); break;
-    case LOADING_REFERENCE: find_reference(test, inputs, reading); break;
-    case LOADING_JUDGE: judge(test); break;
+    case LOADING_RETURN: go_back(test, inputs, step_mm); break;
+    default: break; /* nothing moves while loading_work works */
+    }
+}
+
+bool loading_work(brace_loading_t *test, const loading_inputs_t *inputs, brace_recorder_t *recorder,
+                  loading_reading_t *reading)
+{
+    reading->is_there = false;
+    switch (test->phase) {
+    case LOADING_LEVERS: find_levers(test, inputs); return true;
+    case LOADING_READ: read(test, inputs, recorder, reading); return true;
+    case LOADING_MODEL: find_model(test, inputs); return true;
+    case LOADING_REFERENCE: find_reference(test, inputs); return true;
+    case LOADING_JUDGE: judge(test); return true;
     case LOADING_COMPARE:
         compare(test, &inputs->parameters->limb);
-        reading->has_worked = true;
         loading_end(test, BRACE_LOADING_DONE);
-        break;
-    default: go_back(test, inputs, step_mm); break; /* LOADING_RETURN */
+        return true;
+    default: return false;
     }
 }

@@ -1,4 +1,4 @@
-/* The loading test as a job: a state (brace/loading.h), and one bounded step in each tick. */
+/* The loading test as a job: a state (brace/loading.h), and bounded steps. */
 #ifndef BRACE_JOBS_LOADING_LOADING_H
 #define BRACE_JOBS_LOADING_LOADING_H
 
@@ -11,15 +11,16 @@
 /* Phases of a test, in their order; each reading goes MOVE, DWELL, READ. */
 enum {
     LOADING_IDLE = 0,
-    LOADING_LEVERS = 1,  /* works out how the motors move the tip under the load of now */
-    LOADING_MOVE = 2,
-    LOADING_DWELL = 3,
-    LOADING_READ = 4,    /* works the reading out: row, slope, and what the drift check gets */
-    LOADING_MODEL = 5,   /* after the first reading: the K that the slopes are compared with */
-    LOADING_REFERENCE = 6, /* the K that the drift check gets with all other readings */
-    LOADING_JUDGE = 7,   /* all readings are there: slopes */
-    LOADING_COMPARE = 8, /* the model's slopes and how sure it is of them */
-    LOADING_RETURN = 9   /* back to where the test began */
+    LOADING_LISTEN,    /* takes the load's mean */
+    LOADING_LEVERS,    /* works out how the motors move the tip under the load of now */
+    LOADING_MOVE,
+    LOADING_DWELL,
+    LOADING_READ,      /* works the reading out: row, slope, and what the drift check gets */
+    LOADING_MODEL,     /* after the first reading: the K that the slopes are compared with */
+    LOADING_REFERENCE, /* the K that the drift check gets with all other readings */
+    LOADING_JUDGE,     /* all readings are there: slopes */
+    LOADING_COMPARE,   /* the model's slopes and how sure it is of them */
+    LOADING_RETURN     /* back to where the test began */
 };
 
 /* Begins a test.
@@ -38,10 +39,13 @@ static inline bool loading_runs(const brace_loading_t *test)
     return test->phase != LOADING_IDLE;
 }
 
-/* One step, with this tick's samples. Nothing is to do in IDLE. A dear step waits for a tick in which it may work.
- *   reading (out): has_worked and is_there are written always, all else only with is_there
- * At most 2,900 instructions (LEVERS; of a limb in space 4,500); in MOVE and DWELL 200. */
-void loading_step(brace_loading_t *test, const loading_inputs_t *inputs, brace_recorder_t *recorder,
+/* A tick passes: the test moves on, or averages this tick's samples. At most 200 instructions. */
+void loading_step(brace_loading_t *test, const loading_inputs_t *inputs);
+
+/* One step of what the test works out while nothing moves.
+ *   reading (out): is_there is written always, all else only with is_there
+ * returns whether there was such a step. At most 1,900 instructions. */
+bool loading_work(brace_loading_t *test, const loading_inputs_t *inputs, brace_recorder_t *recorder,
                   loading_reading_t *reading);
 
 /* What the test adds to a joint's set-point [rad]. joint_index: BRACE_COXA (0), BRACE_FEMUR, BRACE_TIBIA */

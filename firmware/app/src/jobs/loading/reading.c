@@ -133,8 +133,8 @@ static bool k_under_preload(const brace_loading_t *test, const loading_inputs_t 
     const brace_vec3_t preload_n = {test->result.preload_x_n, inputs->now->load.force_y_n, test->result.preload_z_n};
     model_rest_t rest;
     const int32_t status =
-        inputs->work->is_half_done
-            ? (int32_t)model_loaded_end(inputs->model, limb, inputs->work, &rest)
+        inputs->work->is_under_way
+            ? model_loaded_go_on(inputs->model, limb, inputs->work, &rest)
             : model_loaded_begin(inputs->model, inputs->posture->unbent_rad, springs, preload_n, inputs->down,
                                  inputs->work);
     if (status == BRACE_OK) {
@@ -143,7 +143,7 @@ static bool k_under_preload(const brace_loading_t *test, const loading_inputs_t 
     return status != MODEL_LATER;
 }
 
-bool reading_model_now(brace_loading_t *test, const loading_inputs_t *inputs, loading_reading_t *reading)
+bool reading_model_now(brace_loading_t *test, const loading_inputs_t *inputs)
 {
     brace_loaded_joint_t springs[BRACE_LINK_COUNT];
     bool is_there = true;
@@ -151,13 +151,12 @@ bool reading_model_now(brace_loading_t *test, const loading_inputs_t *inputs, lo
         stiffness_springs_of_now(inputs->model, inputs->parameters, inputs->joints, inputs->flank, springs);
         stiffness_hold_measured_joints(inputs->posture, springs);
         is_there = k_under_preload(test, inputs, springs, &test->model);
-        reading->has_worked = true;
     }
     test->at_reference = test->model;
     return is_there;
 }
 
-bool reading_model_at_reference(brace_loading_t *test, const loading_inputs_t *inputs, loading_reading_t *reading)
+bool reading_model_at_reference(brace_loading_t *test, const loading_inputs_t *inputs)
 {
     const float unknown = __builtin_nanf(""), temp_degc[BRACE_LINK_COUNT] = {unknown, unknown, unknown};
     brace_loaded_joint_t springs[BRACE_LINK_COUNT];
@@ -172,7 +171,6 @@ bool reading_model_at_reference(brace_loading_t *test, const loading_inputs_t *i
                               test->result.theta2_rad, springs, &test->at_reference, &across_n_per_mm);
         return true;
     }
-    reading->has_worked = true;
     return k_under_preload(test, inputs, springs, &test->at_reference);
 }
 

@@ -22,11 +22,11 @@ bool reading_add_to_slope(brace_loading_t *test, float fx_n, float fz_n);
 
 /* K with which the slopes are compared: under the preload, where the K of now counts one. One step of it.
  * returns whether it is there */
-bool reading_model_now(brace_loading_t *test, const loading_inputs_t *inputs, loading_reading_t *reading);
+bool reading_model_now(brace_loading_t *test, const loading_inputs_t *inputs);
 
 /* The same as the drift check wants it: at the reference temperature, whatever the joints' springs are now. After
  * reading_model_now. */
-bool reading_model_at_reference(brace_loading_t *test, const loading_inputs_t *inputs, loading_reading_t *reading);
+bool reading_model_at_reference(brace_loading_t *test, const loading_inputs_t *inputs);
 
 /* The same reading for the drift check, where there is one. */
 void reading_for_drift(brace_loading_t *test, const loading_inputs_t *inputs, loading_reading_t *reading);

@@ -6,11 +6,21 @@
 #include "brace/words.h"
 
 #define PATIENCE_TICKS 6u /* whoever waits asks again in each tick */
-#define STEPS_IN_A_ROW 8u /* as four questions take; then other jobs have a tick */
+#define STEPS_IN_A_ROW 8u /* as four questions take in the plane; then other jobs have a tick */
 
 enum { NONE = 0, TAKEN, DONE };
 
 _Static_assert(sizeof(brace_k_question_t) == 10u * 4u, "no bytes between the members: they are compared as words");
+
+static bool is_under_way(const question_job_t *job)
+{
+    return job->work.is_under_way || job->is_to_turn;
+}
+
+static void drop(question_job_t *job)
+{
+    job->work.is_under_way = job->is_to_turn = false;
+}
 
 static bool is_same(const brace_k_question_t *a, const brace_k_question_t *b)
 {
@@ -27,7 +37,9 @@ int32_t question_job_ask(question_job_t *job, brace_asker_t asker, const brace_k
     question_slot_t *slot = &job->slot[asker];
     slot->ticks_unasked = 0;
     if (slot->phase == NONE || !is_same(&slot->question, question)) {
-        job->work.is_half_done = job->work.is_half_done && asker != (brace_asker_t)job->answered;
+        if (asker == (brace_asker_t)job->answered) {
+            drop(job);
+        }
         slot->phase = TAKEN;
         slot->question = *question;
     }
@@ -41,9 +53,17 @@ int32_t question_job_ask(question_job_t *job, brace_asker_t asker, const brace_k
     return job->status;
 }
 
+bool question_job_is_coming(question_job_t *job, brace_asker_t asker)
+{
+    question_slot_t *slot = &job->slot[asker];
+    const bool is_coming = slot->phase == TAKEN;
+    slot->ticks_unasked = is_coming ? 0u : slot->ticks_unasked;
+    return is_coming;
+}
+
 void question_job_forget(question_job_t *job)
 {
-    job->work.is_half_done = false;
+    drop(job);
     memset(job->slot, 0, sizeof job->slot);
 }
 
@@ -88,45 +108,46 @@ static int32_t begin(question_job_t *job, const brace_k_question_t *asked, const
     return model_loaded_begin(inputs->model, unbent_rad, springs, tip_n, inputs->down, &job->work);
 }
 
-static int32_t work_out(question_job_t *job, const brace_k_question_t *asked, const question_inputs_t *inputs)
+/* The last step of a K in space: from the limb's plane's frame into the robot's. */
+static brace_status_t turn(question_job_t *job, const brace_k_question_t *asked)
 {
-    model_rest_t rest;
-    const int32_t status = job->work.is_half_done
-                               ? (int32_t)model_loaded_end(inputs->model, &inputs->parameters->limb, &job->work, &rest)
-                               : begin(job, asked, inputs);
-    if (status == BRACE_OK) {
-        job->answer.k = rest.plane;
-        job->answer.k.flags |= job->flags;
-        job->answer.moved_mm = (brace_displacement_t){rest.bend.tip_mm.x, rest.bend.tip_mm.z};
-        job->answer.moved_across_mm = rest.moved_across_mm;
-        job->answer.buckling_factor = rest.buckling_factor;
-    }
-    if (status == BRACE_OK && asked->where == BRACE_K_IN_SPACE) {
-        const brace_status_t turned =
-            space_path_turn(asked->theta_rad[BRACE_COXA], &rest.space, &job->answer.in_space);
-        job->answer.in_space.flags |= job->answer.k.flags;
-        return turned;
-    }
+    const brace_status_t status =
+        space_path_turn(asked->theta_rad[BRACE_COXA], &job->space, &job->answer.in_space);
+    job->answer.in_space.flags |= job->answer.k.flags;
+    job->is_to_turn = false;
     return status;
 }
 
-bool question_job_is_asked(const question_job_t *job)
+static int32_t work_out(question_job_t *job, const brace_k_question_t *asked, const question_inputs_t *inputs)
 {
-    bool is_asked = false;
-    for (uint32_t i = 0; i < (uint32_t)BRACE_ASKER_COUNT; i++) {
-        is_asked = is_asked || job->slot[i].phase == TAKEN;
+    if (job->is_to_turn) {
+        return turn(job, asked);
     }
-    return is_asked;
+    model_rest_t rest;
+    const int32_t status = job->work.is_under_way
+                               ? model_loaded_go_on(inputs->model, &inputs->parameters->limb, &job->work, &rest)
+                               : begin(job, asked, inputs);
+    if (status != BRACE_OK) {
+        return status;
+    }
+    job->answer.k = rest.plane;
+    job->answer.k.flags |= job->flags;
+    job->answer.moved_mm = (brace_displacement_t){rest.bend.tip_mm.x, rest.bend.tip_mm.z};
+    job->answer.moved_across_mm = rest.moved_across_mm;
+    job->answer.buckling_factor = rest.buckling_factor;
+    job->space = rest.space;
+    job->is_to_turn = asked->where == BRACE_K_IN_SPACE;
+    return job->is_to_turn ? (int32_t)MODEL_LATER : BRACE_OK;
 }
 
-/* The slot that is worked out next: the one that is half done, else the first one behind the last that is taken.
+/* The slot that is worked out next: the one whose K is under way, else the first one behind the last that is taken.
  * returns null: none */
 static question_slot_t *next_slot(question_job_t *job)
 {
-    if (job->work.is_half_done && job->slot[job->answered].phase == TAKEN) {
+    if (is_under_way(job) && job->slot[job->answered].phase == TAKEN) {
         return &job->slot[job->answered];
     }
-    job->work.is_half_done = false;
+    drop(job);
     for (uint32_t i = 1; i <= (uint32_t)BRACE_ASKER_COUNT; i++) {
         const uint32_t asker = (job->answered + i) % (uint32_t)BRACE_ASKER_COUNT;
         if (job->slot[asker].phase == TAKEN) {
@@ -145,24 +166,41 @@ static void forget_answer(question_job_t *job)
     }
 }
 
-void question_job_step(question_job_t *job, const question_inputs_t *inputs)
+void question_job_age(question_job_t *job)
 {
     for (uint32_t i = 0; i < (uint32_t)BRACE_ASKER_COUNT; i++) {
         question_slot_t *slot = &job->slot[i];
         slot->ticks_unasked++;
         slot->phase = slot->ticks_unasked > PATIENCE_TICKS ? (uint8_t)NONE : slot->phase;
     }
-    const bool may_begin = inputs->may_begin && job->ticks_in_a_row < STEPS_IN_A_ROW;
-    question_slot_t *slot = inputs->may_work && (may_begin || job->work.is_half_done) ? next_slot(job) : NULL;
-    job->has_worked = slot != NULL;
-    job->ticks_in_a_row = slot != NULL ? (uint8_t)(job->ticks_in_a_row + 1u) : 0u;
-    if (slot == NULL) {
-        return;
+}
+
+static void finish(question_job_t *job, question_slot_t *slot, brace_status_t status)
+{
+    forget_answer(job);
+    job->status = status;
+    slot->phase = DONE;
+}
+
+bool question_job_work(question_job_t *job, const question_inputs_t *inputs, uint32_t steps_most)
+{
+    int32_t status = MODEL_LATER;
+    bool has_worked = false;
+    /* One step, or at most two. None follows an answer: its asker takes it in the next tick, before another one's takes
+     * its place. */
+    for (uint32_t i = 0; i < steps_most && status == MODEL_LATER; i++) {
+        const bool may_begin = job->steps_in_a_row < STEPS_IN_A_ROW;
+        question_slot_t *slot = may_begin || is_under_way(job) ? next_slot(job) : NULL;
+        if (slot == NULL) {
+            break;
+        }
+        status = work_out(job, &slot->question, inputs);
+        if (status != MODEL_LATER) {
+            finish(job, slot, (brace_status_t)status);
+        }
+        job->steps_in_a_row++;
+        has_worked = true;
     }
-    const int32_t status = work_out(job, &slot->question, inputs);
-    if (status != MODEL_LATER) {
-        forget_answer(job);
-        job->status = status;
-        slot->phase = DONE;
-    }
+    job->steps_in_a_row = has_worked ? job->steps_in_a_row : 0u;
+    return has_worked;
 }

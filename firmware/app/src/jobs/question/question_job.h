@@ -1,15 +1,10 @@
 /* Questions for K where the limb is not: one at a time, each asker in its turn.
  *
- * K under a load costs a fifth of the instructions that a tick may take, and more in space. So the tick that takes a
- * question does not compute K; the job computes it in two steps, in the next two ticks. The port that asks repeats its
- * question in every tick until it gets the answer. A port that stops asking loses its place. Other jobs' dear steps
- * give way, and have a tick for themselves now and then. So four ports that ask at once all have their answers within
- * eight ticks, and a tick that works on a K answers requests beside it (wire/wires.h).
- *
- * In space a tick that works out half of a K has no room for requests: they wait for the next tick, and between two K
- * the job leaves a tick to them. So four ports have their answers within twelve ticks, two more while the buckling
- * factor is searched, and one more where process data have waited for long: a question takes 7,000 instructions and its
- * answer 1,000 to 1,500, and a tick of 16,000 leaves 3,700 of them where all else costs most. */
+ * K under a load costs a fifth of the instructions that a tick may take, and in space a third. So the tick that takes a
+ * question does not compute K; the job computes it in steps in the next ticks: two in the plane, nine in space. The
+ * port that asks repeats its question in every tick until it gets the answer. A port that stops asking loses its place.
+ * Other jobs give way, and have a tick for themselves after eight steps.
+ */
 #ifndef BRACE_JOBS_QUESTION_QUESTION_JOB_H
 #define BRACE_JOBS_QUESTION_QUESTION_JOB_H
 
@@ -32,9 +27,10 @@ typedef struct {
 typedef struct {
     question_slot_t slot[BRACE_ASKER_COUNT];
     uint8_t answered;       /* the asker whose question was worked out last */
-    bool has_worked;        /* in this tick */
-    uint8_t ticks_in_a_row; /* in which it has worked */
+    uint8_t steps_in_a_row; /* without one of another job */
     model_work_t work;
+    bool is_to_turn;        /* into the robot's frame: */
+    brace_k3_t space;
     uint32_t flags;         /* that posture and parameters give it */
     brace_status_t status;  /* how that ended */
     brace_k_answer_t answer;
@@ -47,8 +43,6 @@ typedef struct {
     brace_parameter_origin_t origin;
     const joints_t *joints;    /* for their temperatures */
     brace_vec3_t down;
-    bool may_work;
-    bool may_begin;            /* another K */
 } question_inputs_t;
 
 /* Asks, or asks again.
@@ -56,11 +50,15 @@ typedef struct {
 int32_t question_job_ask(question_job_t *job, brace_asker_t asker, const brace_k_question_t *question,
                          brace_k_answer_t *answer);
 
-/* Does somebody wait for a K? */
-bool question_job_is_asked(const question_job_t *job);
+/* Is the asker's question still being worked out? This keeps its place, as to ask again does. */
+bool question_job_is_coming(question_job_t *job, brace_asker_t asker);
 
-/* One step of what has been asked, if it may. At most 1,900 instructions; of a limb in space 4,000. */
-void question_job_step(question_job_t *job, const question_inputs_t *inputs);
+/* A tick passes: a question that is asked no longer is forgotten. */
+void question_job_age(question_job_t *job);
+
+/* Steps of what has been asked, at most so many [1, 2]. returns whether there was one. At most 1,900 instructions each,
+ * in space 1,300. */
+bool question_job_work(question_job_t *job, const question_inputs_t *inputs, uint32_t steps_most);
 
 /* What was asked is forgotten, because it belongs to parameters that are in force no longer; who asks again begins
  * anew. */

@@ -9,6 +9,7 @@
 #define STORING_PARTS 2u /* of the answer to a commit, which comes by itself */
 #define DATA_WAIT_MOST 16u /* ticks with answers in a row, in which no process data leave */
 #define ANSWERS_PER_TICK ((uint32_t)BRACE_CAN_ANSWER_PARTS_MOST + STORING_PARTS) /* frames that a tick can add */
+#define TEXT_ANSWERS_PER_TICK 4u /* frames as text, which cost twice as much: all of an answer, if it is not about K */
 
 typedef enum { ON_BUS, AS_TEXT } way_t;
 
@@ -84,18 +85,20 @@ static bool has_number(const can_t *can)
 /* Looks through what has come over CAN. One request is answered in a tick: one that waits for its answer, or else the
  * first one that has come. One more waits here, and those behind it in the hardware layer. Frames of other nodes are
  * taken in every tick, so that none of them stands before a request.
- * returns whether a request has been answered */
-static bool listen_to_bus(can_t *can, const wire_tick_t *tick)
+ * returns how much it has done (wire.h) */
+static uint32_t listen_to_bus(can_t *can, const wire_tick_t *tick)
 {
     can_requests_t *requests = &can->bus_port.requests;
     brace_can_frame_t frame;
     const bool has_room = has_room_for_an_answer(&can->bus_port);
-    bool is_busy = requests->waits || tick->requests_wait || !has_room;
-    bool has_answered =
-        requests->waits && !tick->answers_wait && has_room && answer(can, ON_BUS, tick, requests->waiting);
+    bool is_busy = requests->waits || !has_room;
+    const bool is_late = requests->waits && has_room && !brace_app_k_is_coming(tick->app, BRACE_ASKER_CAN) &&
+                         answer(can, ON_BUS, tick, requests->waiting);
+    uint32_t done = is_late ? WIRE_K_ANSWERED : WIRE_NOTHING;
     if (!is_busy && requests->has_next) {
         requests->has_next = false;
-        has_answered = answer(can, ON_BUS, tick, requests->next);
+        (void)answer(can, ON_BUS, tick, requests->next);
+        done = WIRE_TAKEN;
         is_busy = true;
     }
     for (uint32_t i = 0; i < FRAMES_PER_TICK && !requests->has_next; i++) {
@@ -109,26 +112,32 @@ static bool listen_to_bus(can_t *can, const wire_tick_t *tick)
             memcpy(requests->next, frame.data, sizeof requests->next);
             requests->has_next = true;
         } else {
-            has_answered = answer(can, ON_BUS, tick, frame.data);
+            (void)answer(can, ON_BUS, tick, frame.data);
+            done = WIRE_TAKEN;
             is_busy = true;
         }
     }
-    return has_answered;
+    return done;
 }
 
 /* The same as text. What comes meanwhile waits on its line: to read a frame from it costs as much as a short answer. */
-static bool listen_to_text(can_t *can, const wire_tick_t *tick)
+static uint32_t listen_to_text(can_t *can, const wire_tick_t *tick)
 {
     const can_requests_t *requests = &can->text_port.requests;
     brace_can_frame_t frame;
     if (!has_room_for_an_answer(&can->text_port)) {
-        return false;
+        return WIRE_NOTHING;
     }
     if (requests->waits) {
-        return !tick->answers_wait && answer(can, AS_TEXT, tick, requests->waiting);
+        const bool is_late = !brace_app_k_is_coming(tick->app, BRACE_ASKER_SLCAN) &&
+                             answer(can, AS_TEXT, tick, requests->waiting);
+        return is_late ? WIRE_K_ANSWERED : WIRE_NOTHING;
     }
-    return !tick->requests_wait && slcan_receive(&can->text, tick->hal, &frame) && is_request(can, tick, &frame) &&
-           answer(can, AS_TEXT, tick, frame.data);
+    if (!slcan_receive(&can->text, tick->hal, &frame) || !is_request(can, tick, &frame)) {
+        return WIRE_NOTHING;
+    }
+    (void)answer(can, AS_TEXT, tick, frame.data);
+    return WIRE_TAKEN;
 }
 
 /* ----------------------------------------------------------------------------------------------- out -- */
@@ -149,8 +158,9 @@ static bool send(can_t *can, way_t way, const wire_tick_t *tick, brace_can_frame
 static void send_answers(can_t *can, way_t way, const wire_tick_t *tick)
 {
     can_answers_t *answers = &port_of(can, way)->requests.answers;
+    const uint32_t most = way == ON_BUS ? ANSWERS_PER_TICK : TEXT_ANSWERS_PER_TICK;
     brace_can_frame_t frame;
-    for (uint32_t i = 0; i < ANSWERS_PER_TICK; i++) {
+    for (uint32_t i = 0; i < most; i++) {
         const uint8_t *data = can_answers_next(answers);
         if (data == NULL) {
             break;
@@ -185,11 +195,10 @@ static uint32_t send_process_data(can_t *can, way_t way, const wire_tick_t *tick
                                .bit_rate = can->bit_rate,
                                .fd_bit_rate = way == ON_BUS ? can->bus.setup.fd_bit_rate : 0u};
     process_t *process = &port_of(can, way)->process;
-    const process_t *other = &port_of(can, way == ON_BUS ? AS_TEXT : ON_BUS)->process;
     brace_can_frame_t frame;
     /* A snapshot is long, and so is a change of the rates: the two ports do not both work in the same tick. */
-    if (other->worked_us != tick->now_us) {
-        process_tick(process, &bus, tick);
+    if (can->data_done == 0u) {
+        can->data_done = process_tick(process, &bus, tick);
     }
     for (uint32_t i = 0; i < most; i++) {
         if (!process_next(process, tick, &frame) || !send(can, way, tick, &frame)) {
@@ -231,29 +240,24 @@ static uint32_t speak(can_t *can, way_t way, const wire_tick_t *tick, uint32_t m
     return data_wait ? 0u : send_process_data(can, way, tick, most);
 }
 
-bool can_data_are_overdue(const can_t *can)
-{
-    return can->data_waited >= DATA_WAIT_MOST;
-}
-
-bool can_listen(can_t *can, const wire_tick_t *tick)
+uint32_t can_listen(can_t *can, const wire_tick_t *tick)
 {
     can_bus_watch(&can->bus, tick->hal, brace_app_parameters(tick->app)->controller.tick_us);
     tick->counters->frames_lost = can->bus.frames_lost;
     can_requests_tick(&can->bus_port.requests, tick);
     can_requests_tick(&can->text_port.requests, tick);
-    const bool on_bus = listen_to_bus(can, tick), as_text = listen_to_text(can, tick);
-    return on_bus || as_text;
+    return listen_to_bus(can, tick) + listen_to_text(can, tick);
 }
 
-bool can_speak(can_t *can, const wire_tick_t *tick, uint32_t most)
+uint32_t can_speak(can_t *can, const wire_tick_t *tick, uint32_t most)
 {
-    const bool data_wait = most == 0u && !can_data_are_overdue(can);
+    const bool data_wait = most == 0u && can->data_waited < DATA_WAIT_MOST;
     can->data_waited = data_wait ? (uint8_t)(can->data_waited + 1u) : 0u;
     most = most > 0u ? most : 1u;
+    can->data_done = WIRE_NOTHING;
     can->text_first = !can->text_first; /* The ports share the tick's frames of process data. */
     const uint32_t told = speak(can, can->text_first ? AS_TEXT : ON_BUS, tick, most);
     const uint32_t more = speak(can, can->text_first ? ON_BUS : AS_TEXT, tick, most - told);
     slcan_flush(&can->text, tick->hal);
-    return told + more > 0u;
+    return told + more + can->data_done;
 }

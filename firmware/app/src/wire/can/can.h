@@ -3,8 +3,8 @@
  * These are two ports that carry the same frames, and neither waits for the other: each takes at most one request in a
  * tick and answers it in that tick, and each has its own process data, heartbeats and emergencies. One tick makes two
  * frames of process data at most, and the ports have the first choice in turns. Process data wait in a tick in which a
- * request is answered, on whatever wire, and of a limb in space in one in which a job works on a K: at most 16 ticks in
- * a row. A port without room for an answer leaves what comes where it is until there is room again.
+ * request is answered, on whatever wire, at most 16 ticks in a row. A port without room for an answer leaves what comes
+ * where it is until there is room again.
  *
  * A node whose number is not set (0) only listens on CAN and says nothing by itself. It answers requests to node 0 that
  * come as text, since the serial port has one other end; so a board is given its number.
@@ -37,6 +37,7 @@ typedef struct {
     slcan_t text;
     bool text_first;         /* in the last tick the text port spoke before the bus did */
     uint8_t data_waited;     /* ticks in a row in which process data have waited for answers */
+    uint32_t data_done;      /* in this tick, by process_tick */
     can_port_t bus_port;
     can_port_t text_port;
 } can_t;
@@ -45,19 +46,17 @@ typedef struct {
  * can_bus_start. */
 void can_start(can_t *can, const brace_hal_t *hal, const brace_parameters_t *parameters);
 
-/* One tick of both ports, first half: takes and answers requests. returns whether it has answered one */
-bool can_listen(can_t *can, const wire_tick_t *tick);
+/* One tick of both ports, first half: takes and answers requests.
+ * returns how much both have done (wire/wire.h) */
+uint32_t can_listen(can_t *can, const wire_tick_t *tick);
 
 /* Second half: sends what is due.
  *   most: frames of process data that may leave, at most PROCESS_FRAMES_PER_TICK; 0: they wait, but not for more than
  *     16 ticks in a row; then one leaves
  * Both halves take about 300 instructions when nothing happens. A request adds what its answer costs, each frame sent
  * 160, as text 380.
- * returns whether process data have left */
-bool can_speak(can_t *can, const wire_tick_t *tick, uint32_t most);
-
-/* Have process data waited for so long that they leave in the coming tick, whatever there is to answer? */
-bool can_data_are_overdue(const can_t *can);
+ * returns how much it has done for process data: frames that have left, and what process_tick has done */
+uint32_t can_speak(can_t *can, const wire_tick_t *tick, uint32_t most);
 
 /* Has the CAN controller left the bus? */
 bool can_is_bus_off(const can_t *can);

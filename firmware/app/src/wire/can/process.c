@@ -147,15 +147,17 @@ static void take(process_t *process, const wire_tick_t *tick)
     process->snapshot = *tick->measured;
 }
 
-void process_tick(process_t *process, const process_bus_t *bus, const wire_tick_t *tick)
+uint32_t process_tick(process_t *process, const process_bus_t *bus, const wire_tick_t *tick)
 {
     if (!process->is_configured || process->parameter_crc != brace_app_snapshot(tick->app)->parameter_crc) {
         configure(process, bus, tick);
-        process->worked_us = tick->now_us;
-    } else if (process->period_us != 0u && process->due == 0u && is_time(process, tick->now_us)) {
-        take(process, tick);
-        process->worked_us = tick->now_us;
+        return WIRE_DATA_ARE_SET_UP;
     }
+    if (process->period_us != 0u && process->due == 0u && is_time(process, tick->now_us)) {
+        take(process, tick);
+        return WIRE_DATA_ARE_TAKEN;
+    }
+    return WIRE_NOTHING;
 }
 
 bool process_next(const process_t *process, const wire_tick_t *tick, brace_can_frame_t *frame)

@@ -49,14 +49,14 @@ typedef struct {
     process_share_t share[PROCESS_RATES];
     uint32_t due;              /* frames of the snapshot that have still to be sent, as bits */
     uint32_t taken_us;         /* when the snapshot was taken */
-    uint32_t worked_us;        /* the tick that last took a snapshot or worked the periods out */
     brace_measured_t snapshot; /* the one whose frames are due */
 } process_t;
 
 /* Each tick, before process_next: works the periods out where the parameters have changed; else takes the newest
- * snapshot where one is due and the frames of the one before have left. worked_us tells when it last did one of both.
- * At most 1,000 instructions where the parameters have changed, else 250. */
-void process_tick(process_t *process, const process_bus_t *bus, const wire_tick_t *tick);
+ * snapshot where one is due and the frames of the one before have left.
+ * returns how much that was (wire/wire.h), counted in requests. At most 1,100 instructions where the parameters have
+ *   changed, else 250. */
+uint32_t process_tick(process_t *process, const process_bus_t *bus, const wire_tick_t *tick);
 
 /* Gives the next frame that is due, if there is one, but for the node's number in its identifier. The frame is made
  * when it is sent, so that the age in it is that of this moment. At most 130 instructions; with CAN FD 260. */

@@ -8,7 +8,7 @@ enum { ADDRESS_BYTES = 1, CRC_BYTES = 2, FRAME_LEAST = ADDRESS_BYTES + 1 + CRC_B
 
 /* A whole frame may come at once, from an adapter. Its check is worked out in three ticks, mostly before silence ends
  * it. */
-#define CHECKED_PER_TICK 96u
+#define CHECKED_PER_TICK ((FRAME_MOST + 2u) / 3u)
 
 /* The check of an answer is worked out so many bytes ahead of what the line carries in a tick: no gap tears it, also
  * where a tick comes late. */
@@ -148,8 +148,8 @@ static void seal(modbus_line_t *line, const wire_tick_t *tick)
 }
 
 /* The line is silent: what has come is a frame, or broken, or a part whose rest is held back.
- * returns whether a request has been answered */
-static bool end_frame(modbus_line_t *line, modbus_server_t *server, const wire_tick_t *tick, uint32_t silent_us)
+ * returns how much it has done (wire.h) */
+static uint32_t end_frame(modbus_line_t *line, modbus_server_t *server, const wire_tick_t *tick, uint32_t silent_us)
 {
     modbus_link_t *link = &line->link;
     check_on(line, link->count, MODBUS_LINK_BYTES);
@@ -158,32 +158,35 @@ static bool end_frame(modbus_line_t *line, modbus_server_t *server, const wire_t
             modbus_link_break(link, server, tick);
         }
     } else if (!is_own_answer(line) && is_for_us(link, server)) {
-        return answer(line, server, tick);
+        (void)answer(line, server, tick);
+        return WIRE_TAKEN;
     } else {
         modbus_link_rest(link);
     }
-    return false;
+    return WIRE_NOTHING;
 }
 
-bool modbus_line_tick(modbus_line_t *line, modbus_server_t *server, const wire_tick_t *tick)
+uint32_t modbus_line_tick(modbus_line_t *line, modbus_server_t *server, const wire_tick_t *tick)
 {
     modbus_link_t *link = &line->link;
-    bool has_answered = false;
+    uint32_t done = WIRE_NOTHING;
     if (link->is_waiting) {
-        has_answered = !tick->answers_wait && answer(line, server, tick);
-    } else if (!link->is_sending && !tick->requests_wait) { /* else what comes waits in the port */
+        const bool is_late =
+            !brace_app_k_is_coming(tick->app, BRACE_ASKER_MODBUS_LINE) && answer(line, server, tick);
+        done = is_late ? WIRE_K_ANSWERED : WIRE_NOTHING;
+    } else if (!link->is_sending) { /* else what comes waits in the port */
         const bool bytes_came = gather(line, tick);
         const uint32_t silent_us = tick->now_us - link->active_us;
         const bool is_behind = link->count > line->checked + CHECKED_PER_TICK; /* with the check */
         if (bytes_came || silent_us < line->silence_us || is_behind) {
             check_on(line, link->count, CHECKED_PER_TICK);
         } else if (link->count > 0u || link->is_skipping) {
-            has_answered = end_frame(line, server, tick, silent_us);
+            done = end_frame(line, server, tick, silent_us);
         }
     }
     if (link->is_sending) {
         seal(line, tick);
         modbus_link_send(link, tick, BRACE_SERIAL_MODBUS);
     }
-    return has_answered;
+    return done;
 }

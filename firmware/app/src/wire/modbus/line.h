@@ -28,7 +28,7 @@ void modbus_line_start(modbus_line_t *line, const brace_hal_t *hal, uint32_t bau
 /* One tick: takes what has come; or, when silence has ended a request, answers it, and the answer begins to leave in
  * the same tick. The check of an answer is worked out while it leaves, a part in each tick, ahead of the line. At most
  * 900 instructions while bytes come, and 1,500 for an answer; 3,400 for one to a write of 61 parameters.
- * returns whether it has answered a request */
-bool modbus_line_tick(modbus_line_t *line, modbus_server_t *server, const wire_tick_t *tick);
+ * returns how much it has done (wire/wire.h) */
+uint32_t modbus_line_tick(modbus_line_t *line, modbus_server_t *server, const wire_tick_t *tick);
 
 #endif

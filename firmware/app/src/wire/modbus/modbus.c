@@ -16,9 +16,14 @@ void modbus_start(modbus_t *modbus, const brace_hal_t *hal, const brace_paramete
     modbus_tcp_start(&modbus->tcp, hal, parameters->controller.modbus_baud);
 }
 
-bool modbus_tick(modbus_t *modbus, const wire_tick_t *tick)
+uint32_t modbus_tick(modbus_t *modbus, const wire_tick_t *tick)
 {
-    const bool on_line = modbus->line.link.is_fitted && modbus_line_tick(&modbus->line, &modbus->server, tick);
-    const bool over_tcp = modbus->tcp.is_fitted && modbus_tcp_tick(&modbus->tcp, &modbus->server, tick);
-    return on_line || over_tcp;
+    uint32_t done = WIRE_NOTHING;
+    if (modbus->line.link.is_fitted) {
+        done += modbus_line_tick(&modbus->line, &modbus->server, tick);
+    }
+    if (modbus->tcp.is_fitted) {
+        done += modbus_tcp_tick(&modbus->tcp, &modbus->server, tick);
+    }
+    return done;
 }

@@ -24,7 +24,7 @@ void modbus_start(modbus_t *modbus, const brace_hal_t *hal, const brace_paramete
 
 /* One tick. At most 5,600 instructions, HAL excluded: 61 parameters by each port, of which one finds some staged
  * already.
- * returns whether it has answered a request */
-bool modbus_tick(modbus_t *modbus, const wire_tick_t *tick);
+ * returns how much both have done (wire/wire.h) */
+uint32_t modbus_tick(modbus_t *modbus, const wire_tick_t *tick);
 
 #endif

@@ -94,30 +94,30 @@ static bool answer(modbus_link_t *link, modbus_server_t *server, const wire_tick
     return true;
 }
 
-/* returns whether a request has been answered */
-static bool take_request(modbus_link_t *link, modbus_server_t *server, const wire_tick_t *tick)
+/* returns how much it has done (wire.h) */
+static uint32_t take_request(modbus_link_t *link, modbus_server_t *server, const wire_tick_t *tick)
 {
     if (link->is_waiting) {
-        return !tick->answers_wait && answer(link, server, tick);
-    }
-    if (tick->requests_wait) {
-        return false;
+        const bool is_late =
+            !brace_app_k_is_coming(tick->app, BRACE_ASKER_MODBUS_TCP) && answer(link, server, tick);
+        return is_late ? WIRE_K_ANSWERED : WIRE_NOTHING;
     }
     if (link->is_skipping) {
         skip(link, server, tick);
     } else if (gather(link, tick)) {
-        return answer(link, server, tick);
+        (void)answer(link, server, tick);
+        return WIRE_TAKEN;
     } else if (link->count > 0u && tick->now_us - link->active_us > PATIENCE_US) {
         modbus_link_break(link, server, tick);
     }
-    return false;
+    return WIRE_NOTHING;
 }
 
-bool modbus_tcp_tick(modbus_link_t *link, modbus_server_t *server, const wire_tick_t *tick)
+uint32_t modbus_tcp_tick(modbus_link_t *link, modbus_server_t *server, const wire_tick_t *tick)
 {
-    const bool has_answered = !link->is_sending && take_request(link, server, tick);
+    const uint32_t done = link->is_sending ? WIRE_NOTHING : take_request(link, server, tick);
     if (link->is_sending) {
         modbus_link_send(link, tick, BRACE_SERIAL_MODBUS_TCP);
     }
-    return has_answered;
+    return done;
 }

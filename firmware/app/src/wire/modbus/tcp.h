@@ -11,7 +11,7 @@
 void modbus_tcp_start(modbus_link_t *link, const brace_hal_t *hal, uint32_t baud);
 
 /* One tick: takes a request and answers it; the answer begins to leave in the same tick. At most 3,000 instructions.
- * returns whether it has answered a request */
-bool modbus_tcp_tick(modbus_link_t *link, modbus_server_t *server, const wire_tick_t *tick);
+ * returns how much it has done (wire/wire.h) */
+uint32_t modbus_tcp_tick(modbus_link_t *link, modbus_server_t *server, const wire_tick_t *tick);
 
 #endif

@@ -115,7 +115,7 @@ void tearDown(void) {}
 static void tick(void)
 {
     fake.now_us += TICK_US;
-    const wire_tick_t now = {&fake.hal, &controller, &counters, &measured, false, false, fake.now_us};
+    const wire_tick_t now = {&fake.hal, &controller, &counters, &measured, fake.now_us};
     modbus_tick(&modbus, &now);
 }
 
