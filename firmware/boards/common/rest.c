@@ -5,29 +5,41 @@
 #include "fault.h"
 
 enum { US_PER_S = 1000000, REST_MOST_US = 10000 }; /* SysTick has 24 bits: 99 ms at 168 MHz */
-enum { AWAKE_US = 5000 };                          /* more than 3.5 characters at 9600 bit/s */
+enum { FRAME_ENDS_US = 5000 };                     /* more than 3.5 characters at 9600 bit/s */
 
-static int32_t (*serial_read)(void *context, brace_serial_port_t port, uint8_t *bytes, uint32_t room);
+static brace_hal_t unwatched;
+static bool is_in_frame;
 static uint32_t last_byte_us;
 
 static int32_t watched_read(void *context, brace_serial_port_t port, uint8_t *bytes, uint32_t room)
 {
-    const int32_t count = serial_read(context, port, bytes, room);
-    if (count > 0) {
+    const int32_t count = unwatched.serial_read(context, port, bytes, room);
+    if (port == BRACE_SERIAL_MODBUS && count > 0) {
+        is_in_frame = true;
         last_byte_us = board_now_us();
     }
     return count;
 }
 
-void rest_start(brace_hal_t *door)
+static int32_t watched_write(void *context, brace_serial_port_t port, const uint8_t *bytes, uint32_t count)
 {
-    serial_read = door->serial_read;
-    door->serial_read = watched_read;
+    if (port == BRACE_SERIAL_MODBUS) { /* the answer to a whole frame */
+        is_in_frame = false;
+    }
+    return unwatched.serial_write(context, port, bytes, count);
 }
 
-void rest(uint32_t at_most_us)
+void rest_start(brace_hal_t *door)
 {
-    if (board_now_us() - last_byte_us < (uint32_t)AWAKE_US) {
+    unwatched = *door;
+    door->serial_read = watched_read;
+    door->serial_write = watched_write;
+}
+
+void rest_sleep(uint32_t at_most_us)
+{
+    is_in_frame = is_in_frame && board_now_us() - last_byte_us < (uint32_t)FRAME_ENDS_US;
+    if (is_in_frame) {
         return;
     }
     const uint32_t us = at_most_us < (uint32_t)REST_MOST_US ? at_most_us : (uint32_t)REST_MOST_US;

@@ -56,7 +56,7 @@ void board_serve(void) {}
 
 void board_rest(uint32_t at_most_us)
 {
-    rest(at_most_us);
+    rest_sleep(at_most_us);
 }
 
 const brace_hal_t *board_start(void)

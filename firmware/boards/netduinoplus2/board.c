@@ -55,7 +55,7 @@ void board_serve(void)
 void board_rest(uint32_t at_most_us)
 {
     if (!has_servos) { /* their line is polled */
-        rest(at_most_us);
+        rest_sleep(at_most_us);
     }
 }
 
