@@ -7,8 +7,8 @@
 
 #include "brace_hal.h"
 
-/* Watches the door's Modbus port. Once, before rest_sleep. */
-void rest_start(brace_hal_t *door);
+/* Watches the door's Modbus port. Once, before rest_sleep; core_hz: what SysTick counts, at least 1 MHz. */
+void rest_start(brace_hal_t *door, uint32_t core_hz);
 
 /* Sleeps until an interrupt, at most so long. It takes SysTick for that time. */
 void rest_sleep(uint32_t at_most_us);

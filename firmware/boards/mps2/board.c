@@ -74,6 +74,6 @@ const brace_hal_t *board_start(void)
     };
     board.nvm = kept_nvm_start(MPS2_NVM_BYTES);
     door = *brace_hal_mps2(&board);
-    rest_start(&door);
+    rest_start(&door, board_core_hz());
     return &door;
 }

@@ -99,7 +99,7 @@ const brace_hal_t *board_start(void)
     if (has_servos) {
         start_servos();
     }
-    rest_start(&door);
+    rest_start(&door, board_core_hz());
     door.reset_cause = kept_reset_cause; /* the emulated chip keeps no reset flags */
     door.restart = kept_restart;
     return &door;
