@@ -3,7 +3,7 @@
 #include "cortex_m.h"
 
 enum { US_PER_S = 1000000, REST_MOST_US = 10000 }; /* SysTick has 24 bits: 99 ms at 168 MHz */
-enum { FRAME_ENDS_US = 5000 };                     /* more than 3.5 characters at 9600 bit/s */
+enum { FRAME_ENDS_US = 21000 };                    /* behind the patience of the Modbus line, 20 ms */
 
 static brace_hal_t unwatched;
 static bool is_in_frame;
