@@ -171,12 +171,13 @@ def test_self_test(name: str, request_: str, slot_is_tried: bool) -> None:
 
 @pytest.mark.parametrize("name", BOARDS)
 def test_the_controller_sleeps_between_ticks(name: str) -> None:
-    """A tick is 1 ms of the host's clock here. A board that spins takes all of it, one that sleeps about a fifth."""
-    with Board(name, image(f"brace-{name}")) as board:
+    """A tick is 1 ms. A board that spins runs a million instructions in it, which take the host about 10 ms of a
+    processor; one that sleeps takes about 0.2 ms."""
+    with Board(name, image(f"brace-{name}"), *COUNTED) as board:
         board.banner()
         first, begun_s = tick(board), board.processor_s()
         time.sleep(1.0)
-        assert board.processor_s() - begun_s < 0.8e-3 * (tick(board) - first)
+        assert board.processor_s() - begun_s < 2e-3 * (tick(board) - first)
 
 
 def tick(board: Board) -> int:
