@@ -173,7 +173,8 @@ typedef struct {
 /* A search for the buckling factor. */
 typedef struct {
     brace_buckling_search_t known;
-    uint8_t links_held; /* of the limb under the next load, from the tip */
+    float at;           /* the multiple of the load that is looked at next */
+    uint8_t links_held; /* of the limb under it, from the tip */
     brace_space_held_t held;
     brace_space_pivots_t pivots;
 } brace_space_search_t;

@@ -357,10 +357,8 @@ void brace_loaded_space_buckling_begin(const brace_loaded_space_t *loaded, const
 }
 
 /* What the limb is like under a load is known. returns whether the search ends with it; then writes factor */
-static bool narrow(brace_space_search_t *search, float at, float *factor)
+INLINE bool narrow(brace_buckling_search_t *known, float at, const pivots_t *pivots, float *factor)
 {
-    brace_buckling_search_t *known = &search->known;
-    const pivots_t *pivots = &search->pivots;
     const int step = known->step;
     if (step == 0) {
         *known = buckling_search_from(pivots->product);
@@ -378,20 +376,27 @@ static bool narrow(brace_space_search_t *search, float at, float *factor)
 bool brace_loaded_space_buckling_step(const brace_loaded_space_t *loaded, const brace_space_shape_t *shape,
                                       brace_space_search_t *search, float *factor)
 {
-    const int step = search->known.step, link = BRACE_TIBIA - (int)search->links_held;
-    const float at = step == 0 ? 1.0f : space_search_at(&search->known, step - 1);
-    if (link == BRACE_TIBIA) {
-        search->held = (held_t){{0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}};
-        search->pivots = (pivots_t){0u, 1.0f};
+    brace_buckling_search_t *known = &search->known;
+    held_t held = {{0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}};
+    pivots_t pivots = {0u, 1.0f};
+    if (search->links_held == 0u) {
+        search->at = known->step == 0 ? 1.0f : space_search_at(known, known->step - 1);
+        hold_link(loaded, shape, BRACE_TIBIA, search->at, &held, &pivots);
+    } else {
+        held = search->held;
+        pivots = search->pivots;
+        if (search->links_held > 1u) {
+            hold_link(loaded, shape, BRACE_COXA, search->at, &held, &pivots);
+            hold_base(loaded, shape, search->at, &held, &pivots);
+            search->links_held = 0;
+            return narrow(known, search->at, &pivots, factor);
+        }
+        hold_link(loaded, shape, BRACE_FEMUR, search->at, &held, &pivots);
     }
-    hold_link(loaded, shape, link, at, &search->held, &search->pivots);
-    if (link > BRACE_COXA) {
-        search->links_held++;
-        return false;
-    }
-    search->links_held = 0;
-    hold_base(loaded, shape, at, &search->held, &search->pivots);
-    return narrow(search, at, factor);
+    search->held = held;
+    search->pivots = pivots;
+    search->links_held++;
+    return false;
 }
 
 float brace_loaded_space_buckling_factor(const brace_loaded_space_t *loaded, const brace_space_rest_t *rest)

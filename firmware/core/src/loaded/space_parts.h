@@ -246,7 +246,7 @@ INLINE void hold_part(const brace_space_link_t *link, const brace_space_part_t *
 
 /* Adds link i and the joint before it, with each force taken `times` times, at the shape that the limb has under its
  * load. */
-static void hold_link(const brace_loaded_space_t *loaded, const brace_space_shape_t *shape, int i, float times,
+INLINE void hold_link(const brace_loaded_space_t *loaded, const brace_space_shape_t *shape, int i, float times,
                       held_t *held, pivots_t *pivots)
 {
     const brace_space_link_t *const links[BRACE_LINK_COUNT] = {&loaded->coxa, &loaded->femur, &loaded->tibia};
@@ -263,7 +263,7 @@ static void hold_link(const brace_loaded_space_t *loaded, const brace_space_shap
 }
 
 /* Adds the coxa joint and the base. */
-static void hold_base(const brace_loaded_space_t *loaded, const brace_space_shape_t *shape, float times, held_t *held,
+INLINE void hold_base(const brace_loaded_space_t *loaded, const brace_space_shape_t *shape, float times, held_t *held,
                       pivots_t *pivots)
 {
     const sym3_t r = held->resists;
