@@ -73,6 +73,11 @@ class Board:
             "\n".join([f"no line like {pattern!r} within {PATIENCE_S} s; there were:", *lines])
         )
 
+    def processor_s(self) -> float:
+        """What the emulator has taken of the host's processors."""
+        fields = Path(f"/proc/{self._process.pid}/stat").read_text().rpartition(")")[2].split()
+        return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
     def banner(self) -> dict[str, str]:
         """The next banner, whole: its keys and values; 'brace' is the first line."""
         lines = self.until(r"^stack: ")

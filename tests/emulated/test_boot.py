@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import struct
+import time
 import tomllib
 import zlib
 from pathlib import Path
@@ -166,6 +167,22 @@ def test_self_test(name: str, request_: str, slot_is_tried: bool) -> None:
         assert ("leaves 0xff throughout" in text) == slot_is_tried
         assert ("not tried: the slots were to be kept" in text) != slot_is_tried
         assert board.banner()["start"] == "requested"
+
+
+@pytest.mark.parametrize("name", BOARDS)
+def test_the_controller_sleeps_between_ticks(name: str) -> None:
+    """A tick is 1 ms. A board that spins runs a million instructions in it, which take the host about 10 ms of a
+    processor; one that sleeps takes about 0.2 ms."""
+    with Board(name, image(f"brace-{name}"), *COUNTED) as board:
+        board.banner()
+        first, begun_s = tick(board), board.processor_s()
+        time.sleep(1.0)
+        assert board.processor_s() - begun_s < 2e-3 * (tick(board) - first)
+
+
+def tick(board: Board) -> int:
+    """The number of the tick."""
+    return int(stiffness(board).split()[-1])
 
 
 CRASHES = {

@@ -84,7 +84,7 @@ def client(request: pytest.FixtureRequest, place: Place) -> Iterator[Client]:
 @pytest.fixture(params=[f"{server_name}-{client_name}" for server_name in SERVERS for client_name in CLIENTS])
 def client_of_fresh_server(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Client]:
     """Each client of a server of its own, which has stored nothing yet: a controller stores once in ten seconds of its
-    own clock, and an emulated board's clock may take minutes for them."""
+    own clock."""
     server_name, _, client_name = request.param.rpartition("-")
     with server(server_name, tmp_path) as place:
         made: Any = CLIENTS[client_name](place)

@@ -23,7 +23,8 @@ from wire_by_hand import LIMB, NODE, PROJECT
 IMAGES = Path(os.environ.get("BRACE_IMAGES", PROJECT / "build" / "m4f" / "images"))
 PATIENCE_S = 30.0  # a loaded machine; an idle one takes a second
 # The board's clock counts its instructions. The host may take the emulator off the processor for as long as it likes:
-# the board's timers, rates and the silences on its lines stay in step with its program.
+# the board's timers and rates stay in step with its program, and so do the silences within a Modbus frame. Between
+# ticks the board sleeps, unless such a frame comes, and its clock follows the host's.
 AT_PACE = ("-icount", "shift=3")  # 8 ns each, about an STM32F405 at 168 MHz: a tick takes an idle host about 1 ms
 # For Modbus RTU, where a silence of 2 ms on the board's clock ends a frame, the board runs slower than the host, which
 # so has longer to pass on the next byte: 2 ns each where a program gives up on a slow board, else 1 ns each.

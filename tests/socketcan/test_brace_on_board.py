@@ -39,7 +39,7 @@ def urls(tmp_path_factory: pytest.TempPathFactory) -> Iterator[dict[str, str]]:
 
 @pytest.fixture()
 def urls_of_fresh_board(tmp_path: Path) -> Iterator[dict[str, str]]:
-    """A board that has stored nothing yet: it stores once in ten seconds of its own clock, which runs slowly here."""
+    """A board that has stored nothing yet: it stores once in ten seconds of its own clock."""
     with board(tmp_path) as found:
         yield found
 

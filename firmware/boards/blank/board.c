@@ -42,6 +42,12 @@ const char *board_remark(void)
  * behind its entries. */
 void board_serve(void) {}
 
+/* May sleep; need not. */
+void board_rest(uint32_t at_most_us)
+{
+    (void)at_most_us;
+}
+
 const brace_hal_t *board_start(void)
 {
     return brace_hal_blank();

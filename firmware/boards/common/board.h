@@ -17,6 +17,10 @@ uint32_t board_core_hz(void);
  * least once after each tick; bounded, and does not wait. */
 void board_serve(void);
 
+/* Sleeps until something may be to do: an interrupt came, or that much time is over. Returns at once on a board that
+ * does not sleep. */
+void board_rest(uint32_t at_most_us);
+
 enum { BOARD_CONSOLE_BAUD = 115200 };
 
 #endif

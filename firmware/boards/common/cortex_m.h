@@ -4,6 +4,7 @@
 
 #include <stdint.h>
 
+#define SCB_ICSR (*(volatile uint32_t *)0xE000ED04u)
 #define SCB_VTOR (*(volatile uint32_t *)0xE000ED08u)
 #define SCB_AIRCR (*(volatile uint32_t *)0xE000ED0Cu)
 #define SCB_CCR (*(volatile uint32_t *)0xE000ED14u)
@@ -29,7 +30,9 @@ enum {
     MPU_ON_WITH_DEFAULT_MAP = 5u,
     MPU_BASE_OF_REGION_0 = 1u << 4,
     MPU_NO_ACCESS_4_KIB = 1u << 28 | 11u << 1 | 1u, /* never executed, no access, 2^(11 + 1) bytes, on */
-    SYSTICK_ON_CORE_CLOCK = 5u
+    ICSR_FORGET_SYSTICK = 1u << 25,
+    SYSTICK_ON_CORE_CLOCK = 5u,
+    SYSTICK_ON_CORE_CLOCK_WITH_INTERRUPT = 7u
 };
 
 __attribute__((noreturn)) static inline void cortex_m_reset(void)

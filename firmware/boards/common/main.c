@@ -54,5 +54,9 @@ int main(void)
         }
         board_serve();
         console_serve(&console, &app);
+        const int32_t left_us = (int32_t)(due_us - hal->now_us(hal->context));
+        if (left_us > 0) {
+            board_rest((uint32_t)left_us);
+        }
     }
 }

@@ -5,6 +5,7 @@
 #include "fault.h"
 #include "kept.h"
 #include "kept_nvm.h"
+#include "rest.h"
 #include "stack.h"
 #include "stand_in_joints.h"
 #include "start.h"
@@ -53,8 +54,14 @@ static int32_t joint_read(void *context, int32_t joint_index, brace_hal_joint_t 
 
 void board_serve(void) {}
 
+void board_rest(uint32_t at_most_us)
+{
+    rest_sleep(at_most_us);
+}
+
 const brace_hal_t *board_start(void)
 {
+    static brace_hal_t door;
     static mps2_board_t board = {
         .name = BRACE_BOARD_NAME,
         .watchdog = true,
@@ -66,5 +73,7 @@ const brace_hal_t *board_start(void)
         .restart = kept_restart,
     };
     board.nvm = kept_nvm_start(MPS2_NVM_BYTES);
-    return brace_hal_mps2(&board);
+    door = *brace_hal_mps2(&board);
+    rest_start(&door, board_core_hz());
+    return &door;
 }

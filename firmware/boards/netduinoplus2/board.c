@@ -9,6 +9,7 @@
 #include "fault.h"
 #include "kept.h"
 #include "kept_nvm.h"
+#include "rest.h"
 #include "stack.h"
 #include "stand_in_joints.h"
 
@@ -48,6 +49,13 @@ void board_serve(void)
 {
     if (has_servos) {
         servo_joints_serve(board_now_us());
+    }
+}
+
+void board_rest(uint32_t at_most_us)
+{
+    if (!has_servos) { /* their line is polled */
+        rest_sleep(at_most_us);
     }
 }
 
@@ -91,6 +99,7 @@ const brace_hal_t *board_start(void)
     if (has_servos) {
         start_servos();
     }
+    rest_start(&door, board_core_hz());
     door.reset_cause = kept_reset_cause; /* the emulated chip keeps no reset flags */
     door.restart = kept_restart;
     return &door;

@@ -57,6 +57,11 @@ void board_serve(void)
     servo_joints_serve(board_now_us());
 }
 
+void board_rest(uint32_t at_most_us)
+{
+    (void)at_most_us; /* nobody has measured on the chip what sleep does to the ticks, and nothing here saves power */
+}
+
 const brace_hal_t *board_start(void)
 {
     static const stm32f405_joints_t joints = {.read = servo_joints_read, .command = servo_joints_command};
