@@ -14,7 +14,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "bench"))
 import fetch  # noqa: E402
 import tick_cost  # noqa: E402
 
-TICKS = 20_000
+TICKS = 40_000
 
 
 def test_worst_of_random_ticks_within_limit() -> None:
