@@ -10,7 +10,7 @@
  * than 100 ms in either case. */
 #define GUARDED_WORDS_PER_MS 8u
 #define GUARDED_WORDS_MOST 24u /* of the 364 */
-#define TOLD_MOST 3u /* so many requests and process data (wire.h) leave room for a job's step */
+#define TOLD_MOST 3u /* a tick in which the wires have done more (wire/wire.h) has no room for a job's step */
 #define STEPS_IN_A_QUIET_TICK 2u
 #define LISTENED_US 20000u /* a tick that comes later has not listened meanwhile, and has not moved the limb either */
 #define LATE_PERIODS 3u /* a tick that comes more than three periods after the one before is more than two late */
@@ -289,8 +289,9 @@ static void step_guard(controller_t *controller, bool has_worked)
         return;
     }
     const guard_span_t span = guarded(controller, controller->guard.span);
-    const uint32_t due = controller->parameters.in_force.controller.tick_us * GUARDED_WORDS_PER_MS / 1000u;
-    const uint32_t most = due < GUARDED_WORDS_MOST ? due : GUARDED_WORDS_MOST, words = has_worked ? most / 2u : most;
+    const uint32_t due_words = controller->parameters.in_force.controller.tick_us * GUARDED_WORDS_PER_MS / 1000u;
+    const uint32_t most_words = due_words < GUARDED_WORDS_MOST ? due_words : GUARDED_WORDS_MOST;
+    const uint32_t words = has_worked ? most_words / 2u : most_words;
     if (!guard_step(&controller->guard, &span, GUARDED_SPANS, words)) {
         controller->memory_is_wrong = true;
     }
@@ -361,7 +362,7 @@ static void step_jobs(brace_app_t *app, const brace_snapshot_t *snapshot)
     softening_age(&controller->softening, controller->model.is_spatial && snapshot->load.is_counted);
 }
 
-/* The wires answer what has come and send what is due. returns how much that was */
+/* The wires answer what has come and send what is due. returns how much they have done (wire/wire.h) */
 static uint32_t tell(brace_app_t *app, uint32_t now_us)
 {
     controller_t *controller = &app->controller;
@@ -371,7 +372,7 @@ static uint32_t tell(brace_app_t *app, uint32_t now_us)
     return told;
 }
 
-/* returns whether there was work, as all the next */
+/* returns whether there was work to do, as the functions below do */
 static bool work_on_question(controller_t *controller, uint32_t steps_most)
 {
     const question_inputs_t inputs = question_inputs(controller);
@@ -405,9 +406,9 @@ static void work_on_softening(controller_t *controller)
 }
 
 /* What costs much and moves nothing comes last, where the wires have left room for it: one step of one job. The first
- * that has something to do takes it; each of them leaves a tick to those behind it now and then. Where nobody asked for
- * anything else, a question has room for two steps.
- *   told: how much the wires have told in this tick
+ * that has something to do takes it; after eight steps, questions leave a tick to the jobs behind them. Where the wires
+ * had nothing to do, a question has room for two steps.
+ *   told: how much the wires have done in this tick
  * returns whether a job has worked */
 static bool work(controller_t *controller, const brace_snapshot_t *now, uint32_t told)
 {

@@ -44,7 +44,7 @@ bool levers_listen(brace_loading_t *test, const loading_inputs_t *inputs)
     return true;
 }
 
-/* Once the motors' angles are known. */
+/* Takes the straight links' levers anew, once the motors' angles are known. */
 static void see_straight(brace_loading_t *test, const brace_limb_t *limb)
 {
     brace_pose_t pose;

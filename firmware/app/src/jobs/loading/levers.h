@@ -10,15 +10,16 @@
 #include "brace/loading.h"
 #include "jobs/loading/inputs.h"
 
-/* The straight links' levers, from where a test begins. Where a load is counted, more is to do. */
+/* Takes the straight links' levers, from where a test begins. Where a load is counted, levers_listen and levers_work
+ * have to follow. */
 void levers_begin(brace_loading_t *test, const loading_inputs_t *inputs);
 
 /* Takes the load's mean over fifty ticks; one noisy sample would turn the levers. returns whether it still does */
 bool levers_listen(brace_loading_t *test, const loading_inputs_t *inputs);
 
-/* One step, after that: works out five displacements under the load, at the posture and a little to each side of it by
- * either joint. Their central differences are added to the straight links' levers; where a displacement cannot be told,
- * the straight links' levers stay.
+/* One step of the rest, once the load's mean is there: works out five displacements under the load, at the posture and
+ * a little to each side of it by either joint. Their central differences are added to the straight links' levers; where
+ * a displacement cannot be told, the straight links' levers stay.
  * returns whether the levers are there. At most 1,900 instructions. */
 bool levers_work(brace_loading_t *test, const loading_inputs_t *inputs);
 

@@ -27,10 +27,10 @@ typedef struct {
 typedef struct {
     question_slot_t slot[BRACE_ASKER_COUNT];
     uint8_t answered;       /* the asker whose question was worked out last */
-    uint8_t steps_in_a_row; /* without one of another job */
+    uint8_t steps_in_a_row; /* since another job has had a step */
     model_work_t work;
-    bool is_to_turn;        /* into the robot's frame: */
-    brace_k3_t space;
+    bool is_to_turn;        /* `space` is there and has still to be turned into the robot's frame */
+    brace_k3_t space;       /* K in the limb's plane's frame */
     uint32_t flags;         /* that posture and parameters give it */
     brace_status_t status;  /* how that ended */
     brace_k_answer_t answer;
