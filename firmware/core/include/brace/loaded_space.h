@@ -31,7 +31,7 @@ void brace_loaded_space_collapse(const brace_limb_t *limb, const brace_gravity_t
  * rest: room to work in, and the equilibrium after BRACE_OK.
  * returns BRACE_OK, BRACE_E_RANGE, BRACE_E_NOT_FINITE, or BRACE_E_SINGULAR: two steps do not come near an equilibrium
  *         (they leave more than some 0.025 rad), or come to one far from the commanded posture.
- * Cost on a Cortex-M4F: 2,986 instructions, the same for every posture; stack at most 1,400 bytes. */
+ * Cost on a Cortex-M4F: 2,986 instructions, the same for every posture; stack at most 750 bytes. */
 brace_status_t brace_loaded_space_settle(const brace_loaded_space_t *loaded, float theta1_rad, float theta2_rad,
                                          const brace_space_load_t *load, brace_space_rest_t *rest);
 
@@ -44,7 +44,7 @@ brace_status_t brace_loaded_space_settle(const brace_loaded_space_t *loaded, flo
  *         limbs). tests/engine/test_core_in_space_under_load.py judges 600 random limbs. Of 52,000 such limbs, 81 are
  *         refused; of those told, 201 are off by more than 1 %, 43 by more than 2 %, the worst by 7.2 %, most of them
  *         because of a short, soft coxa link that turns by 0.2 rad and more within itself.
- * Cost on a Cortex-M4F: 2,791 instructions, the same for every posture; stack at most 1,200 bytes. */
+ * Cost on a Cortex-M4F: 2,791 instructions, the same for every posture; stack at most 850 bytes. */
 brace_status_t brace_loaded_space_stiffness(const brace_loaded_space_t *loaded, const brace_space_rest_t *rest,
                                             brace_space_result_t *result);
 
@@ -52,7 +52,7 @@ brace_status_t brace_loaded_space_stiffness(const brace_loaded_space_t *loaded, 
  * loaded and work until a step, the seventh at the latest, returns true. The same bits come out.
  * No pointer may be null. status (out): as the two calls above. result: written by the last step, on BRACE_OK only.
  * brace_loaded_space_begin returns as brace_loaded_space_settle.
- * Cost on a Cortex-M4F: to begin 140 instructions, a step at most 1,150; stack at most 900 bytes. */
+ * Cost on a Cortex-M4F: to begin 140 instructions, a step at most 1,150; stack at most 600 bytes. */
 brace_status_t brace_loaded_space_begin(const brace_loaded_space_t *loaded, float theta1_rad, float theta2_rad,
                                         const brace_space_load_t *load, brace_space_work_t *work);
 bool brace_loaded_space_step(const brace_loaded_space_t *loaded, brace_space_work_t *work,
@@ -79,12 +79,12 @@ brace_status_t brace_loaded_space_turn(float theta0_rad, const brace_k3_t *k, br
  *         1.7 %, 0.7 % of them beyond 2 %, the worst 8.4 %. Those are limbs whose short coxa link bends by large angles
  *         within itself.
  *         tests/engine/test_core_in_space_under_load.py judges.
- * Cost on a Cortex-M4F: at most 13,000 instructions; stack at most 1,700 bytes. */
+ * Cost on a Cortex-M4F: at most 13,000 instructions; stack at most 950 bytes. */
 float brace_loaded_space_buckling_factor(const brace_loaded_space_t *loaded, const brace_space_rest_t *rest);
 
 /* The same in steps, for a controller that cannot spend so much at once. Begin, which writes the shape; then step with
  * the same loaded and shape until a step, the fifteenth, returns true; factor is written then. No pointer may be null.
- * Cost on a Cortex-M4F: to begin 1,100 instructions, a step at most 1,100. */
+ * Cost on a Cortex-M4F: to begin 1,200 instructions, a step at most 1,300. */
 void brace_loaded_space_buckling_begin(const brace_loaded_space_t *loaded, const brace_space_rest_t *rest,
                                        brace_space_shape_t *shape, brace_space_search_t *search);
 bool brace_loaded_space_buckling_step(const brace_loaded_space_t *loaded, const brace_space_shape_t *shape,
