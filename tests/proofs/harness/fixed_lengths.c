@@ -36,8 +36,13 @@ static void roots_fit(uint32_t number)
     const uint32_t per_root = fixed_per_root_q27(number);
     PROVE(high_unsigned(number, per_root) < 1u << 27, "the length fits its word");
     PROVE(per_root >> 26 != 0u && per_root >> 31 == 0u, "one over it fits its word");
-    const uint64_t longest = root_of(((uint64_t)number << 32) | 0xffffffffu);
-    PROVE(longest * per_root < 1ull << 59, "no component is longer than one");
+    const unsigned __int128 one = (unsigned __int128)1 << 86, square = (unsigned __int128)per_root * per_root;
+    PROVE(number < 1u << 30 || square * ((uint64_t)number + 1u) >= one - (one >> 20), "one over a root");
+    /* Of most numbers what follows is told without the root: the squares are 2^118 at most. */
+    if (square * ((uint64_t)number + 1u) > one) {
+        const uint64_t longest = root_of(((uint64_t)number << 32) | 0xffffffffu);
+        PROVE(longest * per_root < 1ull << 59, "no component is longer than one");
+    }
 }
 
 static void products_invert(uint32_t number)
@@ -61,15 +66,19 @@ static void entries_are_near(void)
     }
 }
 
+static void go_through(uint32_t step)
+{
+    for (uint64_t i = 0; i < 1ull << 32; i += step) {
+        roots_fit((uint32_t)i);
+        directions_are_no_longer_than_one((uint32_t)i);
+        products_invert((uint32_t)i | 1u << 29);
+    }
+}
+
 int main(void)
 {
     entries_are_near();
-    for (uint64_t i = 0; i < 1ull << 32; i++) {
-        roots_fit((uint32_t)i);
-        directions_are_no_longer_than_one((uint32_t)i);
-    }
-    for (uint64_t i = 1u << 29; i < 1ull << 32; i++) {
-        products_invert((uint32_t)i);
-    }
+    go_through(4099u); /* finds most mistakes within a second */
+    go_through(1u);
     return 0;
 }

@@ -54,13 +54,22 @@ static inline bool is_weight(int32_t weight)
 
 static inline bool is_kept(const brace_planar_fixed_t *fixed)
 {
-    return is_weight(fixed->rest_weight) &&
-           stays_within(&fixed->mean, TRACE_LEAST, TRACE_MOST) &&
-           stays_within(&fixed->minus_dev_x, -DEVIATOR_MOST, DEVIATOR_MOST) &&
-           stays_within(&fixed->dev_z, -DEVIATOR_MOST, DEVIATOR_MOST) &&
-           stays_within(&fixed->cross, -CROSS_MOST, CROSS_MOST) &&
-           stays_within(&fixed->rest, rest_least(fixed), REST_MOST) && is_exponent(fixed->exponent_k) &&
-           is_exponent(fixed->exponent_min);
+    if (!is_weight(fixed->rest_weight) || !is_exponent(fixed->exponent_k) || !is_exponent(fixed->exponent_min)) {
+        return false;
+    }
+    const struct {
+        const brace_fixed_harmonic_t *harmonic;
+        int32_t least, most;
+    } range[5] = {{&fixed->mean, TRACE_LEAST, TRACE_MOST},
+                  {&fixed->minus_dev_x, -DEVIATOR_MOST, DEVIATOR_MOST},
+                  {&fixed->dev_z, -DEVIATOR_MOST, DEVIATOR_MOST},
+                  {&fixed->cross, -CROSS_MOST, CROSS_MOST},
+                  {&fixed->rest, rest_least(fixed), REST_MOST}};
+    bool stay = true;
+    for (int i = 0; i < 5; i++) {
+        stay = stay && stays_within(range[i].harmonic, range[i].least, range[i].most);
+    }
+    return stay;
 }
 
 #endif

@@ -82,7 +82,7 @@ typedef struct {
 
 static brace_det_harmonic_t of_words(const brace_fixed_harmonic_t *h)
 {
-    const double per_turn = BRACE_FIXED_ONE / 0x1p32;
+    const double per_turn = (double)BRACE_FIXED_ONE / 0x1p32;
     return (brace_det_harmonic_t){(double)h->constant_q32 / 0x1p32, (double)h->per_cos * per_turn,
                                   (double)h->per_sin * per_turn};
 }
@@ -112,10 +112,11 @@ static bool is_definite(const brace_planar_fixed_t *fixed, double det_unit)
     const brace_det_harmonic_t rest = of_words(&fixed->rest);
     const double rest_unit = det_unit * (double)fixed->rest_weight;
     waves_t off = {-rest_unit * rest.constant, -rest_unit * rest.per_cos, -rest_unit * rest.per_sin, 0.0, 0.0};
-    add_square(&off, 0.25, &fixed->mean);
-    add_square(&off, -1.0, &fixed->minus_dev_x);
-    add_square(&off, -1.0, &fixed->dev_z);
-    add_square(&off, -det_unit, &fixed->cross);
+    const brace_fixed_harmonic_t *const squared[4] = {&fixed->mean, &fixed->minus_dev_x, &fixed->dev_z, &fixed->cross};
+    const double factor[4] = {0.25, -1.0, -1.0, -det_unit};
+    for (int i = 0; i < 4; i++) {
+        add_square(&off, factor[i], squared[i]);
+    }
     const double most_off = fabs(off.constant) + swing_of(off.cos, off.sin) + swing_of(off.cos_2, off.sin_2);
     return rest_unit * brace_det_extent(&rest).least - most_off > 8.0 * 0x1p31;
 }
