@@ -285,6 +285,41 @@ static void a_servo_that_lags_takes_up(void)
     TEST_ASSERT_EQUAL_INT(BRACE_TAKEUP_DONE, out.takeup);
 }
 
+/* The motor moves evenly. */
+static void advance_to(double from_rad, double to_rad, int ticks)
+{
+    for (int i = 1; i <= ticks; i++) {
+        tick(from_rad + (to_rad - from_rad) * i / ticks, 0.0);
+    }
+}
+
+/*/* Travel and time of a take-up count from where and when it begins. What was said to the one before is forgotten. */
+static void each_takeup_begins_anew(void)
+{
+    noise_n_mm = 0.0;
+    for (int n = 0; n < 4; n++) {
+        const double at_rad = 0.3 * n - 0.2;
+        stand(at_rad, 0.0, 50);
+        TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_takeup_request(&joint, 1));
+        stand(at_rad, 0.0, 1);
+        TEST_ASSERT_EQUAL_INT(BRACE_TAKEUP_APPROACH, out.phase);
+        advance_to(at_rad, at_rad + 0.0595, 1200); /* four of these are longer than a take-up may last */
+        TEST_ASSERT_EQUAL_INT(BRACE_TAKEUP_APPROACH, out.phase);
+        TEST_ASSERT_EQUAL_INT(BRACE_TAKEUP_RUNNING, out.takeup);
+        if (n < 3) {
+            TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_takeup_let_go(&joint));
+            stand(at_rad + 0.0595, 0.0, 1);
+            TEST_ASSERT_EQUAL_INT(BRACE_TAKEUP_NONE, out.takeup);
+        } else {
+            advance_to(at_rad + 0.0595, at_rad + 0.0605, 20);
+            TEST_ASSERT_EQUAL_INT(BRACE_TAKEUP_E_TRAVEL, out.takeup);
+        }
+        TEST_ASSERT_EQUAL_INT(BRACE_TAKEUP_LET_GO, out.phase);
+        stand(at_rad + 0.0595, 0.0, 1300);
+        TEST_ASSERT_EQUAL_INT(BRACE_TAKEUP_IDLE, out.phase);
+    }
+}
+
 static void expect_given_up(brace_takeup_result_t expected, const brace_takeup_bounds_t *bounds, double k)
 {
     brace_backlash_params_t params = sound_params();
@@ -506,6 +541,7 @@ int main(void)
     RUN_TEST(bad_and_late_samples_are_a_fault_that_heals);
     RUN_TEST(a_takeup_preloads_verifies_and_lets_go);
     RUN_TEST(a_servo_that_lags_takes_up);
+    RUN_TEST(each_takeup_begins_anew);
     RUN_TEST(every_bound_has_its_own_result);
     RUN_TEST(a_load_that_goes_away_ends_the_takeup);
     RUN_TEST(what_a_joint_promises_is_told);
