@@ -172,6 +172,68 @@ static void test_trust_in_each_number_of_the_calibration(void)
     }
 }
 
+/* The estimates narrow with each run. After the least number of readings they begin anew from the calibration's trust,
+ * because the slopes before were those of the model. */
+static void test_estimates_narrow_and_begin_anew_once(void)
+{
+    const float trust = report().learned_sigma_ratio[0];
+    float before = trust;
+    int anew = 0;
+    for (int i = 0; drift.steps < 2u * BRACE_DRIFT_LEARN_LEAST && drift.state == BRACE_DRIFT_LEARNING; i++) {
+        const uint32_t steps = drift.steps;
+        run(i / 2 % POSTURES, i % 2);
+        const float now = report().learned_sigma_ratio[0];
+        if (steps < BRACE_DRIFT_LEARN_LEAST && drift.steps >= BRACE_DRIFT_LEARN_LEAST) {
+            TEST_ASSERT_TRUE(now > 2.0f * before);
+            anew++;
+        } else {
+            TEST_ASSERT_TRUE(now < 1.001f * before);
+        }
+        before = now;
+        TEST_ASSERT_TRUE(i < 8 || anew > 0 || now < 0.7f * trust);
+    }
+    TEST_ASSERT_EQUAL(1, anew);
+}
+
+/* Evidence of one cause. A change of any size has the log likelihood score^2/(2 information). */
+static void give_evidence(int cause, float evidence, float log_likelihood)
+{
+    drift.evidence[cause] = evidence;
+    drift.information[cause] = 50.0f;
+    drift.score[cause] = sqrtf(2.0f * 50.0f * log_likelihood);
+}
+
+/* A cause counts from half of an alarm's evidence on. The likeliest is told, and every one that is nearly as likely:
+ * less by 3 and a tenth at most. */
+static void test_a_report_names_what_the_readings_support(void)
+{
+    const float half = 0.5f * BRACE_DRIFT_ALARM;
+    for (int cause = 0; cause < BRACE_DRIFT_CAUSE_COUNT; cause++) {
+        const int other = (cause + 1) % BRACE_DRIFT_CAUSE_COUNT;
+        setUp();
+        give_evidence(cause, nextafterf(half, 0.0f), 20.0f);
+        TEST_ASSERT_EQUAL(BRACE_DRIFT_UNEXPLAINED, report().cause);
+        TEST_ASSERT_EQUAL(1u << BRACE_DRIFT_UNEXPLAINED, report().could_be);
+        give_evidence(cause, half, 20.0f);
+        TEST_ASSERT_EQUAL(cause, report().cause);
+        TEST_ASSERT_EQUAL(1u << cause, report().could_be);
+        give_evidence(other, half, 14.9f);
+        TEST_ASSERT_EQUAL(1u << cause, report().could_be);
+        give_evidence(other, half, 15.1f);
+        TEST_ASSERT_EQUAL(cause, report().cause);
+        TEST_ASSERT_EQUAL(1u << cause | 1u << other, report().could_be);
+        give_evidence(other, half, 20.1f);
+        TEST_ASSERT_EQUAL(other, report().cause);
+        drift.information[cause] = 0.0f; /* nothing looked at it */
+        TEST_ASSERT_EQUAL(1u << other, report().could_be);
+    }
+    setUp();
+    give_evidence(BRACE_DRIFT_FEMUR, BRACE_DRIFT_ALARM, 20.0f); /* the compliance has grown by score/information */
+    const double grown = sqrt(2.0 * 50.0 * 20.0) / 50.0;
+    ASSERT_CLOSE(grown / (1.0 + grown), report().loss_ratio, 1e-5);
+    ASSERT_CLOSE(1.0 / sqrt(50.0), report().loss_sigma_ratio, 1e-5);
+}
+
 /* Readings since an evidence left zero: none where it is zero, and one more with each reading. */
 static void test_readings_are_counted_since_the_evidence_left_zero(void)
 {
@@ -469,6 +531,8 @@ int main(void)
     RUN_TEST(test_a_limb_within_its_calibration_is_learned_and_raises_no_alarm);
     RUN_TEST(test_learning_begins_with_the_trust_of_the_calibration);
     RUN_TEST(test_trust_in_each_number_of_the_calibration);
+    RUN_TEST(test_estimates_narrow_and_begin_anew_once);
+    RUN_TEST(test_a_report_names_what_the_readings_support);
     RUN_TEST(test_readings_are_counted_since_the_evidence_left_zero);
     RUN_TEST(test_watching_begins_without_evidence);
     RUN_TEST(test_readings_that_fit_are_no_evidence);

@@ -96,6 +96,65 @@ static void test_a_link_s_matrix_is_eliminated_within_its_words(void)
     TEST_ASSERT_TRUE(told > 5000 && refused > 2000);
 }
 
+/* On the way to the equilibrium: what drives a link's root when its curvatures are eliminated, with what is beyond the
+ * link; and how far they turn then. What the matrix refuses, and what drives it out of its words, is refused. */
+static void test_a_link_is_solved_within_its_words(void)
+{
+    int told = 0, refused = 0;
+    for (int n = 0; n < 6000; n++) {
+        double m[6], drives[3];
+        int32_t w[6], d[3];
+        for (int i = 0; i < 6; i++) {
+            w[i] = word(any(-2.0, 2.0) * pow(10.0, any(-2.0, 0.0)), 27);
+        }
+        for (int i = 0; i < 3; i++) {
+            d[i] = word(any(-2.0, 2.0) * (n % 3 == 0 ? 1.9 : 1.0), 27);
+        }
+        const double bend = pow(10.0, any(-2.0, 0.4)), beyond = any(-0.3, 0.3), end = any(-0.2, 0.2);
+        const double beyond_drives = any(-0.3, 0.3), end_drives = any(-0.2, 0.2), root = any(-1.0, 1.0);
+        const fixed_pull_t pull = {.resists = {w[0], w[1], w[2], w[3], w[4], w[5]}, .drives = {d[0], d[1], d[2]},
+                                   .end_resists = word(end, 27), .end_drives = word(end_drives, 27)};
+        for (int i = 0; i < 6; i++) { /* what acts at the link's end acts on each of its turns */
+            m[i] = number(w[i], 27) + end + beyond;
+        }
+        for (int i = 0; i < 3; i++) {
+            drives[i] = number(d[i], 27) + end_drives + beyond_drives;
+        }
+        fixed_solved_t s = {.driven = 0}; /* as if all were sound, should nothing be written */
+        const bool is_told = fixed_solve_in(&pull, word(bend, 29), word(beyond, 27), word(beyond_drives, 27), &s);
+        const eliminated_t e = eliminated(m, number(word(bend, 29), 29));
+        const double from_a = e.b_by_a * drives[1], on_b = drives[2] - from_a;
+        const double less = e.root_by_a * drives[1] + e.root_by_b * on_b;
+        const double worst = worse(worse(e.worst, from_a, 4.0), less, 4.0);
+        if (fabs(worst) > 1e-3) {
+            TEST_ASSERT_EQUAL(worst < 0.0, is_told);
+        }
+        if (worst >= 0.0 || !is_told) {
+            refused++;
+            continue;
+        }
+        told++;
+        const double within = 1e-5 / (e.pivot_a * e.pivot_a * e.pivot_b);
+        TEST_ASSERT_DOUBLE_WITHIN(within, drives[1], number(s.a_driven, 27));
+        TEST_ASSERT_DOUBLE_WITHIN(within, on_b, number(s.b_driven, 27));
+        TEST_ASSERT_DOUBLE_WITHIN(within, drives[0] - less, number(s.driven, 27));
+        fixed_shape_t shape;
+        lost_t lost = 0u;
+        fixed_solve_out(&s, word(root, 29), &shape, &lost);
+        const double b = e.yields_b * on_b - e.root_by_b * root;
+        const double a = e.yields_a * drives[1] - e.root_by_a * root - e.b_by_a * b;
+        if (fabs(fabs(b) - 2.0) > 1e-3 && fabs(fabs(a) - 2.0) > 1e-3) {
+            TEST_ASSERT_EQUAL(fabs(b) > 2.0 || fabs(a) > 2.0, lost >= LOST);
+        }
+        if (fabs(b) < 1.99 && fabs(a) < 1.99) {
+            TEST_ASSERT_EQUAL_INT32(word(root, 29), shape.root);
+            TEST_ASSERT_DOUBLE_WITHIN(4.0 * within, b, number(shape.b, 29));
+            TEST_ASSERT_DOUBLE_WITHIN(4.0 * within, a, number(shape.a, 29));
+        }
+    }
+    TEST_ASSERT_TRUE(told > 3000 && refused > 300);
+}
+
 /* A joint's pivot, from a sixteenth to 5. */
 static void test_a_joint_s_pivot_stays_within_its_word(void)
 {
@@ -139,6 +198,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_a_link_s_matrix_is_eliminated_within_its_words);
+    RUN_TEST(test_a_link_is_solved_within_its_words);
     RUN_TEST(test_a_joint_s_pivot_stays_within_its_word);
     RUN_TEST(test_a_wide_product);
     return UNITY_END();
