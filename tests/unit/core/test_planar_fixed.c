@@ -72,6 +72,28 @@ static void test_every_sample_over_the_workspace(void)
     }
 }
 
+/* Ellipsoids tilted either way, as far as they go. */
+static void test_every_tilt_over_the_knee_s_angles(void)
+{
+    int told = 0;
+    for (int i = 0; i < 64; i++) {
+        brace_limb_t limb = sample_limb[i % 2 == 0 ? SAMPLE_TILTED : SAMPLE_PAPER];
+        limb.link[BRACE_FEMUR].tilt_rad = 0.4f * (float)(i / 2 % 8 - 4);
+        limb.link[BRACE_TIBIA].tilt_rad = 0.5f * (float)(i / 16 - 2) + 0.25f;
+        if (brace_planar_fixed_collapse(&limb, &fixed) != BRACE_OK || fixed.flags != 0u) {
+            continue;
+        }
+        told++;
+        for (int j = -12; j <= 12; j++) {
+            const int32_t theta2 = q28(PI * j / 12.0);
+            const brace_stiffness_t k = stiffness_at(q28(0.3), theta2);
+            const reference_planar_t r = reference_planar(&limb, q28(0.3) / Q28, theta2 / Q28);
+            TEST_ASSERT_TRUE(reference_error(&r, &k) < ERROR_LIMIT);
+        }
+    }
+    TEST_ASSERT_TRUE(told > 40);
+}
+
 static void test_close_to_straight_and_folded(void)
 {
     for (int sample = 0; sample < SAMPLE_COUNT; sample++) {
@@ -245,6 +267,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_check_value_of_the_physics_page);
     RUN_TEST(test_every_sample_over_the_workspace);
+    RUN_TEST(test_every_tilt_over_the_knee_s_angles);
     RUN_TEST(test_close_to_straight_and_folded);
     RUN_TEST(test_every_word_is_an_angle);
     RUN_TEST(test_turning_the_limb_leaves_the_eigenvalues);
