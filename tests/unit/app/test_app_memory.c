@@ -111,6 +111,13 @@ static void test_defaults_are_mended_too(void)
     ticks(MENDED_WITHIN_TICKS);
     TEST_ASSERT_EQUAL_MEMORY(&defaults, &app.controller.parameters.in_force, sizeof defaults);
     TEST_ASSERT_BITS_LOW(BRACE_FAULT_MEMORY, now()->faults);
+    app.controller.parameters.crc ^= 4u; /* what the set is told by */
+    app.controller.parameters.origin = BRACE_PARAMETERS_SLOT_A;
+    TEST_ASSERT_TRUE(is_seen());
+    ticks(MENDED_WITHIN_TICKS);
+    TEST_ASSERT_EQUAL_HEX32(brace_parameters_crc(&defaults), now()->parameter_crc);
+    TEST_ASSERT_EQUAL(BRACE_PARAMETERS_DEFAULT, now()->parameter_origin);
+    TEST_ASSERT_BITS_LOW(BRACE_FAULT_MEMORY, now()->faults);
 }
 
 /* The memory does not answer: the fault stays, and K is never told. */

@@ -105,6 +105,34 @@ static void test_everybody_obeys_and_nobody_answers(void)
     TEST_ASSERT_NOT_EQUAL(BRACE_MODE_CONFIGURATION, app.controller.mode.now);
 }
 
+/* However slow the ticks are, the port has always more of an answer than the line carries until the next one: a gap of
+ * one and a half characters would tear the frame. */
+static void test_an_answer_leaves_without_a_gap(void)
+{
+    enum { SLOW_TICK_US = 5000, BAUD = 115200, BITS = 11, WHOLE = 1 + 2 + 4 * 60 + 2 };
+    brace_parameters_t p = bench_parameters();
+    p.controller.modbus_address = UNIT;
+    p.controller.modbus_baud = BAUD;
+    p.controller.tick_us = SLOW_TICK_US;
+    bench_start(&p);
+    uint8_t ask[8] = {UNIT, 4, 0, 0, 0, 120};
+    const uint32_t crc = crc_by_bits(ask, 6);
+    ask[6] = (uint8_t)crc, ask[7] = (uint8_t)(crc >> 8);
+    line_says(ask, sizeof ask);
+    const double a_tick = (double)SLOW_TICK_US * 1e-6 * BAUD / BITS;
+    uint32_t in_port = 0;
+    double on_line = 0.0;
+    for (int i = 0; i < 60 && in_port < (uint32_t)WHOLE; i++) {
+        uint8_t sink[300];
+        fake.now_us += SLOW_TICK_US;
+        brace_app_tick(&app, fake.now_us);
+        in_port += brace_fake_bytes_take(&fake, BRACE_SERIAL_MODBUS, sink, sizeof sink);
+        on_line = in_port > 0u ? on_line + a_tick : 0.0; /* until the next tick */
+        TEST_ASSERT_TRUE(in_port == 0u || in_port == (uint32_t)WHOLE || (double)in_port > on_line);
+    }
+    TEST_ASSERT_EQUAL(WHOLE, in_port);
+}
+
 static void test_a_line_that_takes_nothing_does_not_hold_it(void)
 {
     brace_fake_fail_next(&fake, BRACE_FAKE_SERIAL_WRITE, 10000, BRACE_HAL_E_DEVICE);
@@ -272,6 +300,7 @@ int main(void)
     RUN_TEST(test_two_frames_without_silence_are_none);
     RUN_TEST(test_others_requests_and_their_answers_pass);
     RUN_TEST(test_everybody_obeys_and_nobody_answers);
+    RUN_TEST(test_an_answer_leaves_without_a_gap);
     RUN_TEST(test_a_line_that_takes_nothing_does_not_hold_it);
     RUN_TEST(test_a_flood_stops_nothing);
     RUN_TEST(test_tcp_answers_the_same);

@@ -115,6 +115,24 @@ static void test_without_a_force_the_weight_counts(void)
     TEST_ASSERT_TRUE(fabsf(weightless.stiffness.k_xx_n_per_mm - a.k_xx_n_per_mm) > 2e-3f);
 }
 
+/* Each joint yields as warm as it is, elsewhere as here. */
+static void test_a_warm_joint_yields_more_wherever_it_is_asked(void)
+{
+    parameters.slow.joint_compliance_per_degc = 0.01f;
+    parameters.slow.reference_degc = 20.0f;
+    start();
+    fake.joint[BRACE_FEMUR].sample.temp_degc = 40.0f;
+    fake.joint[BRACE_TIBIA].sample.temp_degc = 70.0f;
+    ticks(2);
+    drain();
+    (void)ask_for_force(2.0f, 5.0f);
+    const answer_t answer = ask_under_load(0.8f, 1.2f);
+    parameters.limb.joint[BRACE_FEMUR].compliance_rad_per_n_mm *= 1.2f;
+    parameters.limb.joint[BRACE_TIBIA].compliance_rad_per_n_mm *= 1.5f;
+    const brace_loaded_stiffness_t k = expected(0.8f, 1.2f, 2.0f, 5.0f);
+    assert_told(&answer, &k);
+}
+
 /* A board that nobody has configured answers too, and says that its limb is nobody's. */
 static void test_without_parameters_the_answer_is_uncalibrated(void)
 {
@@ -438,6 +456,7 @@ int main(void)
     RUN_TEST(test_K_under_a_force_over_CAN_and_the_force_is_used_up);
     RUN_TEST(test_at_a_tip_the_posture_is_the_one_before_the_load_moves_it);
     RUN_TEST(test_without_a_force_the_weight_counts);
+    RUN_TEST(test_a_warm_joint_yields_more_wherever_it_is_asked);
     RUN_TEST(test_without_parameters_the_answer_is_uncalibrated);
     RUN_TEST(test_a_force_that_folds_the_limb_or_is_none_is_refused);
     RUN_TEST(test_K_under_a_force_over_the_line_and_over_TCP);

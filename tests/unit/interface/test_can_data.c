@@ -489,6 +489,32 @@ static void test_a_snapshot_is_one_frame_of_can_fd(void)
     TEST_ASSERT_UINT32_WITHIN(1, 2, others);
 }
 
+/* By ISO 11898-1 a CAN FD frame of 64 bytes has 30 bits at the bus's rate and 4 for stuffing; at the faster rate 542 bits
+ * and up to 136 for stuffing. */
+static void test_can_fd_is_thinned_to_the_share_of_the_bus(void)
+{
+    static const uint32_t fd_bit_rate[] = {1000000, 5000000};
+    for (int i = 0; i < 2; i++) {
+        brace_parameters_t p = bench_parameters();
+        p.controller.can_bit_rate = 500000;
+        p.controller.can_fd_bit_rate = fd_bit_rate[i];
+        p.controller.stiffness_hz = 1000;
+        p.controller.posture_hz = p.controller.load_hz = 0;
+        p.controller.bus_load_ratio = 0.10f;
+        bench_board();
+        fake.can_takes_fd = true;
+        bench_store(&p);
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_app_start(&app, &fake.hal));
+        ticks(50);
+        drain();
+        const count_t seen = run(4000);
+        const float taken_s = (float)of(&seen, 0x500) * (34.0f / 500000.0f + (542.0f + 136.0f) / (float)fd_bit_rate[i]) +
+                              (float)of(&seen, 0x700) * (float)worst_bits() / 500000.0f;
+        TEST_ASSERT_TRUE(taken_s <= 0.101f * 4.0f);
+        TEST_ASSERT_TRUE(taken_s > 0.09f * 4.0f);
+    }
+}
+
 static void test_where_can_is_classic_only_it_stays_so(void)
 {
     start_fd(false);
@@ -566,6 +592,7 @@ int main(void)
     RUN_TEST(test_both_ports_carry_the_same_and_neither_waits_for_the_other);
     RUN_TEST(test_text_leaves_as_fast_as_the_line_takes_it);
     RUN_TEST(test_a_snapshot_is_one_frame_of_can_fd);
+    RUN_TEST(test_can_fd_is_thinned_to_the_share_of_the_bus);
     RUN_TEST(test_where_can_is_classic_only_it_stays_so);
     RUN_TEST(test_text_is_classic_beside_can_fd);
     RUN_TEST(test_can_fd_goes_on_until_the_next_start_whatever_is_put_in_force);

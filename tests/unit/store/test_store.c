@@ -280,6 +280,36 @@ static void put_refused_block(uint32_t slot, uint32_t sequence)
     memcpy(block + BRACE_STORE_MARKS_AT + 4, &crc, 4);
 }
 
+static void expect_untold(const brace_slot_report_t *told)
+{
+    TEST_ASSERT_EQUAL(0, told->sequence);
+    TEST_ASSERT_EQUAL(0, told->schema_hash);
+    TEST_ASSERT_EQUAL(0, told->block_crc);
+    TEST_ASSERT_EQUAL(0, told->wrong_index);
+}
+
+/* What a slot's condition leaves unknown is told as 0, whatever a start before has found there. */
+static void test_what_a_slot_does_not_tell_is_zero(void)
+{
+    static const brace_slot_condition_t condition[] = {BRACE_SLOT_EMPTY, BRACE_SLOT_DAMAGED, BRACE_SLOT_UNREADABLE};
+    for (uint32_t i = 0; i < 3u; i++) {
+        setUp();
+        put_refused_block(0, 7);
+        put_block(1, 1, 8, true);
+        expect_after_start(BRACE_PARAMETERS_SLOT_B, 1);
+        TEST_ASSERT_EQUAL(7, status_now().slot[0].sequence);
+        memory.bytes[0][0] ^= condition[i] == BRACE_SLOT_EMPTY;
+        memory.bytes[0][30] ^= condition[i] == BRACE_SLOT_DAMAGED;
+        memory.reads_until_refused = condition[i] == BRACE_SLOT_UNREADABLE; /* the first of a start */
+        expect_after_start(BRACE_PARAMETERS_SLOT_B, 1);
+        const brace_store_status_t status = status_now();
+        TEST_ASSERT_EQUAL(condition[i], status.slot[0].condition);
+        expect_untold(&status.slot[0]);
+        TEST_ASSERT_EQUAL(0, status.slot[1].wrong_index);
+        TEST_ASSERT_NOT_EQUAL(0, status.slot[1].block_crc);
+    }
+}
+
 static void test_a_value_out_of_range_is_named(void)
 {
     put_refused_block(0, 7);
@@ -686,6 +716,7 @@ int main(void)
     RUN_TEST(test_sequences_wrap_around);
     RUN_TEST(test_a_block_without_its_mark_does_not_count);
     RUN_TEST(test_a_block_of_another_dictionary);
+    RUN_TEST(test_what_a_slot_does_not_tell_is_zero);
     RUN_TEST(test_a_value_out_of_range_is_named);
     RUN_TEST(test_a_refused_set_leaves_the_other_in_force);
     RUN_TEST(test_marks_never_run_out);

@@ -538,6 +538,23 @@ static void test_the_board_s_ceiling_refuses_a_block_and_tells_which_entry(void)
     refuses(BRACE_REFUSED_CEILING, number, BRACE_REQUEST_COMMIT);
 }
 
+/* Values that come as a block are judged on the way to the store: the one at fault is named then. */
+static void test_a_set_that_the_store_refuses_names_its_member(void)
+{
+    to_configuration();
+    brace_parameters_t set = *brace_app_parameters(&app);
+    set.controller.node_id = 200; /* no node has it */
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_parameters_commit(&app, &set));
+    for (int i = 0; i < 500 && brace_app_is_storing(&app); i++) {
+        ticks(1);
+    }
+    brace_commit_answer_t stored;
+    request = (request_t){.app = &app};
+    TEST_ASSERT_EQUAL(BRACE_E_PARAMETER, answer_of_storing(&request, &stored));
+    TEST_ASSERT_EQUAL(brace_parameter_number(BRACE_PARAMETER_CONTROLLER_NODE_ID), request.detail);
+    TEST_ASSERT_EQUAL(5, brace_app_parameters(&app)->controller.node_id);
+}
+
 static void test_a_set_that_is_stored_answers_with_what_is_in_force(void)
 {
     brace_parameters_t p = *brace_app_parameters(&app);
@@ -620,6 +637,7 @@ int main(void)
     RUN_TEST(test_an_upload_needs_its_mode_its_size_and_its_order);
     RUN_TEST(test_a_block_of_another_dictionary_is_refused);
     RUN_TEST(test_the_board_s_ceiling_refuses_a_block_and_tells_which_entry);
+    RUN_TEST(test_a_set_that_the_store_refuses_names_its_member);
     RUN_TEST(test_a_set_that_is_stored_answers_with_what_is_in_force);
     RUN_TEST(test_a_download_is_the_block);
     return UNITY_END();
