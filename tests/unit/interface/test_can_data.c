@@ -489,8 +489,8 @@ static void test_a_snapshot_is_one_frame_of_can_fd(void)
     TEST_ASSERT_UINT32_WITHIN(1, 2, others);
 }
 
-/* By ISO 11898-1 a CAN FD frame of 64 bytes has 30 bits at the bus's rate and 4 for stuffing; at the faster rate 542 bits
- * and up to 136 for stuffing. */
+/* By ISO 11898-1 a CAN FD frame of 64 bytes has 30 bits at the bus's rate and 4 for stuffing; at the faster rate 542
+ * bits and up to 136 for stuffing. */
 static void test_can_fd_is_thinned_to_the_share_of_the_bus(void)
 {
     static const uint32_t fd_bit_rate[] = {1000000, 5000000};
@@ -508,8 +508,9 @@ static void test_can_fd_is_thinned_to_the_share_of_the_bus(void)
         ticks(50);
         drain();
         const count_t seen = run(4000);
-        const float taken_s = (float)of(&seen, 0x500) * (34.0f / 500000.0f + (542.0f + 136.0f) / (float)fd_bit_rate[i]) +
-                              (float)of(&seen, 0x700) * (float)worst_bits() / 500000.0f;
+        const float whole_s = 34.0f / 500000.0f + (542.0f + 136.0f) / (float)fd_bit_rate[i];
+        const float beat_s = (float)worst_bits() / 500000.0f;
+        const float taken_s = (float)of(&seen, 0x500) * whole_s + (float)of(&seen, 0x700) * beat_s;
         TEST_ASSERT_TRUE(taken_s <= 0.101f * 4.0f);
         TEST_ASSERT_TRUE(taken_s > 0.09f * 4.0f);
     }

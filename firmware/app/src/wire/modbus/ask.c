@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "brace/questions.h"
-#include "wire/modbus/command.h"
 #include "wire/modbus/refusal.h"
 
 /* Values are 32 bits each, so a value stands at four times its place. */
@@ -45,9 +44,15 @@ modbus_exception_t modbus_ask(modbus_server_t *server, const wire_tick_t *tick, 
                               const uint32_t *words)
 {
     const brace_question_t *question = find(first, count);
-    asked_force_t asked_force = {.is_there = false};
-    request_t request = modbus_request(server, tick);
-    request.asked_force = &asked_force;
+    asked_force_t asked_force = {.is_there = false,
+                                 .force = {0.0f, 0.0f},
+                                 .is_there_in_space = false,
+                                 .force_in_space = {0.0f, 0.0f},
+                                 .across_n = 0.0f};
+    request_t request = {
+        .app = tick->app, .measured = tick->measured, .asker = server->asker, .asked_force = &asked_force,
+        .who = server->who, .seal = server->seal, .token = 0, .bytes = server->pdu, .count = server->length,
+        .transfer = NULL, .node_id = 0, .detail = 0, .is_of_now = false};
     brace_request_t asked;
     brace_answer_t answer;
     const uint32_t picks = question == NULL ? 0u : (uint32_t)question->begin_fields + question->fields;

@@ -47,8 +47,14 @@ request_t modbus_request(const modbus_server_t *server, const wire_tick_t *tick)
                        .asker = server->asker,
                        .who = server->who,
                        .seal = server->seal,
+                       .token = 0,
                        .bytes = server->pdu,
-                       .count = server->length};
+                       .count = server->length,
+                       .asked_force = NULL,
+                       .transfer = NULL,
+                       .node_id = 0,
+                       .detail = 0,
+                       .is_of_now = false};
 }
 
 modbus_exception_t modbus_command_show(modbus_server_t *server, const wire_tick_t *tick, uint32_t first,
@@ -102,4 +108,6 @@ void modbus_command_tell(const modbus_server_t *server, const brace_app_t *app, 
     told->set_mode = brace_app_mode(app);
     told->commit = told->commit_crc = told->rollback = storing(app);
     told->clear_faults = brace_app_faults(app);
+    told->let_go = told->stop = told->end_test = 0;
+    told->life_counter = told->life_mac = told->seal_counter = told->seal_mac = 0;
 }

@@ -101,6 +101,9 @@ modbus_exception_t modbus_write_block(modbus_server_t *server, const wire_tick_t
     if (count % 2u != 0u) {
         return MODBUS_E_VALUE;
     }
-    *answer = ANSWER_BYTES;
-    return write_values(server, tick, &block, count / 2u, pdu + DATA_AT);
+    const modbus_exception_t why = write_values(server, tick, &block, count / 2u, pdu + DATA_AT);
+    if (why == MODBUS_FINE) {
+        *answer = ANSWER_BYTES;
+    }
+    return why;
 }
