@@ -108,6 +108,8 @@ static void test_defaults_are_mended_too(void)
     brace_parameters_default(&defaults);
     app.controller.parameters.in_force.limb.femur_mm += 8.0f;
     TEST_ASSERT_TRUE(is_seen());
+    ticks(20); /* no memory has to be read: a tick for each of the parts that are made anew */
+    TEST_ASSERT_FALSE(app.controller.memory_is_wrong);
     ticks(MENDED_WITHIN_TICKS);
     TEST_ASSERT_EQUAL_MEMORY(&defaults, &app.controller.parameters.in_force, sizeof defaults);
     TEST_ASSERT_BITS_LOW(BRACE_FAULT_MEMORY, now()->faults);

@@ -280,6 +280,33 @@ static void test_an_answer_that_comes_back_is_not_answered(void)
     TEST_ASSERT_EQUAL(0, counters().modbus_refused);
 }
 
+/* A line that had no echo is wired otherwise: whatever was answered last, the next answer that comes back is not taken
+ * for a request. Only a request that may look the same is answered once more. */
+static void test_a_line_may_begin_to_echo(void)
+{
+    uint8_t block[15] = {UNIT, 16, 2, 0, 0, 2, 4, 0x43, 0x3e, 0, 0}, read[8] = {UNIT, 3, 0x02, 0, 0, 2};
+    uint8_t who[4] = {UNIT, 17}, device[7] = {UNIT, 43, 14, 1, 0};
+    const struct {
+        uint8_t *frame;
+        uint32_t count;
+    } asked[] = {{block, with_crc(block, 11)}, {read, with_crc(read, 6)}, {who, with_crc(who, 2)},
+                 {device, with_crc(device, 5)}};
+    for (uint32_t i = 0; i < sizeof asked / sizeof *asked; i++) {
+        setUp();
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_enter(&app));
+        TEST_ASSERT_TRUE(answers()); /* and nothing came back: this line has no echo */
+        TEST_ASSERT_TRUE(answers());
+        line_says(asked[i].frame, asked[i].count);
+        const uint32_t once = heard(BRACE_SERIAL_MODBUS).count;
+        TEST_ASSERT_GREATER_THAN(4, once);
+        TEST_ASSERT_EQUAL(once, sent_on_a_line_with_echo(asked[i].frame, asked[i].count, 300));
+        TEST_ASSERT_EQUAL(0, sent_on_a_line_with_echo(read, 0, 50)); /* and it is silent then */
+        uint8_t ping[8] = {UNIT, 8, 0, 0, 0xa5, 0x37};
+        (void)with_crc(ping, 6);
+        TEST_ASSERT_EQUAL(8, sent_on_a_line_with_echo(ping, 8, 300)); /* now it knows the echo */
+    }
+}
+
 static void test_a_request_that_is_repeated_is_answered_each_time(void)
 {
     TEST_ASSERT_TRUE(answers()); /* and nothing came back: this line has no echo */
@@ -309,6 +336,7 @@ int main(void)
     RUN_TEST(test_lengths_that_no_request_has_are_dropped_on_tcp);
     RUN_TEST(test_a_slow_line_waits_its_silence);
     RUN_TEST(test_an_answer_that_comes_back_is_not_answered);
+    RUN_TEST(test_a_line_may_begin_to_echo);
     RUN_TEST(test_a_request_that_is_repeated_is_answered_each_time);
     return UNITY_END();
 }

@@ -133,6 +133,35 @@ static void test_a_warm_joint_yields_more_wherever_it_is_asked(void)
     assert_told(&answer, &k);
 }
 
+/* Somebody gives up while its K is half worked out: the next one gets the K of its own question. */
+static void test_what_was_given_up_is_nobody_else_s(void)
+{
+    question_job_t *job = &app.controller.question;
+    const question_inputs_t inputs = {.model = &app.controller.model,
+                                      .parameters = brace_app_parameters(&app),
+                                      .origin = BRACE_PARAMETERS_SLOT_A,
+                                      .joints = &app.controller.joints,
+                                      .down = app.controller.gravity.down};
+    const brace_k_question_t first = {.where = BRACE_K_AT_POSTURE, .theta_rad = {0.0f, 0.3f, 0.9f}};
+    const brace_k_question_t second = {
+        .where = BRACE_K_AT_POSTURE, .theta_rad = {0.0f, 0.8f, 1.2f}, .tip_force = {2.0f, 5.0f}};
+    brace_k_answer_t answer;
+    TEST_ASSERT_EQUAL(BRACE_APP_LATER, question_job_ask(job, BRACE_ASKER_CAN, &first, &answer));
+    TEST_ASSERT_TRUE(question_job_work(job, &inputs, 1)); /* the first of two steps */
+    for (int i = 0; i < 10; i++) {
+        question_job_age(job);
+    }
+    TEST_ASSERT_FALSE(question_job_is_coming(job, BRACE_ASKER_CAN));
+    TEST_ASSERT_EQUAL(BRACE_APP_LATER, question_job_ask(job, BRACE_ASKER_MODBUS_TCP, &second, &answer));
+    TEST_ASSERT_TRUE(question_job_work(job, &inputs, 1));
+    TEST_ASSERT_EQUAL(BRACE_APP_LATER, question_job_ask(job, BRACE_ASKER_MODBUS_TCP, &second, &answer));
+    TEST_ASSERT_TRUE(question_job_work(job, &inputs, 1));
+    TEST_ASSERT_EQUAL(BRACE_OK, question_job_ask(job, BRACE_ASKER_MODBUS_TCP, &second, &answer));
+    const brace_loaded_stiffness_t k = expected(0.8f, 1.2f, 2.0f, 5.0f);
+    ASSERT_CLOSE(k.stiffness.k_xx_n_per_mm, answer.k.k_xx_n_per_mm, 4e-4);
+    ASSERT_CLOSE(k.displacement.z_mm, answer.moved_mm.z_mm, 2e-3);
+}
+
 /* A board that nobody has configured answers too, and says that its limb is nobody's. */
 static void test_without_parameters_the_answer_is_uncalibrated(void)
 {
@@ -456,6 +485,7 @@ int main(void)
     RUN_TEST(test_K_under_a_force_over_CAN_and_the_force_is_used_up);
     RUN_TEST(test_at_a_tip_the_posture_is_the_one_before_the_load_moves_it);
     RUN_TEST(test_without_a_force_the_weight_counts);
+    RUN_TEST(test_what_was_given_up_is_nobody_else_s);
     RUN_TEST(test_a_warm_joint_yields_more_wherever_it_is_asked);
     RUN_TEST(test_without_parameters_the_answer_is_uncalibrated);
     RUN_TEST(test_a_force_that_folds_the_limb_or_is_none_is_refused);

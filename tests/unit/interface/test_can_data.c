@@ -93,6 +93,28 @@ static void test_process_data_are_thinned_to_the_share_of_the_bus(void)
     TEST_ASSERT_TRUE(load > 0.09f);
 }
 
+/* Where nothing else is to be sent, two frames leave in each tick until a snapshot is told. A port that nobody has opened
+ * takes none of them away. */
+static void test_a_snapshot_leaves_two_frames_at_a_time(void)
+{
+    brace_parameters_t p = bench_parameters();
+    p.controller.stiffness_hz = p.controller.posture_hz = p.controller.load_hz = 37; /* at even ticks and at odd ones */
+    p.controller.bus_load_ratio = 1.0f;
+    bench_start(&p);
+    ticks(50);
+    drain();
+    int ended = 0, before = 0;
+    for (int i = 0; i < 600; i++) {
+        const count_t seen = run(1);
+        const int frames = (int)seen.all - (int)of(&seen, 0x700);
+        TEST_ASSERT_LESS_OR_EQUAL(2, frames);
+        TEST_ASSERT_TRUE(before == 0 || before == 2 || frames == 0); /* fewer only at the end */
+        ended += before != 0 && frames == 0;
+        before = frames;
+    }
+    TEST_ASSERT_GREATER_THAN(20, ended);
+}
+
 static void test_all_frames_of_a_snapshot_are_of_one_tick(void)
 {
     enum { KEPT = 256 };
@@ -582,6 +604,7 @@ int main(void)
     RUN_TEST(test_rates_are_the_parameters);
     RUN_TEST(test_rates_of_zero_are_silence_but_for_the_heartbeat);
     RUN_TEST(test_process_data_are_thinned_to_the_share_of_the_bus);
+    RUN_TEST(test_a_snapshot_leaves_two_frames_at_a_time);
     RUN_TEST(test_all_frames_of_a_snapshot_are_of_one_tick);
     RUN_TEST(test_K_that_is_not_valid_is_never_a_number);
     RUN_TEST(test_four_limbs_take_less_than_a_quarter_of_the_bus_and_begin_apart);

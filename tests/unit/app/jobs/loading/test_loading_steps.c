@@ -226,6 +226,32 @@ static void test_motors_that_do_not_come_there_have_three_seconds(void)
     }
 }
 
+/* A servo that does not answer is pushed by 0.3 rad at most, either way; the way of the shape comes on top. */
+static void test_a_servo_is_pushed_only_so_far(void)
+{
+    for (int i = 0; i < 4; i++) {
+        const double away_rad = i % 2 == 0 ? 0.0055 : -0.0055;
+        setUp();
+        begin(&along_x);
+        if (i / 2 != 0) {
+            to_row(1);
+            while (test.phase == LOADING_MOVE && test.along_mm > -along_x.step_mm) { /* until the shape has arrived */
+                tick();
+                follow();
+            }
+        }
+        const double shape_rad[] = {(double)(test.per_mm[0] * test.along_mm), (double)(test.per_mm[1] * test.along_mm)};
+        for (int k = 0; k < SERVOS_TICKS && test.phase == LOADING_MOVE; k++) {
+            for (int j = 0; j < 2; j++) {
+                joints.joint[BRACE_FEMUR + j].sample.motor_rad =
+                    (float)((double)test.start_motor_rad[j] + shape_rad[j] + (j == 0 ? away_rad : 0.0));
+            }
+            tick();
+        }
+        ASSERT_CLOSE(i % 2 == 0 ? -0.3 : 0.3, (double)loading_offset_rad(&test, BRACE_FEMUR) - shape_rad[0], 1e-3);
+    }
+}
+
 /* Commands alone count where the servos' yielding is part of K: nothing is waited for but the shape's way. */
 static void test_commanded_steps_wait_for_no_motor(void)
 {
@@ -398,6 +424,7 @@ int main(void)
     RUN_TEST(test_the_time_runs_from_the_start);
     RUN_TEST(test_motors_that_stand_there_are_read_after_20_ms);
     RUN_TEST(test_motors_that_do_not_come_there_have_three_seconds);
+    RUN_TEST(test_a_servo_is_pushed_only_so_far);
     RUN_TEST(test_commanded_steps_wait_for_no_motor);
     RUN_TEST(test_who_passes_through_begins_anew_and_who_wavers_does_not);
     RUN_TEST(test_a_start_forgets_the_test_before);

@@ -1,5 +1,5 @@
-/* One reading of a loading test, each of its numbers with a value of its own: what of the samples goes into the row, the
- * slope and the drift check, and under which name. */
+/* One reading of a loading test, each of its numbers with a value of its own: what of the samples goes into the row,
+ * the slope and the drift check, and under which name. */
 #include <string.h>
 
 #include "jobs/loading/reading.h"
@@ -70,8 +70,9 @@ static void test_the_first_reading_is_what_all_counts_from(void)
     TEST_ASSERT_EQUAL(1, test.result.rows);
     brace_row_t row;
     TEST_ASSERT_EQUAL(BRACE_OK, brace_recorder_row(&recorder, 0, &row));
-    const float told[] = {row.run, row.config, row.axis, row.rep, row.step, row.t_s, row.temp_degc, row.dx_mm, row.dz_mm,
-                          row.fx_n, row.fz_n, row.theta1_rad, row.theta2_rad, row.enc1_rad, row.enc2_rad};
+    const float told[] = {row.run,       row.config, row.axis,  row.rep,  row.step, row.t_s,        row.temp_degc,
+                          row.dx_mm,     row.dz_mm,  row.fx_n,  row.fz_n, row.theta1_rad, row.theta2_rad,
+                          row.enc1_rad,  row.enc2_rad};
     const double wanted[] = {3, 4, 0, 5, 0, 0.25, 32.0, 0.0, 0.0, 5.0, 8.5, 1.06, 1.15, 0.0, 0.0};
     for (int i = 0; i < 15; i++) {
         ASSERT_CLOSE(wanted[i], told[i], 1e-5);
