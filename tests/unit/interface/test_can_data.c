@@ -93,8 +93,8 @@ static void test_process_data_are_thinned_to_the_share_of_the_bus(void)
     TEST_ASSERT_TRUE(load > 0.09f);
 }
 
-/* Where nothing else is to be sent, two frames leave in each tick until a snapshot is told. A port that nobody has opened
- * takes none of them away. */
+/* Where nothing else is to be sent, two frames leave in each tick until a snapshot is told. A port that nobody has
+ * opened takes none of them away. */
 static void test_a_snapshot_leaves_two_frames_at_a_time(void)
 {
     brace_parameters_t p = bench_parameters();
