@@ -299,11 +299,11 @@ static void test_a_line_may_begin_to_echo(void)
         line_says(asked[i].frame, asked[i].count);
         const uint32_t once = heard(BRACE_SERIAL_MODBUS).count;
         TEST_ASSERT_GREATER_THAN(4, once);
-        TEST_ASSERT_EQUAL(once, sent_on_a_line_with_echo(asked[i].frame, asked[i].count, 300));
+        TEST_ASSERT_EQUAL(once, sent_on_a_line_with_echo(asked[i].frame, asked[i].count, 120));
         TEST_ASSERT_EQUAL(0, sent_on_a_line_with_echo(read, 0, 50)); /* and it is silent then */
         uint8_t ping[8] = {UNIT, 8, 0, 0, 0xa5, 0x37};
         (void)with_crc(ping, 6);
-        TEST_ASSERT_EQUAL(8, sent_on_a_line_with_echo(ping, 8, 300)); /* now it knows the echo */
+        TEST_ASSERT_EQUAL(8, sent_on_a_line_with_echo(ping, 8, 120)); /* now it knows the echo */
     }
 }
 

@@ -162,6 +162,22 @@ static void test_what_was_given_up_is_nobody_else_s(void)
     ASSERT_CLOSE(k.displacement.z_mm, answer.moved_mm.z_mm, 2e-3);
 }
 
+/* In a tick in which the wires have nothing to do, a question has both of its steps; a node that only listens on its bus
+ * has nothing to do there. */
+static void test_a_quiet_tick_answers_at_once(void)
+{
+    const brace_k_question_t question = {.where = BRACE_K_AT_POSTURE, .theta_rad = {0.0f, 0.8f, 1.2f}};
+    brace_k_answer_t answer;
+    parameters.controller.node_id = 0;
+    start();
+    for (int i = 0; i < 10; i++) {
+        TEST_ASSERT_EQUAL(BRACE_APP_LATER, brace_app_ask_k(&app, BRACE_ASKER_PROGRAM, &question, &answer));
+        ticks(1);
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_app_ask_k(&app, BRACE_ASKER_PROGRAM, &question, &answer));
+        ticks(1);
+    }
+}
+
 /* A board that nobody has configured answers too, and says that its limb is nobody's. */
 static void test_without_parameters_the_answer_is_uncalibrated(void)
 {
@@ -485,6 +501,7 @@ int main(void)
     RUN_TEST(test_K_under_a_force_over_CAN_and_the_force_is_used_up);
     RUN_TEST(test_at_a_tip_the_posture_is_the_one_before_the_load_moves_it);
     RUN_TEST(test_without_a_force_the_weight_counts);
+    RUN_TEST(test_a_quiet_tick_answers_at_once);
     RUN_TEST(test_what_was_given_up_is_nobody_else_s);
     RUN_TEST(test_a_warm_joint_yields_more_wherever_it_is_asked);
     RUN_TEST(test_without_parameters_the_answer_is_uncalibrated);
