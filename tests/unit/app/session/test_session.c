@@ -238,6 +238,8 @@ static void test_on_a_bench_who_lives_already_may_move_at_once(void)
 {
     session_start(&session, true, NULL);
     TEST_ASSERT_EQUAL(BRACE_OK, session_life(&session, we, NULL));
+    TEST_ASSERT_FALSE(session.is_open); /* nothing is begun by a sign of life, */
+    TEST_ASSERT_FALSE(session.is_alive); /* and no session lives before there is one */
     (void)session_tick(&session, 100000, SESSION_LIFE_US);
     TEST_ASSERT_EQUAL(BRACE_OK, session_command(&session, we, NULL, order, 8));
     TEST_ASSERT_TRUE(session_may_move(&session));
