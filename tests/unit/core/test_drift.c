@@ -295,6 +295,10 @@ static void test_watching_begins_without_evidence(void)
         TEST_ASSERT_EQUAL_FLOAT(0.0f, drift.evidence[cause]);
         TEST_ASSERT_EQUAL(0, drift.since[cause]);
     }
+    for (int cause = 0; cause < BRACE_DRIFT_CAUSE_COUNT; cause++) { /* the baseline is what has been learned */
+        TEST_ASSERT_TRUE(drift.offset[cause] < 0.0f || drift.offset[cause] > 0.0f);
+        TEST_ASSERT_EQUAL_FLOAT(drift.offset[cause], drift.held[cause]);
+    }
 }
 
 /* Readings that fit, within what the model itself may be off, are no evidence of anything. */

@@ -166,7 +166,8 @@ static void test_a_link_is_solved_within_its_words(void)
 static void test_a_joint_s_pivot_stays_within_its_word(void)
 {
     for (int n = 0; n < 300 * TIMES; n++) {
-        const double yields = any(0.01, 3.9), pivot_wanted = -0.5 + 7.5 / (300 * TIMES) * n, resists = (pivot_wanted - 1.0) / yields;
+        const double yields = any(0.01, 3.9), pivot_wanted = -0.5 + 7.5 / (300 * TIMES) * n;
+        const double resists = (pivot_wanted - 1.0) / yields;
         if (fabs(resists) > 15.9) {
             continue;
         }
@@ -199,6 +200,50 @@ static void test_a_wide_product(void)
     is = fixed_product(&p);
     wanted = 0.1 * 2.0 * 0.3 * 0.7 * 5.0 * 1.1;
     TEST_ASSERT_DOUBLE_WITHIN(1e-6, 1.0, ldexp((double)is.mantissa_q31, is.exponent - 31) / wanted);
+}
+
+static fixed_vec_t any_vec(double most, int format)
+{
+    return (fixed_vec_t){word(any(-most, most), format), word(any(-most, most), format)};
+}
+
+static fixed_link_t any_link(void)
+{
+    const fixed_vec_t none = {0, 0}, beam = any_vec(0.6, 28), beyond = any_vec(1.0, 30);
+    return (fixed_link_t){.to_beam = none, .beam = beam, .rigid = none, .root_root = none, .end_root = none,
+                          .bend = word(pow(10.0, any(-2.0, 0.5)), 29), .beyond = beyond, .own = none,
+                          .on_rigid = beyond};
+}
+
+/* A step from the straight limb: whatever it takes on, no link has bent by more than 0.9 rad or turned by more than 2,
+ * and nothing it takes on has a matrix that cannot be eliminated within its words. */
+static void test_a_step_bends_no_link_too_far(void)
+{
+    int taken = 0;
+    for (int n = 0; n < 2000 * TIMES; n++) {
+        fixed_limb_t limb = {.femur = any_link(), .tibia = any_link()};
+        const double hip = pow(10.0, any(-2.0, 0.5)), knee = pow(10.0, any(-2.0, 0.5));
+        fixed_pull_t pull;
+        fixed_pull_straight(&limb.tibia, &pull);
+        const fixed_matrix_t *w = &pull.resists;
+        const double m[6] = {number(w->rr, 27), number(w->ra, 27), number(w->rb, 27),
+                             number(w->aa, 27), number(w->ab, 27), number(w->bb, 27)};
+        const eliminated_t e = eliminated(m, number(limb.tibia.bend, 29));
+        const bool is_taken = fixed_step(&limb, true, word(hip, 29), word(knee, 29));
+        if (e.worst > 1e-3 || 1.0 + knee * e.resists < 0.062 || knee * e.resists > 4.001) {
+            TEST_ASSERT_FALSE(is_taken);
+        }
+        if (is_taken) {
+            taken++;
+            const fixed_shape_t *const shapes[] = {&limb.femur_shape, &limb.tibia_shape};
+            for (int link = 0; link < 2; link++) {
+                TEST_ASSERT_TRUE(fabs(number(shapes[link]->root, 29)) <= 2.0);
+                TEST_ASSERT_TRUE(fabs(number(shapes[link]->a, 29)) <= 0.9);
+                TEST_ASSERT_TRUE(fabs(number(shapes[link]->b, 29)) <= 0.9);
+            }
+        }
+    }
+    TEST_ASSERT_TRUE(taken > 500 * TIMES && taken < 1900 * TIMES);
 }
 
 /* --- the search for the buckling factor ----------------------------------------------------------------------- */
@@ -242,7 +287,8 @@ static void test_the_root_of_a_parabola(void)
         const double at[3] = {sign * unit * (below[which] - root) * (below[which] - other),
                               sign * unit * (1.0 - root) * (1.0 - other), sign * unit * (high - root) * (high - other)};
         const double chord = at[1] / (at[1] - at[2]), is_q = (root - 1.0) / (high - 1.0);
-        const int32_t is = fixed_root_q30(word(at[0], 30), word(at[1], 30), word(at[2], 30), k_q30[which], l_q29[which]);
+        const int32_t is =
+            fixed_root_q30(word(at[0], 30), word(at[1], 30), word(at[2], 30), k_q30[which], l_q29[which]);
         const double rho = (at[0] - at[1]) / (at[1] - at[2]);
         if (fabs(rho) < 7.9) {
             const double rounding = 0x1p-28 / (at[1] - at[2]), left = 4.0 * (chord - is_q) * (chord - is_q);
@@ -282,6 +328,7 @@ int main(void)
     RUN_TEST(test_a_link_is_solved_within_its_words);
     RUN_TEST(test_a_joint_s_pivot_stays_within_its_word);
     RUN_TEST(test_a_wide_product);
+    RUN_TEST(test_a_step_bends_no_link_too_far);
     RUN_TEST(test_shifts_of_the_search);
     RUN_TEST(test_the_root_of_a_parabola);
     RUN_TEST(test_a_step_from_the_chord_s_root);
