@@ -182,26 +182,6 @@ static void test_an_expected_load_names_a_flank(void)
     }
 }
 
-/* A take-up proves its flank by the load that it meets: until then no sensor names one, and none fails it. */
-static void test_a_take_up_expects_no_load(void)
-{
-    posture.has_levers = true;
-    posture.pose.lever_tibia = (brace_point_t){130.0f, 150.0f};
-    force.known = true;
-    force.z_n = 0.14f;
-    joints.joint[BRACE_TIBIA].sample.torque_n_mm = 5.0f;
-    configure();
-    for (int i = 0; i < 20; i++) {
-        tick();
-    }
-    TEST_ASSERT_EQUAL(BRACE_OK, brace_takeup_request(&flank.joint[BRACE_TIBIA].machine, -1));
-    for (int i = 0; i < 1000; i++) {
-        tick();
-        TEST_ASSERT_TRUE(i < 200 || flank.joint[BRACE_TIBIA].out.phase != BRACE_TAKEUP_IDLE);
-        TEST_ASSERT_TRUE(i < 200 || flank.joint[BRACE_TIBIA].out.flank == 0);
-    }
-}
-
 /* The root of the mean square of what three samples are away from the mean, on the newest one's side. */
 static void test_how_far_a_load_lags(void)
 {
@@ -250,7 +230,6 @@ int main(void)
     RUN_TEST(test_joints_that_are_not_watched);
     RUN_TEST(test_the_load_that_is_expected);
     RUN_TEST(test_an_expected_load_names_a_flank);
-    RUN_TEST(test_a_take_up_expects_no_load);
     RUN_TEST(test_how_far_a_load_lags);
     RUN_TEST(test_an_old_sample_proves_nothing);
     return UNITY_END();
