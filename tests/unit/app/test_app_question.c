@@ -162,6 +162,32 @@ static void test_what_was_given_up_is_nobody_else_s(void)
     ASSERT_CLOSE(k.displacement.z_mm, answer.moved_mm.z_mm, 2e-3);
 }
 
+/* An answer that nobody has taken gives way to the next one, and is not told to whom the next one is not for. Who still
+ * waits keeps its place. */
+static void test_an_answer_goes_to_its_asker_alone(void)
+{
+    question_job_t *job = &app.controller.question;
+    const question_inputs_t inputs = {.model = &app.controller.model,
+                                      .parameters = brace_app_parameters(&app),
+                                      .origin = BRACE_PARAMETERS_SLOT_A,
+                                      .joints = &app.controller.joints,
+                                      .down = app.controller.gravity.down};
+    const brace_k_question_t one = {.where = BRACE_K_AT_POSTURE, .theta_rad = {0.0f, 0.3f, 0.9f}};
+    const brace_k_question_t two = {.where = BRACE_K_AT_POSTURE, .theta_rad = {0.0f, 0.8f, 1.2f}};
+    brace_k_answer_t answer;
+    TEST_ASSERT_EQUAL(BRACE_APP_LATER, question_job_ask(job, BRACE_ASKER_CAN, &one, &answer));
+    TEST_ASSERT_EQUAL(BRACE_APP_LATER, question_job_ask(job, BRACE_ASKER_SLCAN, &two, &answer));
+    TEST_ASSERT_TRUE(question_job_work(job, &inputs, 2));
+    TEST_ASSERT_FALSE(question_job_is_coming(job, BRACE_ASKER_CAN));
+    TEST_ASSERT_TRUE(question_job_is_coming(job, BRACE_ASKER_SLCAN));
+    TEST_ASSERT_TRUE(question_job_work(job, &inputs, 2));
+    TEST_ASSERT_FALSE(question_job_is_coming(job, BRACE_ASKER_SLCAN));
+    TEST_ASSERT_EQUAL(BRACE_APP_LATER, question_job_ask(job, BRACE_ASKER_CAN, &one, &answer)); /* it came too late */
+    TEST_ASSERT_EQUAL(BRACE_OK, question_job_ask(job, BRACE_ASKER_SLCAN, &two, &answer));
+    const brace_loaded_stiffness_t k = expected(0.8f, 1.2f, 0.0f, 0.0f);
+    ASSERT_CLOSE(k.stiffness.k_xx_n_per_mm, answer.k.k_xx_n_per_mm, 4e-4);
+}
+
 /* In a tick in which the wires have nothing to do, a question has both of its steps; a node that only listens on its bus
  * has nothing to do there. */
 static void test_a_quiet_tick_answers_at_once(void)
@@ -501,6 +527,7 @@ int main(void)
     RUN_TEST(test_K_under_a_force_over_CAN_and_the_force_is_used_up);
     RUN_TEST(test_at_a_tip_the_posture_is_the_one_before_the_load_moves_it);
     RUN_TEST(test_without_a_force_the_weight_counts);
+    RUN_TEST(test_an_answer_goes_to_its_asker_alone);
     RUN_TEST(test_a_quiet_tick_answers_at_once);
     RUN_TEST(test_what_was_given_up_is_nobody_else_s);
     RUN_TEST(test_a_warm_joint_yields_more_wherever_it_is_asked);

@@ -98,6 +98,10 @@ static void test_K_in_space_is_the_reference_at_every_posture(void)
         ASSERT_CLOSE(in_plane.k[1][1], now()->space.across_n_per_mm, PROMISED * in_plane.k[1][1]);
         /* K in the plane is of the same limb: the coxa link yields in it too. */
         ASSERT_CLOSE(in_plane.k[0][0], now()->stiffness.now.k_xx_n_per_mm, 2e-5 * in_plane.k[0][0]);
+        ticks(20); /* K without a load is worked out now and then */
+        TEST_ASSERT_TRUE(now()->load.is_counted);
+        ASSERT_CLOSE(in_plane.k[1][1], now()->load.unloaded_across_n_per_mm, PROMISED * in_plane.k[1][1]);
+        ASSERT_CLOSE(in_plane.k[0][0], now()->load.unloaded.k_xx_n_per_mm, 2e-5 * in_plane.k[0][0]);
     }
 }
 

@@ -123,6 +123,32 @@ static void test_a_start_goes_on_from_the_record_and_knows_it(void)
     TEST_ASSERT_EQUAL(0, job.drift.steps);
 }
 
+/* When the set in force is another, what was told of the one before goes. */
+static void test_a_report_is_of_the_set_in_force(void)
+{
+    job.report = (brace_drift_report_t){.state = BRACE_DRIFT_DRIFTED, .evidence = 30.0f};
+    job.drift.state = BRACE_DRIFT_DRIFTED;
+    TEST_ASSERT_TRUE(drift_job_alarms(&job));
+    drift_job_configure(&job, true);
+    work(3); /* learns, opens, tells */
+    TEST_ASSERT_FALSE(drift_job_alarms(&job));
+    TEST_ASSERT_EQUAL(BRACE_DRIFT_LEARNING, job.report.state);
+    TEST_ASSERT_EQUAL_FLOAT(0.0f, job.report.evidence);
+    TEST_ASSERT_EQUAL(0, job.report.steps);
+}
+
+/* The controller's own job: a record belongs to one set of parameters, whatever of it has changed. */
+static void test_each_set_has_its_own_records(void)
+{
+    const uint32_t identity = app.controller.drift.journal.identity;
+    brace_parameters_t p = bench_parameters();
+    bench_start(&p);
+    TEST_ASSERT_EQUAL_HEX32(identity, app.controller.drift.journal.identity);
+    p.limb.femur_mm = 190.0f;
+    bench_start(&p);
+    TEST_ASSERT_TRUE(identity != app.controller.drift.journal.identity);
+}
+
 /* Nothing is written while the memory is another's, and never twice within eight ticks. */
 static void test_when_it_may_write(void)
 {
@@ -177,6 +203,8 @@ int main(void)
     RUN_TEST(test_evidence_that_has_moved_is_kept);
     RUN_TEST(test_many_readings_are_kept);
     RUN_TEST(test_a_start_goes_on_from_the_record_and_knows_it);
+    RUN_TEST(test_a_report_is_of_the_set_in_force);
+    RUN_TEST(test_each_set_has_its_own_records);
     RUN_TEST(test_when_it_may_write);
     RUN_TEST(test_a_memory_that_fails_is_told);
     return UNITY_END();

@@ -188,6 +188,48 @@ static void test_the_drift_check_gets_each_number(void)
     TEST_ASSERT_EQUAL_FLOAT_ARRAY(wanted, told, 7);
 }
 
+/* The drift check's K is that of joints at the reference temperature: under the preload where a load is counted, else
+ * without one. Where the springs never change it is the K of now. */
+static void test_the_drift_check_s_K(void)
+{
+    static model_t model;
+    static model_work_t work;
+    brace_parameters_t p = bench_parameters();
+    p.slow.joint_compliance_per_degc = 0.01f;
+    model_configure(&model, &p, false);
+    inputs.parameters = &p, inputs.model = &model, inputs.work = &work;
+    joints.joint[BRACE_FEMUR].sample.temp_degc = joints.joint[BRACE_TIBIA].sample.temp_degc =
+        p.slow.reference_degc + 50.0f;
+    test.result.theta1_rad = 0.9f, test.result.theta2_rad = 1.3f;
+    test.result.preload_x_n = -6.0f, test.result.preload_z_n = 15.0f;
+    posture.unbent_rad[BRACE_FEMUR] = 0.8f, posture.unbent_rad[BRACE_TIBIA] = 1.2f;
+    brace_planar_t planar;
+    brace_stiffness_t unloaded;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_planar_collapse(&p.limb, &planar));
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_planar_stiffness(&planar, 0.9f, 1.3f, &unloaded));
+    const brace_stiffness_t loaded =
+        equilibrium(&p, 0.8f, 1.2f, (brace_force_t){-6.0f, 15.0f}, (brace_vec_t){0.0f, -1.0f}).stiffness;
+    for (int is_counted = 0; is_counted < 2; is_counted++) {
+        const brace_stiffness_t *wanted = is_counted != 0 ? &loaded : &unloaded;
+        const double off = 1e-4 * (double)wanted->lambda_max_n_per_mm;
+        snapshot.load.is_counted = is_counted != 0;
+        for (int i = 0; i < 5 && !reading_model_at_reference(&test, &inputs); i++) {
+        }
+        ASSERT_CLOSE(wanted->k_xx_n_per_mm, test.at_reference.k_xx_n_per_mm, off);
+        ASSERT_CLOSE(wanted->k_xz_n_per_mm, test.at_reference.k_xz_n_per_mm, off);
+        ASSERT_CLOSE(wanted->k_zz_n_per_mm, test.at_reference.k_zz_n_per_mm, off);
+        for (int i = 0; i < 5 && !reading_model_now(&test, &inputs); i++) { /* half as stiff joints */
+        }
+        TEST_ASSERT_TRUE(is_counted == 0 || test.model.k_xx_n_per_mm < wanted->k_xx_n_per_mm);
+        TEST_ASSERT_EQUAL_FLOAT(test.model.k_xx_n_per_mm, test.at_reference.k_xx_n_per_mm);
+    }
+    p.slow.joint_compliance_per_degc = 0.0f;
+    model_configure(&model, &p, false);
+    test.at_reference.k_xx_n_per_mm = 77.0f;
+    TEST_ASSERT_TRUE(reading_model_at_reference(&test, &inputs));
+    TEST_ASSERT_EQUAL_FLOAT(77.0f, test.at_reference.k_xx_n_per_mm);
+}
+
 /* A thermometer that is none, or that no limb has, says that it is as warm as the reference. */
 static void test_a_temperature_that_is_none_counts_as_the_reference(void)
 {
@@ -237,6 +279,7 @@ int main(void)
     RUN_TEST(test_a_joint_of_one_encoder_has_no_deflection);
     RUN_TEST(test_a_force_is_sensed_if_all_of_it_is);
     RUN_TEST(test_the_drift_check_gets_each_number);
+    RUN_TEST(test_the_drift_check_s_K);
     RUN_TEST(test_a_temperature_that_is_none_counts_as_the_reference);
     RUN_TEST(test_a_run_ends_where_the_motion_turns_round);
     RUN_TEST(test_which_readings_are_fit);

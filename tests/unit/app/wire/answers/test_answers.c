@@ -545,6 +545,21 @@ static void test_a_block_of_another_dictionary_is_refused(void)
     }
 }
 
+/* What is no block is refused as such, though its CRC fits. */
+static void test_what_is_no_block_is_refused(void)
+{
+    to_configuration();
+    for (int i = 0; i < 2; i++) {
+        uint8_t block[BRACE_BLOCK_BYTES];
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_parameters_pack(brace_app_parameters(&app), 1, block, sizeof block));
+        block[i == 0 ? 0 : 4] ^= 2u; /* its name; its format */
+        const uint32_t crc = brace_crc32(0, block, BRACE_BLOCK_BYTES - 4);
+        memcpy(block + BRACE_BLOCK_BYTES - 4, &crc, sizeof crc);
+        upload_block(block);
+        refuses(i == 0 ? BRACE_E_MAGIC : BRACE_E_FORMAT, BRACE_SCHEMA_HASH, BRACE_REQUEST_COMMIT);
+    }
+}
+
 /* The board's ceiling holds for a whole block and for what is staged one by one; the refusal tells which entry. */
 static void test_the_board_s_ceiling_refuses_a_block_and_tells_which_entry(void)
 {
@@ -665,6 +680,7 @@ int main(void)
     RUN_TEST(test_what_no_limb_has_is_refused);
     RUN_TEST(test_an_upload_needs_its_mode_its_size_and_its_order);
     RUN_TEST(test_a_block_of_another_dictionary_is_refused);
+    RUN_TEST(test_what_is_no_block_is_refused);
     RUN_TEST(test_the_board_s_ceiling_refuses_a_block_and_tells_which_entry);
     RUN_TEST(test_a_set_that_the_store_refuses_names_its_member);
     RUN_TEST(test_a_set_that_is_stored_answers_with_what_is_in_force);
