@@ -161,6 +161,13 @@ static void test_trust_in_each_number_of_the_calibration(void)
         const double angle = doubted == 3 ? 0.02 * 0.02 : 0.0, heat = doubted == 4 ? 0.4 * 0.4 : 0.0;
         const double wanted[7] = {known + common + beside * beside * length, -1.0, known + common, 2.0 * angle, angle,
                                   heat, known};
+        if (doubted == 0) { /* of each bending as a share of itself; the tibia's is a part of what its estimate is of */
+            const double knee_mm = (double)believed.joint[BRACE_TIBIA].compliance_rad_per_n_mm *
+                                   (double)believed.tibia_mm * (double)believed.tibia_mm;
+            const double tibia_mm = (double)believed.link[BRACE_TIBIA].bending_mm_per_n;
+            ASSERT_CLOSE(0.07, report().learned_sigma_ratio[0], 1e-4);
+            ASSERT_CLOSE(0.07 * hypot(tibia_mm, knee_mm) / tibia_mm, report().learned_sigma_ratio[1], 1e-3);
+        }
         for (int i = 0; i < 7; i++) {
             const double is = (double)drift.covariance[diagonal[i]];
             if (wanted[i] >= 0.0) {
@@ -287,6 +294,10 @@ static void test_watching_begins_without_evidence(void)
     for (int cause = 0; cause <= BRACE_DRIFT_CAUSE_COUNT; cause++) {
         TEST_ASSERT_EQUAL_FLOAT(0.0f, drift.evidence[cause]);
         TEST_ASSERT_EQUAL(0, drift.since[cause]);
+    }
+    for (int cause = 0; cause < BRACE_DRIFT_CAUSE_COUNT; cause++) { /* the baseline is what has been learned */
+        TEST_ASSERT_TRUE(drift.offset[cause] < 0.0f || drift.offset[cause] > 0.0f);
+        TEST_ASSERT_EQUAL_FLOAT(drift.offset[cause], drift.held[cause]);
     }
 }
 
