@@ -286,6 +286,32 @@ static void a_servo_that_lags_takes_up(void)
     TEST_ASSERT_EQUAL_INT(BRACE_TAKEUP_DONE, out.takeup);
 }
 
+/* Without a load a flank is remembered for 250 ms, and while the motor stays within a fifth of the gap. */
+static void a_flank_without_a_load_is_remembered_for_a_while(void)
+{
+    for (int flank = -1; flank <= 1; flank += 2) {
+        const int engaged = flank > 0 ? BRACE_BACKLASH_ENGAGED_POSITIVE : BRACE_BACKLASH_ENGAGED_NEGATIVE;
+        for (int moves = 0; moves < 3; moves++) {
+            setUp();
+            noise_n_mm = 0.0;
+            stand(0.0, flank * 2500.0, 300);
+            TEST_ASSERT_EQUAL_INT(engaged, out.state);
+            stand(0.0, 0.0, 200); /* the mean takes some 30 ms to forget the load */
+            TEST_ASSERT_EQUAL_INT(engaged, out.state);
+            if (moves == 0) {
+                stand(0.0, 0.0, 120);
+                TEST_ASSERT_EQUAL_INT(BRACE_BACKLASH_UNKNOWN, out.state);
+                continue;
+            }
+            const double back_rad = -flank * (moves == 1 ? 0.17 : 0.23) * (double)GAP_RAD;
+            for (int i = 1; i <= 20; i++) { /* friction is all that the motor bears */
+                tick(back_rad * i / 20.0, -flank * 200.0);
+            }
+            TEST_ASSERT_EQUAL_INT(moves == 1 ? engaged : BRACE_BACKLASH_CROSSING, out.state);
+        }
+    }
+}
+
 /* The motor moves evenly. */
 static void advance_to(double from_rad, double to_rad, int ticks)
 {
@@ -632,6 +658,7 @@ int main(void)
     RUN_TEST(bad_and_late_samples_are_a_fault_that_heals);
     RUN_TEST(a_takeup_preloads_verifies_and_lets_go);
     RUN_TEST(a_servo_that_lags_takes_up);
+    RUN_TEST(a_flank_without_a_load_is_remembered_for_a_while);
     RUN_TEST(each_takeup_begins_anew);
     RUN_TEST(load_and_motor_stay_while_they_are_verified);
     RUN_TEST(each_parameter_has_its_bounds);

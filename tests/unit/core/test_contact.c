@@ -3,6 +3,7 @@
 #include <stdbool.h>
 #include <string.h>
 
+#include "base/check.h"
 #include "brace/chain.h"
 #include "brace/contact.h"
 #include "brace/planar.h"
@@ -348,6 +349,16 @@ static void bad_input_is_refused_and_touches_nothing(void)
     TEST_ASSERT_EQUAL_INT(0, memcmp(&grip_before, &grip, sizeof grip));
 }
 
+/* Of several refusals the first is told, as check.h says. */
+static void the_first_refusal_is_told(void)
+{
+    static const brace_status_t status[] = {BRACE_OK, BRACE_E_RANGE, BRACE_E_NOT_FINITE, BRACE_E_SINGULAR};
+    for (int i = 0; i < 16; i++) {
+        const brace_status_t first = status[i / 4], second = status[i % 4];
+        TEST_ASSERT_EQUAL_INT(i / 4 == 0 ? second : first, brace_first_refusal(first, second));
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -363,5 +374,6 @@ int main(void)
     RUN_TEST(the_choice_of_stiffness);
     RUN_TEST(bad_stiffness_is_refused);
     RUN_TEST(bad_input_is_refused_and_touches_nothing);
+    RUN_TEST(the_first_refusal_is_told);
     return UNITY_END();
 }

@@ -161,6 +161,13 @@ static void test_trust_in_each_number_of_the_calibration(void)
         const double angle = doubted == 3 ? 0.02 * 0.02 : 0.0, heat = doubted == 4 ? 0.4 * 0.4 : 0.0;
         const double wanted[7] = {known + common + beside * beside * length, -1.0, known + common, 2.0 * angle, angle,
                                   heat, known};
+        if (doubted == 0) { /* of each bending as a share of itself; the tibia's is a part of what its estimate is of */
+            const double knee_mm = (double)believed.joint[BRACE_TIBIA].compliance_rad_per_n_mm *
+                                   (double)believed.tibia_mm * (double)believed.tibia_mm;
+            const double tibia_mm = (double)believed.link[BRACE_TIBIA].bending_mm_per_n;
+            ASSERT_CLOSE(0.07, report().learned_sigma_ratio[0], 1e-4);
+            ASSERT_CLOSE(0.07 * hypot(tibia_mm, knee_mm) / tibia_mm, report().learned_sigma_ratio[1], 1e-3);
+        }
         for (int i = 0; i < 7; i++) {
             const double is = (double)drift.covariance[diagonal[i]];
             if (wanted[i] >= 0.0) {
@@ -288,6 +295,10 @@ static void test_watching_begins_without_evidence(void)
         TEST_ASSERT_EQUAL_FLOAT(0.0f, drift.evidence[cause]);
         TEST_ASSERT_EQUAL(0, drift.since[cause]);
     }
+    for (int cause = 0; cause < BRACE_DRIFT_CAUSE_COUNT; cause++) { /* the baseline is what has been learned */
+        TEST_ASSERT_TRUE(drift.offset[cause] < 0.0f || drift.offset[cause] > 0.0f);
+        TEST_ASSERT_EQUAL_FLOAT(drift.offset[cause], drift.held[cause]);
+    }
 }
 
 /* Readings that fit, within what the model itself may be off, are no evidence of anything. */
@@ -302,6 +313,31 @@ static void test_readings_that_fit_are_no_evidence(void)
         TEST_ASSERT_TRUE(drift.evidence[cause] < 0.25f * BRACE_DRIFT_ALARM);
     }
     TEST_ASSERT_TRUE(report().evidence < 0.25f * BRACE_DRIFT_ALARM);
+}
+
+/* The model may be off by its share of both forces together, also where they are alike. */
+static void test_what_the_model_may_be_off_is_no_evidence(void)
+{
+    const brace_drift_setup_t rough = {0.1f * NOISE_N, 0.02f, 0.02f, 0.2f};
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_drift_learn(&drift, &believed, &rough));
+    noise_n = 0.1f * NOISE_N;
+    rounds(20);
+    TEST_ASSERT_EQUAL(BRACE_DRIFT_WATCHING, drift.state);
+    for (int posture = 0; posture < POSTURES; posture++) {
+        const brace_stiffness_t k = stiffness_of(&believed, postures[posture]);
+        const float det = k.lambda_min_n_per_mm * k.lambda_max_n_per_mm, x_n = 8.0f, z_n = 8.0f;
+        const float dx = (k.k_zz_n_per_mm * x_n - k.k_xz_n_per_mm * z_n) / det;
+        const float dz = (k.k_xx_n_per_mm * z_n - k.k_xz_n_per_mm * x_n) / det;
+        for (int i = 0; i < 30; i++) {
+            const float sign = i % 2 == 0 ? 1.0f : -1.0f, off = 1.0f + 0.018f * (float)(posture % 2 == 0 ? 1 : -1);
+            const brace_drift_reading_t reading = {postures[posture][0], postures[posture][1], sign * dx, sign * dz,
+                                                   sign * x_n * off, sign * z_n * off, 0.0f};
+            TEST_ASSERT_EQUAL(BRACE_OK, brace_drift_step(&drift, &believed, &k, &reading));
+            for (int cause = 0; cause <= BRACE_DRIFT_CAUSE_COUNT; cause++) {
+                TEST_ASSERT_TRUE(drift.evidence[cause] < 0.25f * BRACE_DRIFT_ALARM);
+            }
+        }
+    }
 }
 
 static void check_loss(int link, brace_drift_cause_t cause)
@@ -536,6 +572,7 @@ int main(void)
     RUN_TEST(test_readings_are_counted_since_the_evidence_left_zero);
     RUN_TEST(test_watching_begins_without_evidence);
     RUN_TEST(test_readings_that_fit_are_no_evidence);
+    RUN_TEST(test_what_the_model_may_be_off_is_no_evidence);
     RUN_TEST(test_a_tenth_of_the_femurs_stiffness_lost_is_told);
     RUN_TEST(test_a_tenth_of_the_tibias_stiffness_lost_is_told);
     RUN_TEST(test_a_spring_that_goes_soft_is_not_taken_for_the_femur);

@@ -3,7 +3,7 @@
 #include <math.h>
 
 #pragma GCC diagnostic ignored "-Wunused-function" /* this suite does not call all functions of the header */
-#include "loaded/fixed_solve.h"
+#include "loaded/fixed_buckling.h"
 #include "unity.h"
 
 void setUp(void) {}
@@ -166,7 +166,8 @@ static void test_a_link_is_solved_within_its_words(void)
 static void test_a_joint_s_pivot_stays_within_its_word(void)
 {
     for (int n = 0; n < 300 * TIMES; n++) {
-        const double yields = any(0.01, 3.9), pivot_wanted = -0.5 + 7.5 / (300 * TIMES) * n, resists = (pivot_wanted - 1.0) / yields;
+        const double yields = any(0.01, 3.9), pivot_wanted = -0.5 + 7.5 / (300 * TIMES) * n;
+        const double resists = (pivot_wanted - 1.0) / yields;
         if (fabs(resists) > 15.9) {
             continue;
         }
@@ -201,6 +202,125 @@ static void test_a_wide_product(void)
     TEST_ASSERT_DOUBLE_WITHIN(1e-6, 1.0, ldexp((double)is.mantissa_q31, is.exponent - 31) / wanted);
 }
 
+static fixed_vec_t any_vec(double most, int format)
+{
+    return (fixed_vec_t){word(any(-most, most), format), word(any(-most, most), format)};
+}
+
+static fixed_link_t any_link(void)
+{
+    const fixed_vec_t none = {0, 0}, beam = any_vec(0.6, 28), beyond = any_vec(1.0, 30);
+    return (fixed_link_t){.to_beam = none, .beam = beam, .rigid = none, .root_root = none, .end_root = none,
+                          .bend = word(pow(10.0, any(-2.0, 0.5)), 29), .beyond = beyond, .own = none,
+                          .on_rigid = beyond};
+}
+
+/* A step from the straight limb: whatever it takes on, no link has bent by more than 0.9 rad or turned by more than 2,
+ * and nothing it takes on has a matrix that cannot be eliminated within its words. */
+static void test_a_step_bends_no_link_too_far(void)
+{
+    int taken = 0;
+    for (int n = 0; n < 2000 * TIMES; n++) {
+        fixed_limb_t limb = {.femur = any_link(), .tibia = any_link()};
+        const double hip = pow(10.0, any(-2.0, 0.5)), knee = pow(10.0, any(-2.0, 0.5));
+        fixed_pull_t pull;
+        fixed_pull_straight(&limb.tibia, &pull);
+        const fixed_matrix_t *w = &pull.resists;
+        const double m[6] = {number(w->rr, 27), number(w->ra, 27), number(w->rb, 27),
+                             number(w->aa, 27), number(w->ab, 27), number(w->bb, 27)};
+        const eliminated_t e = eliminated(m, number(limb.tibia.bend, 29));
+        const bool is_taken = fixed_step(&limb, true, word(hip, 29), word(knee, 29));
+        if (e.worst > 1e-3 || 1.0 + knee * e.resists < 0.062 || knee * e.resists > 4.001) {
+            TEST_ASSERT_FALSE(is_taken);
+        }
+        if (is_taken) {
+            taken++;
+            const fixed_shape_t *const shapes[] = {&limb.femur_shape, &limb.tibia_shape};
+            for (int link = 0; link < 2; link++) {
+                TEST_ASSERT_TRUE(fabs(number(shapes[link]->root, 29)) <= 2.0);
+                TEST_ASSERT_TRUE(fabs(number(shapes[link]->a, 29)) <= 0.9);
+                TEST_ASSERT_TRUE(fabs(number(shapes[link]->b, 29)) <= 0.9);
+            }
+        }
+    }
+    TEST_ASSERT_TRUE(taken > 500 * TIMES && taken < 1900 * TIMES);
+}
+
+/* --- the search for the buckling factor ----------------------------------------------------------------------- */
+
+/* Bits up are 2^bits; bits down are rounded down, to nothing or -1 in the end. */
+static void test_shifts_of_the_search(void)
+{
+    for (int up = -40; up <= 20; up++) {
+        for (int n = 0; n < 20; n++) {
+            const int32_t is = word(any(-1.0, 1.0), 10);
+            TEST_ASSERT_DOUBLE_WITHIN(0.0, floor(ldexp((double)is, up)), (double)shifted_up(is, up));
+        }
+    }
+    for (int n = 0; n < 30 * TIMES; n++) {
+        const int32_t a = word(any(-1.0, 1.0) * pow(10.0, any(-9.0, 0.0)), 30), b = word(any(-1.0, 1.0) * 1e-3, 30);
+        const int32_t room = room_above(a, b);
+        const double most = fmax(fabs((double)a + 0.5), fabs((double)b + 0.5)); /* -1 has the magnitude of 0 */
+        TEST_ASSERT_TRUE(ldexp(most, room) < 0x1p30 + 1.0 && (ldexp(most, room + 1) > 0x1p30 - 1.0 || room == 29));
+        const fixed_wide_t wide = {a, (int32_t)(n % 9) - 4};
+        TEST_ASSERT_DOUBLE_WITHIN(0.0, floor(ldexp((double)a, wide.exponent - 40)), (double)wide_in_unit(wide, 40));
+        TEST_ASSERT_DOUBLE_WITHIN(0.0, (double)a, (double)wide_in_unit(wide, wide.exponent));
+    }
+}
+
+/* A parabola through three determinants: at 1, at the load that is the root of two times that, and at one below, which
+ * is no load, or 1, 2 or 4 half octaves less. A step of Newton's method from the chord's root leaves the square of how
+ * far the root is from there. Nothing lies outside the two loads. */
+static void test_the_root_of_a_parabola(void)
+{
+    static const double below[] = {0.70710678118654752, 0.5, 0.25, 0.0};
+    static const int32_t k_q30[] = {Q31(0.5857864376 / 2), Q31(0.4530818393 / 2), Q31(0.3557642 / 2),
+                                    Q31(0.2928932188 / 2)};
+    static const int32_t l_q29[] = {Q31(1.414213562 / 4), Q31(0.8284271247 / 4), Q31(0.5522847498 / 4),
+                                    Q31(0.4142135624 / 4)};
+    const double high = 1.4142135623730951;
+    for (int n = 0; n < 300 * TIMES; n++) {
+        const double root = any(1.01, 1.40), other = n % 2 == 0 ? any(2.0, 20.0) : any(-20.0, -1.0);
+        const int which = n % 4;
+        const double unit = pow(10.0, any(-3.0, 0.0)) / fabs((0.0 - root) * (0.0 - other)) * 0.9;
+        const double sign = other > 0.0 ? 1.0 : -1.0;
+        const double at[3] = {sign * unit * (below[which] - root) * (below[which] - other),
+                              sign * unit * (1.0 - root) * (1.0 - other), sign * unit * (high - root) * (high - other)};
+        const double chord = at[1] / (at[1] - at[2]), is_q = (root - 1.0) / (high - 1.0);
+        const int32_t is =
+            fixed_root_q30(word(at[0], 30), word(at[1], 30), word(at[2], 30), k_q30[which], l_q29[which]);
+        const double rho = (at[0] - at[1]) / (at[1] - at[2]);
+        if (fabs(rho) < 7.9) {
+            const double rounding = 0x1p-28 / (at[1] - at[2]), left = 4.0 * (chord - is_q) * (chord - is_q);
+            TEST_ASSERT_DOUBLE_WITHIN(left + rounding + 1e-6, is_q, number(is, 30));
+        }
+    }
+}
+
+/* The step that fixed_buckling.h names, whatever the three determinants are: within the two loads, and from the chord's
+ * root not at all where the parabola does not fall there. */
+static void test_a_step_from_the_chord_s_root(void)
+{
+    static const double k[] = {0.5857864376, 0.4530818393, 0.3557642, 0.2928932188};
+    static const double l[] = {1.414213562, 0.8284271247, 0.5522847498, 0.4142135624};
+    int ends[3] = {0, 0, 0};
+    for (int n = 0; n < 600 * TIMES; n++) {
+        const double low = pow(10.0, any(-1.5, -0.1)), high = -pow(10.0, any(-1.5, -0.1)), before = any(-0.9, 0.9);
+        const int which = n % 4;
+        const int32_t is = fixed_root_q30(word(before, 30), word(low, 30), word(high, 30), word(0.5 * k[which], 31),
+                                          word(0.25 * l[which], 31));
+        const double chord = low / (low - high), rho = fmax(-8.0, fmin(8.0, (before - low) / (low - high)));
+        const double g = -k[which] * (1.0 - l[which] * rho), slope = 1.0 - g * (2.0 * chord - 1.0);
+        const double root = chord - g * chord * (1.0 - chord) / slope;
+        if (fabs(slope - 0.0625) > 1e-5) {
+            const double wanted = slope < 0.0625 ? chord : fmax(0.0, fmin(1.0, root));
+            TEST_ASSERT_DOUBLE_WITHIN(2e-6 / (slope * slope), wanted, number(is, 30));
+            ends[slope < 0.0625 ? 0 : root < 0.0 ? 1 : root > 1.0 ? 2 : 0]++;
+        }
+    }
+    TEST_ASSERT_TRUE(ends[0] > 100 * TIMES && ends[1] + ends[2] > 0);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -208,5 +328,9 @@ int main(void)
     RUN_TEST(test_a_link_is_solved_within_its_words);
     RUN_TEST(test_a_joint_s_pivot_stays_within_its_word);
     RUN_TEST(test_a_wide_product);
+    RUN_TEST(test_a_step_bends_no_link_too_far);
+    RUN_TEST(test_shifts_of_the_search);
+    RUN_TEST(test_the_root_of_a_parabola);
+    RUN_TEST(test_a_step_from_the_chord_s_root);
     return UNITY_END();
 }

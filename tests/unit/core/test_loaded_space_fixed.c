@@ -445,9 +445,15 @@ static void test_K_that_no_limb_has_is_refused(void)
         {-1.0f, 0.0f, 0.0f, 1.0f, 0.0f, 1.0f}, {1.0f, 0.0f, 0.0f, -1.0f, 0.0f, 1.0f},
         {1.0f, 0.0f, 0.0f, 1.0f, 0.0f, -1.0f}, {1e38f, 0.0f, 0.0f, 1e38f, 0.0f, 1e38f},
         {1e-38f, 0.0f, 0.0f, 1e-38f, 0.0f, 1e-38f}};
+    const brace_k3_t sound = {3.0f, 0.0f, 0.0f, 2.0f, 0.0f, 1.0f};
     for (int i = 0; i < 5; i++) {
         brace_stiffness_spatial_t s;
         brace_stiffness_t plane;
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_loaded_space_fixed_in_plane(&sound, &plane)); /* it leaves its words behind */
+        if (i >= 3) {
+            TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, brace_loaded_space_fixed_in_plane(&no_limb_s[i], &plane));
+        }
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_loaded_space_fixed_turn(0.0f, &sound, &s));
         TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, brace_loaded_space_fixed_turn(0.0f, &no_limb_s[i], &s));
         if (i != 1) { /* the limb's plane has no y */
             TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, brace_loaded_space_fixed_in_plane(&no_limb_s[i], &plane));
