@@ -263,6 +263,23 @@ static void test_commanded_steps_wait_for_no_motor(void)
     ASSERT_CLOSE(0.0, loading_offset_rad(&test, BRACE_FEMUR), 0.0);
 }
 
+/* A hundredth of a step of the joint that goes further, and what its encoder can tell apart. */
+static void test_how_near_a_motor_has_to_come(void)
+{
+    for (int axis = 0; axis < 2; axis++) {
+        brace_loading_setup_t setup = along_x;
+        setup.axis = axis == 0 ? BRACE_AXIS_X : BRACE_AXIS_Z;
+        setUp();
+        begin(&setup);
+        const double femur = fabs((double)test.per_mm[0]), tibia = fabs((double)test.per_mm[1]);
+        TEST_ASSERT_TRUE(fabs(femur - tibia) > 0.01 * femur);
+        const double furthest_rad = (double)setup.step_mm * (femur > tibia ? femur : tibia);
+        for (int i = 0; i < 2; i++) {
+            ASSERT_CLOSE(0.01 * furthest_rad + 1e-5, test.there_rad[i], 1e-8);
+        }
+    }
+}
+
 /* A motor on its way through has not come; one that has come may waver by three times what it came within. */
 static void test_who_passes_through_begins_anew_and_who_wavers_does_not(void)
 {
@@ -426,6 +443,7 @@ int main(void)
     RUN_TEST(test_motors_that_do_not_come_there_have_three_seconds);
     RUN_TEST(test_a_servo_is_pushed_only_so_far);
     RUN_TEST(test_commanded_steps_wait_for_no_motor);
+    RUN_TEST(test_how_near_a_motor_has_to_come);
     RUN_TEST(test_who_passes_through_begins_anew_and_who_wavers_does_not);
     RUN_TEST(test_a_start_forgets_the_test_before);
     RUN_TEST(test_the_second_half_of_a_dwell_is_averaged);

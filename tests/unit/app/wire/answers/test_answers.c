@@ -282,6 +282,18 @@ static void test_an_entry_that_is_none_is_no_command(void)
     }
 }
 
+/* On a bench, who asks or tells becomes nobody's owner; who commands does. */
+static void test_a_question_owns_nothing(void)
+{
+    takes(BRACE_REQUEST_IDENTIFY);
+    asked.set_gravity = (brace_set_gravity_request_t){.direction_rad = -1.2f, .lean_rad = 0.1f};
+    takes(BRACE_REQUEST_SET_GRAVITY);
+    TEST_ASSERT_FALSE(app.controller.ownership.session.is_open);
+    TEST_ASSERT_FALSE(app.controller.ownership.has_configurer);
+    (void)put(BRACE_REQUEST_LET_GO);
+    TEST_ASSERT_TRUE(app.controller.ownership.session.is_open);
+}
+
 static void test_what_no_request_stands_for(void)
 {
     refuses(BRACE_REFUSED_UNKNOWN, BRACE_REQUEST_CODE_MOST, BRACE_REQUEST_CODE_MOST + 1u);
@@ -670,6 +682,7 @@ int main(void)
     RUN_TEST(test_stop_takes_back_what_has_not_begun);
     RUN_TEST(test_a_seal_is_for_a_command);
     RUN_TEST(test_an_entry_that_is_none_is_no_command);
+    RUN_TEST(test_a_question_owns_nothing);
     RUN_TEST(test_what_no_request_stands_for);
     RUN_TEST(test_a_force_is_used_up_by_its_answer);
     RUN_TEST(test_both_knees_under_a_load);
