@@ -1,4 +1,4 @@
-"""Claims about so few inputs that a processor goes through all of them: the harness, compiled for this machine and run."""
+"""Claims about so few inputs that a processor goes through all: the harness, compiled for this machine and run."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Prove the claims of proofs.toml with CBMC or by going through all inputs, show that each proof can fail, and write docs/proofs.md.
+"""Prove the claims of proofs.toml, show that each proof can fail, and write docs/proofs.md.
 
 usage: run.py [--only NAME ...] [--jobs N] [--seconds-most S] [--afresh] [--known] [--list]
 

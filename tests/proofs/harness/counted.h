@@ -1,4 +1,4 @@
-/* For claims about so few inputs that a processor goes through all of them: the harness is compiled for this machine and
+/* For claims about so few inputs that a processor goes through all: the harness is compiled for this machine and
  * run. What is under proof there is integers of fixed width, which are the same on every machine. */
 #ifndef BRACE_PROOF_COUNTED_H
 #define BRACE_PROOF_COUNTED_H

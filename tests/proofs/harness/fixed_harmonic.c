@@ -6,7 +6,7 @@
 static int64_t lowest, highest, so_far;
 static uint32_t products;
 
-/* First the cosine's part, then the sine's. Each and both together are at most the amplitude times 2^31: so the sum stays
+/* First the cosine's part, then the sine's. Each and both together are at most the amplitude times 2^31. So the sum is
  * between these ends after the first and after both. */
 static int64_t part_of_swing(int32_t a, int32_t b)
 {
@@ -63,7 +63,7 @@ static void rest_has_weight(void)
         fixed.rest_weight = 1 << zeros;
         PROVE(is_weight(fixed.rest_weight), "a power of two");
         PROVE(rest_least(&fixed) >= 1, "the least rest is above zero");
-        PROVE(rest < rest_least(&fixed) || (int64_t)rest << zeros > 1LL << 33, "a rest times its weight is large enough");
+        PROVE(rest < rest_least(&fixed) || (int64_t)rest << zeros > 1LL << 33, "a rest has weight");
     }
 }
 

@@ -28,7 +28,7 @@ static int32_t any_harmonic(const brace_fixed_harmonic_t *h, brace_sincos_t knee
         ASSUME((int64_t)rest << zeros_of_weight > 1LL << 33);
         return rest;
     }
-    PROVE(h == &structure->mean || h == &structure->minus_dev_x || h == &structure->dev_z, "a harmonic of the structure");
+    PROVE(h == &structure->mean || h == &structure->minus_dev_x || h == &structure->dev_z, "one of the structure");
     return h == &structure->mean ? trace : h == &structure->minus_dev_x ? minus_dev_x : dev_z;
 }
 

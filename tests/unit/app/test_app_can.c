@@ -177,6 +177,29 @@ static void test_bus_off_is_a_fault_recovery_is_tried_and_K_stays_valid(void)
     TEST_ASSERT_TRUE(frame_with(0x705, 1100, &frame));
 }
 
+/* Whoever owns the limb over a bus that is off, or over a channel that is closed, is gone; others stay. */
+static void test_a_port_that_is_closed_has_no_owner(void)
+{
+    static const uint8_t ports[] = {BRACE_ASKER_CAN, BRACE_ASKER_SLCAN, BRACE_ASKER_MODBUS_LINE};
+    session_t *session = &app.controller.ownership.session;
+    for (int is_off = 0; is_off < 2; is_off++) {
+        fake.can_health.bus_off = is_off != 0;
+        ticks(100); /* its health is asked for now and then */
+        for (int i = 0; i < 3; i++) { /* nobody has opened the channel of text */
+            session->is_open = session->is_alive = true;
+            session->owner = (brace_who_t){ports[i], 0};
+            session->silent_us = 0;
+            app.controller.takeup.count = 0;
+            brace_app_t *const same = &app;
+            const wire_tick_t tick = {.hal = &fake.hal, .app = same, .counters = &app.controller.counters,
+                                      .measured = &app.wires.measured, .now_us = fake.now_us};
+            (void)can_speak(&app.wires.can, &tick, 2);
+            const bool is_gone = i == 1 || (i == 0 && is_off != 0);
+            TEST_ASSERT_EQUAL(!is_gone, session->is_open);
+        }
+    }
+}
+
 static void test_frames_for_nobody_are_counted_and_a_flood_is_borne(void)
 {
     const brace_can_frame_t stranger = {.id = 0x7a3, .length = 8};
@@ -208,6 +231,7 @@ int main(void)
     RUN_TEST(test_requests_that_found_no_room_are_counted_and_told);
     RUN_TEST(test_a_full_mailbox_delays_a_frame_and_does_not_lose_it);
     RUN_TEST(test_bus_off_is_a_fault_recovery_is_tried_and_K_stays_valid);
+    RUN_TEST(test_a_port_that_is_closed_has_no_owner);
     RUN_TEST(test_frames_for_nobody_are_counted_and_a_flood_is_borne);
     return UNITY_END();
 }

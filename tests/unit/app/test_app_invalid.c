@@ -32,6 +32,35 @@ static void test_before_the_first_tick_and_without_samples_there_is_no_number(vo
     expect_no_k(BRACE_FLAG_STALE);
 }
 
+/* What a snapshot tells before the first tick: when, of which set, in which mode; every number is none. */
+static void test_the_first_snapshot_knows_its_set_and_no_number(void)
+{
+    brace_parameters_t p = bench_parameters();
+    p.gravity.direction_rad = -1.2f, p.gravity.lean_rad = 0.2f;
+    bench_start(&p);
+    const brace_snapshot_t *first = now();
+    TEST_ASSERT_EQUAL_HEX32(brace_parameters_crc(&p), first->parameter_crc);
+    TEST_ASSERT_EQUAL(BRACE_PARAMETERS_SLOT_A, first->parameter_origin);
+    TEST_ASSERT_EQUAL_HEX32(0, first->faults);
+    TEST_ASSERT_EQUAL(fake.now_us, first->taken_us);
+    TEST_ASSERT_EQUAL_FLOAT(-1.2f, first->gravity_direction_rad);
+    TEST_ASSERT_EQUAL_FLOAT(0.2f, first->gravity_lean_rad);
+    const float none[] = {first->tip_mm.x_mm,        first->tip_mm.z_mm,  first->play_shift_mm.x_mm,
+                          first->play_shift_mm.z_mm, first->force_x_n,    first->force_y_n,
+                          first->force_z_n,          first->temp_degc,    first->load.force_x_n,
+                          first->load.moved_z_mm,    first->load.buckling_factor, first->space.across_n_per_mm};
+    for (uint32_t i = 0; i < sizeof none / sizeof *none; i++) {
+        TEST_ASSERT_TRUE(isnan(none[i]));
+    }
+    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
+        TEST_ASSERT_TRUE(isnan(first->theta_rad[i]) && isnan(first->motor_rad[i]) && isnan(first->torque_n_mm[i]));
+    }
+    bench_board(); /* nothing stored: the defaults are a fault, and told from the start */
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_start(&app, &fake.hal));
+    TEST_ASSERT_EQUAL(BRACE_PARAMETERS_DEFAULT, now()->parameter_origin);
+    TEST_ASSERT_EQUAL_HEX32(BRACE_FAULT_PARAMETERS, now()->faults);
+}
+
 static void test_configuration_tells_no_k_and_why(void)
 {
     ticks(5);
@@ -104,6 +133,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_before_the_first_tick_and_without_samples_there_is_no_number);
+    RUN_TEST(test_the_first_snapshot_knows_its_set_and_no_number);
     RUN_TEST(test_configuration_tells_no_k_and_why);
     RUN_TEST(test_a_fault_with_sound_samples_is_flagged_too);
     RUN_TEST(test_a_posture_where_there_is_no_k_is_flagged);

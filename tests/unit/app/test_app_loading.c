@@ -195,6 +195,27 @@ static void test_the_drift_check_s_K_is_at_the_measured_posture(void)
     ASSERT_CLOSE(k->k_zz_n_per_mm, reference->k_zz_n_per_mm, rounding);
 }
 
+/* What costs much comes one step of one job in a tick: while the drift check has the last reading to work on, the test
+ * waits with its judgement. */
+static void test_one_job_works_in_a_tick(void)
+{
+    const drift_job_t *drift = &app.controller.drift;
+    int waited = 0;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_loading_start(&app, &along_x));
+    ticks(1);
+    for (int i = 0; i < 60000 && app.controller.mode.now == BRACE_MODE_LOADING_TEST; i++) {
+        const bool is_due = drift->has_reading || drift->reports || drift->foresees;
+        const bool is_to_judge = app.controller.loading.phase == LOADING_JUDGE;
+        ticks(1);
+        if (is_due && is_to_judge) {
+            waited++;
+            TEST_ASSERT_EQUAL(LOADING_JUDGE, app.controller.loading.phase);
+        }
+    }
+    TEST_ASSERT_EQUAL(BRACE_LOADING_DONE, result()->outcome);
+    TEST_ASSERT_GREATER_THAN(0, waited);
+}
+
 static void test_runs_repetitions_and_postures_are_counted(void)
 {
     brace_loading_setup_t quick = along_x;
@@ -292,6 +313,7 @@ int main(void)
     RUN_TEST(test_rows_are_a_pass_in_the_columns_of_a_dataset);
     RUN_TEST(test_link_encoders_tell_deflections_of_a_dataset);
     RUN_TEST(test_the_drift_check_s_K_is_at_the_measured_posture);
+    RUN_TEST(test_one_job_works_in_a_tick);
     RUN_TEST(test_runs_repetitions_and_postures_are_counted);
     RUN_TEST(test_a_row_s_columns_are_those_of_a_dataset);
     RUN_TEST(test_offsets_move_the_tip_along_the_axis);

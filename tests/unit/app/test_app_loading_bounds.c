@@ -113,6 +113,21 @@ static void test_the_drives_hold_the_torque_s_bound_themselves(void)
     }
 }
 
+/* A coxa joint has no part in a test: nothing is added to its set-point, and nothing limits it. */
+static void test_a_coxa_joint_is_left_alone(void)
+{
+    fake.joint[BRACE_COXA].absent = false;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_start(&app, &fake.hal));
+    ticks(50);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_loading_start(&app, &along_x));
+    ticks(1000);
+    TEST_ASSERT_EQUAL(BRACE_MODE_LOADING_TEST, now()->mode);
+    TEST_ASSERT_TRUE(fake.joint[BRACE_FEMUR].command.offset_rad != 0.0f);
+    TEST_ASSERT_EQUAL_FLOAT(8000.0f, fake.joint[BRACE_FEMUR].command.torque_limit_n_mm);
+    ASSERT_CLOSE(0.0, fake.joint[BRACE_COXA].command.offset_rad, 0.0);
+    TEST_ASSERT_TRUE(isinf(fake.joint[BRACE_COXA].command.torque_limit_n_mm));
+}
+
 static void test_a_posture_at_the_end_of_its_travel_ends_the_test(void)
 {
     brace_parameters_t p = bench_parameters();
@@ -314,6 +329,7 @@ int main(void)
     RUN_TEST(test_motors_that_do_not_follow_are_told);
     RUN_TEST(test_a_motor_that_goes_where_it_was_not_sent_ends_the_test);
     RUN_TEST(test_the_drives_hold_the_torque_s_bound_themselves);
+    RUN_TEST(test_a_coxa_joint_is_left_alone);
     RUN_TEST(test_a_posture_at_the_end_of_its_travel_ends_the_test);
     RUN_TEST(test_the_time_is_bounded);
     RUN_TEST(test_a_test_that_ends_early_goes_back_at_its_rate);

@@ -108,8 +108,17 @@ static void test_defaults_are_mended_too(void)
     brace_parameters_default(&defaults);
     app.controller.parameters.in_force.limb.femur_mm += 8.0f;
     TEST_ASSERT_TRUE(is_seen());
+    ticks(20); /* no memory has to be read: a tick for each of the parts that are made anew */
+    TEST_ASSERT_FALSE(app.controller.memory_is_wrong);
     ticks(MENDED_WITHIN_TICKS);
     TEST_ASSERT_EQUAL_MEMORY(&defaults, &app.controller.parameters.in_force, sizeof defaults);
+    TEST_ASSERT_BITS_LOW(BRACE_FAULT_MEMORY, now()->faults);
+    app.controller.parameters.crc ^= 4u; /* what the set is told by */
+    app.controller.parameters.origin = BRACE_PARAMETERS_SLOT_A;
+    TEST_ASSERT_TRUE(is_seen());
+    ticks(MENDED_WITHIN_TICKS);
+    TEST_ASSERT_EQUAL_HEX32(brace_parameters_crc(&defaults), now()->parameter_crc);
+    TEST_ASSERT_EQUAL(BRACE_PARAMETERS_DEFAULT, now()->parameter_origin);
     TEST_ASSERT_BITS_LOW(BRACE_FAULT_MEMORY, now()->faults);
 }
 

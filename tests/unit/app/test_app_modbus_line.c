@@ -105,6 +105,34 @@ static void test_everybody_obeys_and_nobody_answers(void)
     TEST_ASSERT_NOT_EQUAL(BRACE_MODE_CONFIGURATION, app.controller.mode.now);
 }
 
+/* However slow the ticks are, the port has always more of an answer than the line carries until the next one: a gap of
+ * one and a half characters would tear the frame. */
+static void test_an_answer_leaves_without_a_gap(void)
+{
+    enum { SLOW_TICK_US = 5000, BAUD = 115200, BITS = 11, WHOLE = 1 + 2 + 4 * 60 + 2 };
+    brace_parameters_t p = bench_parameters();
+    p.controller.modbus_address = UNIT;
+    p.controller.modbus_baud = BAUD;
+    p.controller.tick_us = SLOW_TICK_US;
+    bench_start(&p);
+    uint8_t ask[8] = {UNIT, 4, 0, 0, 0, 120};
+    const uint32_t crc = crc_by_bits(ask, 6);
+    ask[6] = (uint8_t)crc, ask[7] = (uint8_t)(crc >> 8);
+    line_says(ask, sizeof ask);
+    const double a_tick = (double)SLOW_TICK_US * 1e-6 * BAUD / BITS;
+    uint32_t in_port = 0;
+    double on_line = 0.0;
+    for (int i = 0; i < 60 && in_port < (uint32_t)WHOLE; i++) {
+        uint8_t sink[300];
+        fake.now_us += SLOW_TICK_US;
+        brace_app_tick(&app, fake.now_us);
+        in_port += brace_fake_bytes_take(&fake, BRACE_SERIAL_MODBUS, sink, sizeof sink);
+        on_line = in_port > 0u ? on_line + a_tick : 0.0; /* until the next tick */
+        TEST_ASSERT_TRUE(in_port == 0u || in_port == (uint32_t)WHOLE || (double)in_port > on_line);
+    }
+    TEST_ASSERT_EQUAL(WHOLE, in_port);
+}
+
 static void test_a_line_that_takes_nothing_does_not_hold_it(void)
 {
     brace_fake_fail_next(&fake, BRACE_FAKE_SERIAL_WRITE, 10000, BRACE_HAL_E_DEVICE);
@@ -252,6 +280,45 @@ static void test_an_answer_that_comes_back_is_not_answered(void)
     TEST_ASSERT_EQUAL(0, counters().modbus_refused);
 }
 
+/* A line that had no echo is wired otherwise: whatever was answered last, the next answer that comes back is not taken
+ * for a request. Only a request that may look the same is answered once more. */
+static void test_a_line_may_begin_to_echo(void)
+{
+    uint8_t block[15] = {UNIT, 16, 0, 2, 0, 2, 4, 0x43, 0x3e, 0, 0}, read[8] = {UNIT, 4, 0, 0, 0, 2};
+    uint8_t who[4] = {UNIT, 17}, device[7] = {UNIT, 43, 14, 1, 0};
+    const struct {
+        uint8_t *frame;
+        uint32_t count;
+    } asked[] = {{block, with_crc(block, 11)}, {read, with_crc(read, 6)}, {who, with_crc(who, 2)},
+                 {device, with_crc(device, 5)}};
+    for (uint32_t i = 0; i < sizeof asked / sizeof *asked; i++) {
+        setUp();
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_enter(&app));
+        TEST_ASSERT_TRUE(answers()); /* and nothing came back: this line has no echo */
+        TEST_ASSERT_TRUE(answers());
+        line_says(asked[i].frame, asked[i].count);
+        const uint32_t once = heard(BRACE_SERIAL_MODBUS).count;
+        TEST_ASSERT_GREATER_THAN(5, once); /* no exception */
+        TEST_ASSERT_EQUAL(once, sent_on_a_line_with_echo(asked[i].frame, asked[i].count, 120));
+        TEST_ASSERT_EQUAL(0, sent_on_a_line_with_echo(read, 0, 50)); /* and it is silent then */
+        uint8_t ping[8] = {UNIT, 8, 0, 0, 0xa5, 0x37};
+        (void)with_crc(ping, 6);
+        TEST_ASSERT_EQUAL(8, sent_on_a_line_with_echo(ping, 8, 120)); /* now it knows the echo */
+    }
+}
+
+/* A port that cannot be set up is not read. */
+static void test_a_port_that_does_not_start_is_none(void)
+{
+    brace_fake_fail_next(&fake, BRACE_FAKE_SERIAL_SETUP, 100, BRACE_HAL_E_DEVICE);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_start(&app, &fake.hal));
+    TEST_ASSERT_FALSE(app.wires.modbus.line.link.is_fitted);
+    TEST_ASSERT_FALSE(app.wires.modbus.tcp.is_fitted);
+    const uint32_t reads = fake.calls[BRACE_FAKE_SERIAL_READ];
+    ticks(50);
+    TEST_ASSERT_EQUAL(reads, fake.calls[BRACE_FAKE_SERIAL_READ]);
+}
+
 static void test_a_request_that_is_repeated_is_answered_each_time(void)
 {
     TEST_ASSERT_TRUE(answers()); /* and nothing came back: this line has no echo */
@@ -272,6 +339,7 @@ int main(void)
     RUN_TEST(test_two_frames_without_silence_are_none);
     RUN_TEST(test_others_requests_and_their_answers_pass);
     RUN_TEST(test_everybody_obeys_and_nobody_answers);
+    RUN_TEST(test_an_answer_leaves_without_a_gap);
     RUN_TEST(test_a_line_that_takes_nothing_does_not_hold_it);
     RUN_TEST(test_a_flood_stops_nothing);
     RUN_TEST(test_tcp_answers_the_same);
@@ -280,6 +348,8 @@ int main(void)
     RUN_TEST(test_lengths_that_no_request_has_are_dropped_on_tcp);
     RUN_TEST(test_a_slow_line_waits_its_silence);
     RUN_TEST(test_an_answer_that_comes_back_is_not_answered);
+    RUN_TEST(test_a_line_may_begin_to_echo);
+    RUN_TEST(test_a_port_that_does_not_start_is_none);
     RUN_TEST(test_a_request_that_is_repeated_is_answered_each_time);
     return UNITY_END();
 }

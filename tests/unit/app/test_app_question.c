@@ -115,6 +115,95 @@ static void test_without_a_force_the_weight_counts(void)
     TEST_ASSERT_TRUE(fabsf(weightless.stiffness.k_xx_n_per_mm - a.k_xx_n_per_mm) > 2e-3f);
 }
 
+/* Each joint yields as warm as it is, elsewhere as here. */
+static void test_a_warm_joint_yields_more_wherever_it_is_asked(void)
+{
+    parameters.slow.joint_compliance_per_degc = 0.01f;
+    parameters.slow.reference_degc = 20.0f;
+    start();
+    fake.joint[BRACE_FEMUR].sample.temp_degc = 40.0f;
+    fake.joint[BRACE_TIBIA].sample.temp_degc = 70.0f;
+    ticks(2);
+    drain();
+    (void)ask_for_force(2.0f, 5.0f);
+    const answer_t answer = ask_under_load(0.8f, 1.2f);
+    parameters.limb.joint[BRACE_FEMUR].compliance_rad_per_n_mm *= 1.2f;
+    parameters.limb.joint[BRACE_TIBIA].compliance_rad_per_n_mm *= 1.5f;
+    const brace_loaded_stiffness_t k = expected(0.8f, 1.2f, 2.0f, 5.0f);
+    assert_told(&answer, &k);
+}
+
+/* Somebody gives up while its K is half worked out: the next one gets the K of its own question. */
+static void test_what_was_given_up_is_nobody_else_s(void)
+{
+    question_job_t *job = &app.controller.question;
+    const question_inputs_t inputs = {.model = &app.controller.model,
+                                      .parameters = brace_app_parameters(&app),
+                                      .origin = BRACE_PARAMETERS_SLOT_A,
+                                      .joints = &app.controller.joints,
+                                      .down = app.controller.gravity.down};
+    const brace_k_question_t first = {.where = BRACE_K_AT_POSTURE, .theta_rad = {0.0f, 0.3f, 0.9f}};
+    const brace_k_question_t second = {
+        .where = BRACE_K_AT_POSTURE, .theta_rad = {0.0f, 0.8f, 1.2f}, .tip_force = {2.0f, 5.0f}};
+    brace_k_answer_t answer;
+    TEST_ASSERT_EQUAL(BRACE_APP_LATER, question_job_ask(job, BRACE_ASKER_CAN, &first, &answer));
+    TEST_ASSERT_TRUE(question_job_work(job, &inputs, 1)); /* the first of two steps */
+    for (int i = 0; i < 10; i++) {
+        question_job_age(job);
+    }
+    TEST_ASSERT_FALSE(question_job_is_coming(job, BRACE_ASKER_CAN));
+    TEST_ASSERT_EQUAL(BRACE_APP_LATER, question_job_ask(job, BRACE_ASKER_MODBUS_TCP, &second, &answer));
+    TEST_ASSERT_TRUE(question_job_work(job, &inputs, 1));
+    TEST_ASSERT_EQUAL(BRACE_APP_LATER, question_job_ask(job, BRACE_ASKER_MODBUS_TCP, &second, &answer));
+    TEST_ASSERT_TRUE(question_job_work(job, &inputs, 1));
+    TEST_ASSERT_EQUAL(BRACE_OK, question_job_ask(job, BRACE_ASKER_MODBUS_TCP, &second, &answer));
+    const brace_loaded_stiffness_t k = expected(0.8f, 1.2f, 2.0f, 5.0f);
+    ASSERT_CLOSE(k.stiffness.k_xx_n_per_mm, answer.k.k_xx_n_per_mm, 4e-4);
+    ASSERT_CLOSE(k.displacement.z_mm, answer.moved_mm.z_mm, 2e-3);
+}
+
+/* An answer that nobody has taken gives way to the next one, and is not told to whom the next one is not for. Who still
+ * waits keeps its place. */
+static void test_an_answer_goes_to_its_asker_alone(void)
+{
+    question_job_t *job = &app.controller.question;
+    const question_inputs_t inputs = {.model = &app.controller.model,
+                                      .parameters = brace_app_parameters(&app),
+                                      .origin = BRACE_PARAMETERS_SLOT_A,
+                                      .joints = &app.controller.joints,
+                                      .down = app.controller.gravity.down};
+    const brace_k_question_t one = {.where = BRACE_K_AT_POSTURE, .theta_rad = {0.0f, 0.3f, 0.9f}};
+    const brace_k_question_t two = {.where = BRACE_K_AT_POSTURE, .theta_rad = {0.0f, 0.8f, 1.2f}};
+    brace_k_answer_t answer;
+    TEST_ASSERT_EQUAL(BRACE_APP_LATER, question_job_ask(job, BRACE_ASKER_CAN, &one, &answer));
+    TEST_ASSERT_EQUAL(BRACE_APP_LATER, question_job_ask(job, BRACE_ASKER_SLCAN, &two, &answer));
+    TEST_ASSERT_TRUE(question_job_work(job, &inputs, 2));
+    TEST_ASSERT_FALSE(question_job_is_coming(job, BRACE_ASKER_CAN));
+    TEST_ASSERT_TRUE(question_job_is_coming(job, BRACE_ASKER_SLCAN));
+    TEST_ASSERT_TRUE(question_job_work(job, &inputs, 2));
+    TEST_ASSERT_FALSE(question_job_is_coming(job, BRACE_ASKER_SLCAN));
+    TEST_ASSERT_EQUAL(BRACE_APP_LATER, question_job_ask(job, BRACE_ASKER_CAN, &one, &answer)); /* it came too late */
+    TEST_ASSERT_EQUAL(BRACE_OK, question_job_ask(job, BRACE_ASKER_SLCAN, &two, &answer));
+    const brace_loaded_stiffness_t k = expected(0.8f, 1.2f, 0.0f, 0.0f);
+    ASSERT_CLOSE(k.stiffness.k_xx_n_per_mm, answer.k.k_xx_n_per_mm, 4e-4);
+}
+
+/* In a tick in which the wires have nothing to do, a question has both of its steps; a node that only listens on its bus
+ * has nothing to do there. */
+static void test_a_quiet_tick_answers_at_once(void)
+{
+    const brace_k_question_t question = {.where = BRACE_K_AT_POSTURE, .theta_rad = {0.0f, 0.8f, 1.2f}};
+    brace_k_answer_t answer;
+    parameters.controller.node_id = 0;
+    start();
+    for (int i = 0; i < 10; i++) {
+        TEST_ASSERT_EQUAL(BRACE_APP_LATER, brace_app_ask_k(&app, BRACE_ASKER_PROGRAM, &question, &answer));
+        ticks(1);
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_app_ask_k(&app, BRACE_ASKER_PROGRAM, &question, &answer));
+        ticks(1);
+    }
+}
+
 /* A board that nobody has configured answers too, and says that its limb is nobody's. */
 static void test_without_parameters_the_answer_is_uncalibrated(void)
 {
@@ -438,6 +527,10 @@ int main(void)
     RUN_TEST(test_K_under_a_force_over_CAN_and_the_force_is_used_up);
     RUN_TEST(test_at_a_tip_the_posture_is_the_one_before_the_load_moves_it);
     RUN_TEST(test_without_a_force_the_weight_counts);
+    RUN_TEST(test_an_answer_goes_to_its_asker_alone);
+    RUN_TEST(test_a_quiet_tick_answers_at_once);
+    RUN_TEST(test_what_was_given_up_is_nobody_else_s);
+    RUN_TEST(test_a_warm_joint_yields_more_wherever_it_is_asked);
     RUN_TEST(test_without_parameters_the_answer_is_uncalibrated);
     RUN_TEST(test_a_force_that_folds_the_limb_or_is_none_is_refused);
     RUN_TEST(test_K_under_a_force_over_the_line_and_over_TCP);

@@ -98,6 +98,10 @@ static void test_K_in_space_is_the_reference_at_every_posture(void)
         ASSERT_CLOSE(in_plane.k[1][1], now()->space.across_n_per_mm, PROMISED * in_plane.k[1][1]);
         /* K in the plane is of the same limb: the coxa link yields in it too. */
         ASSERT_CLOSE(in_plane.k[0][0], now()->stiffness.now.k_xx_n_per_mm, 2e-5 * in_plane.k[0][0]);
+        ticks(20); /* K without a load is worked out now and then */
+        TEST_ASSERT_TRUE(now()->load.is_counted);
+        ASSERT_CLOSE(in_plane.k[1][1], now()->load.unloaded_across_n_per_mm, PROMISED * in_plane.k[1][1]);
+        ASSERT_CLOSE(in_plane.k[0][0], now()->load.unloaded.k_xx_n_per_mm, 2e-5 * in_plane.k[0][0]);
     }
 }
 
@@ -177,18 +181,27 @@ static void assert_answers(const answer_t *answer, const under_load_t *expected,
 {
     brace_can_k_in_space_at_posture_answer_0_t a;
     brace_can_k_in_space_at_posture_answer_1_t b;
+    brace_can_k_in_space_at_posture_answer_2_t c;
+    brace_can_k_in_space_at_posture_answer_3_t d;
     brace_can_k_in_space_at_posture_answer_4_t e;
     brace_can_k_in_space_at_posture_answer_5_t f;
     TEST_ASSERT_EQUAL(6, answer->count);
     brace_can_unpack_k_in_space_at_posture_answer_0(answer->part[0], &a);
     brace_can_unpack_k_in_space_at_posture_answer_1(answer->part[1], &b);
+    brace_can_unpack_k_in_space_at_posture_answer_2(answer->part[2], &c);
+    brace_can_unpack_k_in_space_at_posture_answer_3(answer->part[3], &d);
     brace_can_unpack_k_in_space_at_posture_answer_4(answer->part[4], &e);
     brace_can_unpack_k_in_space_at_posture_answer_5(answer->part[5], &f);
     TEST_ASSERT_EQUAL(force_is_told, e.force_is_told);
     TEST_ASSERT_EQUAL_HEX32(0u, e.flags);
     ASSERT_CLOSE(expected->k.k_xx_n_per_mm, a.k_xx_n_per_mm, 4e-4);
     ASSERT_CLOSE(expected->k.k_xy_n_per_mm, a.k_xy_n_per_mm, 4e-4);
+    ASSERT_CLOSE(expected->k.k_xz_n_per_mm, b.k_xz_n_per_mm, 4e-4);
     ASSERT_CLOSE(expected->k.k_yy_n_per_mm, b.k_yy_n_per_mm, 4e-4);
+    ASSERT_CLOSE(expected->k.k_yz_n_per_mm, c.k_yz_n_per_mm, 4e-4);
+    ASSERT_CLOSE(expected->k.k_zz_n_per_mm, c.k_zz_n_per_mm, 4e-4);
+    ASSERT_CLOSE(expected->k.lambda_n_per_mm[0], d.lambda_1_n_per_mm, 4e-4);
+    ASSERT_CLOSE(expected->k.lambda_n_per_mm[1], d.lambda_2_n_per_mm, 4e-4);
     ASSERT_CLOSE(expected->k.lambda_n_per_mm[2], e.lambda_3_n_per_mm, 4e-4);
     ASSERT_CLOSE(expected->moved_mm[0], f.dx_mm, 6e-3);
     ASSERT_CLOSE(expected->moved_mm[1], f.dy_mm, 6e-3);

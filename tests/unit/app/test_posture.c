@@ -90,6 +90,30 @@ static void test_a_force_across_is_told_by_the_coxa_joint(void)
     ASSERT_CLOSE(-100.0 / (double)tip_mm, across_n, 1e-5);
 }
 
+/* Without a length a link has no lever, and beyond the greatest angle there is none either; at it there is. */
+static void test_what_has_levers(void)
+{
+    static const struct {
+        float theta1_rad, theta2_rad, femur_mm, tibia_mm;
+        bool has_levers;
+    } row[] = {{1.0f, 1.4f, 185.0f, 313.5f, true},
+               {1.0f, 1.4f, 0.0f, 313.5f, false},
+               {1.0f, 1.4f, 185.0f, 0.0f, false},
+               {1.0f, 1.4f, -1.0f, 313.5f, false},
+               {BRACE_ANGLE_LIMIT_RAD, 1.4f, 185.0f, 313.5f, true},
+               {1.0f, -BRACE_ANGLE_LIMIT_RAD, 185.0f, 313.5f, true},
+               {1.001f * BRACE_ANGLE_LIMIT_RAD, 1.4f, 185.0f, 313.5f, false},
+               {1.0f, -1.001f * BRACE_ANGLE_LIMIT_RAD, 185.0f, 313.5f, false},
+               {NAN, 1.4f, 185.0f, 313.5f, false},
+               {1.0f, NAN, 185.0f, 313.5f, false}};
+    for (uint32_t i = 0; i < sizeof row / sizeof *row; i++) {
+        parameters.limb.femur_mm = row[i].femur_mm;
+        parameters.limb.tibia_mm = row[i].tibia_mm;
+        stand(row[i].theta1_rad, row[i].theta2_rad);
+        TEST_ASSERT_EQUAL(row[i].has_levers, posture.has_levers);
+    }
+}
+
 /* The posture contains how far the load moves the limb. When the load is no longer known, the posture drops that. */
 static void test_a_load_takes_the_limb_where_it_says(void)
 {
@@ -224,6 +248,7 @@ int main(void)
     RUN_TEST(test_a_tip_force_and_the_loads_that_it_makes_are_one);
     RUN_TEST(test_weights_hang_where_they_are);
     RUN_TEST(test_where_the_levers_do_not_allow_it_no_force_is_told);
+    RUN_TEST(test_what_has_levers);
     RUN_TEST(test_a_force_across_is_told_by_the_coxa_joint);
     RUN_TEST(test_a_load_takes_the_limb_where_it_says);
     RUN_TEST(test_moments_about_the_coxa_joint_are_in_balance);

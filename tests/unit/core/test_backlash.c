@@ -1,4 +1,5 @@
 /* The preload state machine, transition by transition, on a quasi-static joint written out here. */
+#include <stddef.h>
 #include <string.h>
 
 #include "brace/backlash.h"
@@ -285,20 +286,171 @@ static void a_servo_that_lags_takes_up(void)
     TEST_ASSERT_EQUAL_INT(BRACE_TAKEUP_DONE, out.takeup);
 }
 
+/* Without a load a flank is remembered for 250 ms, and while the motor stays within a fifth of the gap. */
+static void a_flank_without_a_load_is_remembered_for_a_while(void)
+{
+    for (int flank = -1; flank <= 1; flank += 2) {
+        const int engaged = flank > 0 ? BRACE_BACKLASH_ENGAGED_POSITIVE : BRACE_BACKLASH_ENGAGED_NEGATIVE;
+        for (int moves = 0; moves < 3; moves++) {
+            setUp();
+            noise_n_mm = 0.0;
+            stand(0.0, flank * 2500.0, 300);
+            TEST_ASSERT_EQUAL_INT(engaged, out.state);
+            stand(0.0, 0.0, 200); /* the mean takes some 30 ms to forget the load */
+            TEST_ASSERT_EQUAL_INT(engaged, out.state);
+            if (moves == 0) {
+                stand(0.0, 0.0, 120);
+                TEST_ASSERT_EQUAL_INT(BRACE_BACKLASH_UNKNOWN, out.state);
+                continue;
+            }
+            const double back_rad = -flank * (moves == 1 ? 0.17 : 0.23) * (double)GAP_RAD;
+            for (int i = 1; i <= 20; i++) { /* friction is all that the motor bears */
+                tick(back_rad * i / 20.0, -flank * 200.0);
+            }
+            TEST_ASSERT_EQUAL_INT(moves == 1 ? engaged : BRACE_BACKLASH_CROSSING, out.state);
+        }
+    }
+}
+
+/* The motor moves evenly. */
+static void advance_to(double from_rad, double to_rad, int ticks)
+{
+    for (int i = 1; i <= ticks; i++) {
+        tick(from_rad + (to_rad - from_rad) * i / ticks, 0.0);
+    }
+}
+
+/*/* Travel and time of a take-up count from where and when it begins. What was said to the one before is forgotten. */
+static void each_takeup_begins_anew(void)
+{
+    noise_n_mm = 0.0;
+    for (int n = 0; n < 4; n++) {
+        const double at_rad = 0.3 * n - 0.2;
+        stand(at_rad, 0.0, 50);
+        TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_takeup_request(&joint, 1));
+        stand(at_rad, 0.0, 1);
+        TEST_ASSERT_EQUAL_INT(BRACE_TAKEUP_APPROACH, out.phase);
+        advance_to(at_rad, at_rad + 0.0595, 1200); /* four of these are longer than a take-up may last */
+        TEST_ASSERT_EQUAL_INT(BRACE_TAKEUP_APPROACH, out.phase);
+        TEST_ASSERT_EQUAL_INT(BRACE_TAKEUP_RUNNING, out.takeup);
+        if (n < 3) {
+            TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_takeup_let_go(&joint));
+            stand(at_rad + 0.0595, 0.0, 1);
+            TEST_ASSERT_EQUAL_INT(BRACE_TAKEUP_NONE, out.takeup);
+        } else {
+            advance_to(at_rad + 0.0595, at_rad + 0.0605, 20);
+            TEST_ASSERT_EQUAL_INT(BRACE_TAKEUP_E_TRAVEL, out.takeup);
+        }
+        TEST_ASSERT_EQUAL_INT(BRACE_TAKEUP_LET_GO, out.phase);
+        stand(at_rad + 0.0595, 0.0, 1300);
+        TEST_ASSERT_EQUAL_INT(BRACE_TAKEUP_IDLE, out.phase);
+    }
+}
+
 static void expect_given_up(brace_takeup_result_t expected, const brace_takeup_bounds_t *bounds, double k)
 {
-    brace_backlash_params_t params = sound_params();
-    params.takeup = *bounds;
-    memset(&out, 0, sizeof out);
-    TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_backlash_init(&joint, &params));
-    take_up(1, k, 3000);
-    TEST_ASSERT_EQUAL_INT(expected, out.takeup);
-    TEST_ASSERT_NOT_EQUAL(BRACE_TAKEUP_HOLD, out.phase);
-    for (int i = 0; i < 3000; i++) {
-        follow((double)out.command_rad, k);
+    for (int flank = -1; flank <= 1; flank += 2) {
+        brace_backlash_params_t params = sound_params();
+        params.takeup = *bounds;
+        memset(&out, 0, sizeof out);
+        TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_backlash_init(&joint, &params));
+        take_up(flank, k, 3000);
+        TEST_ASSERT_EQUAL_INT(expected, out.takeup);
+        TEST_ASSERT_NOT_EQUAL(BRACE_TAKEUP_HOLD, out.phase);
+        for (int i = 0; i < 3000; i++) {
+            follow((double)out.command_rad, k);
+        }
+        TEST_ASSERT_EQUAL_INT(BRACE_TAKEUP_IDLE, out.phase);
+        TEST_ASSERT_EQUAL_INT(expected, out.takeup);
     }
-    TEST_ASSERT_EQUAL_INT(BRACE_TAKEUP_IDLE, out.phase);
-    TEST_ASSERT_EQUAL_INT(expected, out.takeup);
+}
+
+/* A take-up that has just begun to verify, at rest. returns the motor's torque */
+static double begin_to_verify(int flank)
+{
+    setUp();
+    noise_n_mm = 0.0;
+    memset(&out, 0, sizeof out);
+    motor_rad = reached_rad = 0.0;
+    for (int i = 0; i < 100; i++) {
+        follow(0.0, 1e5);
+    }
+    TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_takeup_request(&joint, flank));
+    for (int i = 0; i < 3000 && out.phase != BRACE_TAKEUP_VERIFY; i++) {
+        follow((double)out.command_rad, 1e5);
+    }
+    TEST_ASSERT_EQUAL_INT(BRACE_TAKEUP_VERIFY, out.phase);
+    return servo * ((double)out.command_rad - motor_rad);
+}
+
+/* The load has to stay for 100 ms, and in the second half of that time the motor too, within a quarter of the gap. */
+static void load_and_motor_stay_while_they_are_verified(void)
+{
+    for (int flank = -1; flank <= 1; flank += 2) {
+        double torque_n_mm = begin_to_verify(flank);
+        stand(motor_rad, 0.0, 60);
+        TEST_ASSERT_EQUAL_INT(BRACE_TAKEUP_E_VERIFY, out.takeup);
+        TEST_ASSERT_EQUAL_INT(BRACE_TAKEUP_LET_GO, out.phase);
+
+        torque_n_mm = begin_to_verify(flank);
+        stand(motor_rad, torque_n_mm, 98);
+        TEST_ASSERT_EQUAL_INT(BRACE_TAKEUP_VERIFY, out.phase);
+        stand(motor_rad, torque_n_mm, 4);
+        TEST_ASSERT_EQUAL_INT(BRACE_TAKEUP_HOLD, out.phase);
+        TEST_ASSERT_EQUAL_INT(BRACE_TAKEUP_DONE, out.takeup);
+        stand(motor_rad, 0.0, 100);
+        TEST_ASSERT_EQUAL_INT(BRACE_TAKEUP_E_LOST, out.takeup);
+        TEST_ASSERT_FALSE(out.valid);
+
+        for (int i = 0; i < 6; i++) { /* the motor moves early or late, on or back, and less or more */
+            const bool is_late = i % 2 != 0, is_more = i / 2 % 3 == 0;
+            const double share = is_more ? 0.27 : i / 2 == 1 ? 0.23 : -0.23, moves_rad = share * (double)GAP_RAD;
+            torque_n_mm = begin_to_verify(flank);
+            stand(motor_rad, torque_n_mm, is_late ? 60 : 20);
+            for (int j = 1; j <= 20; j++) {
+                tick(motor_rad + moves_rad * j / 20.0, torque_n_mm);
+            }
+            stand(motor_rad + moves_rad, torque_n_mm, is_late ? 25 : 65);
+            TEST_ASSERT_EQUAL_INT(is_late && is_more ? BRACE_TAKEUP_E_VERIFY : BRACE_TAKEUP_DONE, out.takeup);
+        }
+    }
+}
+
+/* The parameters at their bounds, just within and just beyond, as backlash_types.h and ranges.h name them. */
+static void each_parameter_has_its_bounds(void)
+{
+    static const struct {
+        size_t offset;
+        float least, most; /* INFINITY: another parameter's bound comes first */
+    } row[] = {
+        {offsetof(brace_backlash_params_t, gap_rad), 1e-5f, 0.5f},
+        {offsetof(brace_backlash_params_t, friction_n_mm), 0.0f, INFINITY},
+        {offsetof(brace_backlash_params_t, friction_tolerance_ratio), 0.0f, 1.0f},
+        {offsetof(brace_backlash_params_t, inertia_n_mm_s2_per_rad), 0.0f, 1e6f},
+        {offsetof(brace_backlash_params_t, torque_range_n_mm), 4500.0f, 1e6f},
+        {offsetof(brace_backlash_params_t, torque_noise_n_mm), 0.0f, INFINITY},
+        {offsetof(brace_backlash_params_t, torque_bias_n_mm), 0.0f, INFINITY},
+        {offsetof(brace_backlash_params_t, angle_step_rad), 1e-7f, 0.01f},
+        {offsetof(brace_backlash_params_t, takeup.torque_max_n_mm), INFINITY, 8000.0f},
+        {offsetof(brace_backlash_params_t, takeup.preload_n_mm), 0.0f, 4500.0f},
+        {offsetof(brace_backlash_params_t, takeup.travel_max_rad), 1e-6f, 1.0f},
+        {offsetof(brace_backlash_params_t, takeup.reach_max_rad), 1e-6f, 2.0f},
+        {offsetof(brace_backlash_params_t, takeup.rate_rad_per_s), 1e-6f, 10.0f}};
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+        for (int side = 0; side < 2; side++) {
+            brace_backlash_params_t p = sound_params();
+            float *member = (float *)(void *)((char *)&p + row[i].offset);
+            const float bound = side == 0 ? row[i].least : row[i].most;
+            if (isfinite(bound)) {
+                *member = bound;
+                TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_backlash_init(&joint, &p));
+                *member = nextafterf(bound, side == 0 ? -INFINITY : INFINITY);
+                TEST_ASSERT_EQUAL_INT(BRACE_E_RANGE, brace_backlash_init(&joint, &p));
+            }
+            *member = NAN;
+            TEST_ASSERT_EQUAL_INT(BRACE_E_NOT_FINITE, brace_backlash_init(&joint, &p));
+        }
+    }
 }
 
 static void every_bound_has_its_own_result(void)
@@ -506,6 +658,10 @@ int main(void)
     RUN_TEST(bad_and_late_samples_are_a_fault_that_heals);
     RUN_TEST(a_takeup_preloads_verifies_and_lets_go);
     RUN_TEST(a_servo_that_lags_takes_up);
+    RUN_TEST(a_flank_without_a_load_is_remembered_for_a_while);
+    RUN_TEST(each_takeup_begins_anew);
+    RUN_TEST(load_and_motor_stay_while_they_are_verified);
+    RUN_TEST(each_parameter_has_its_bounds);
     RUN_TEST(every_bound_has_its_own_result);
     RUN_TEST(a_load_that_goes_away_ends_the_takeup);
     RUN_TEST(what_a_joint_promises_is_told);

@@ -3,6 +3,7 @@
 #include <stdbool.h>
 #include <string.h>
 
+#include "base/check.h"
 #include "brace/chain.h"
 #include "brace/contact.h"
 #include "brace/planar.h"
@@ -348,6 +349,37 @@ static void bad_input_is_refused_and_touches_nothing(void)
     TEST_ASSERT_EQUAL_INT(0, memcmp(&grip_before, &grip, sizeof grip));
 }
 
+/* Every limit is inclusive, and whatever is no number is refused as that. */
+static void limits_are_inclusive(void)
+{
+    const float most = 7.5f, beyond = nextafterf(most, INFINITY), least = -2.5f;
+    for (float sign = -1.0f; sign <= 1.0f; sign += 2.0f) {
+        TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_check_magnitude(sign * most, most));
+        TEST_ASSERT_EQUAL_INT(BRACE_E_RANGE, brace_check_magnitude(sign * beyond, most));
+        TEST_ASSERT_EQUAL_INT(BRACE_E_NOT_FINITE, brace_check_magnitude(sign * INFINITY, most));
+        TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_check_two(sign * most, -sign * most, most));
+        TEST_ASSERT_EQUAL_INT(BRACE_E_RANGE, brace_check_two(sign * beyond, 0.0f, most));
+        TEST_ASSERT_EQUAL_INT(BRACE_E_RANGE, brace_check_two(0.0f, sign * beyond, most));
+        TEST_ASSERT_EQUAL_INT(BRACE_E_NOT_FINITE, brace_check_two(beyond, sign * INFINITY, most));
+        TEST_ASSERT_EQUAL_INT(BRACE_E_NOT_FINITE, brace_check_two((float)NAN, beyond, most));
+    }
+    TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_check_range(least, least, most));
+    TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_check_range(most, least, most));
+    TEST_ASSERT_EQUAL_INT(BRACE_E_RANGE, brace_check_range(nextafterf(least, -INFINITY), least, most));
+    TEST_ASSERT_EQUAL_INT(BRACE_E_RANGE, brace_check_range(beyond, least, most));
+    TEST_ASSERT_EQUAL_INT(BRACE_E_NOT_FINITE, brace_check_range((float)NAN, least, most));
+}
+
+/* Of several refusals the first is told, as check.h says. */
+static void the_first_refusal_is_told(void)
+{
+    static const brace_status_t status[] = {BRACE_OK, BRACE_E_RANGE, BRACE_E_NOT_FINITE, BRACE_E_SINGULAR};
+    for (int i = 0; i < 16; i++) {
+        const brace_status_t first = status[i / 4], second = status[i % 4];
+        TEST_ASSERT_EQUAL_INT(i / 4 == 0 ? second : first, brace_first_refusal(first, second));
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -363,5 +395,7 @@ int main(void)
     RUN_TEST(the_choice_of_stiffness);
     RUN_TEST(bad_stiffness_is_refused);
     RUN_TEST(bad_input_is_refused_and_touches_nothing);
+    RUN_TEST(limits_are_inclusive);
+    RUN_TEST(the_first_refusal_is_told);
     return UNITY_END();
 }

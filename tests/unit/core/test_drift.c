@@ -136,6 +136,142 @@ static void test_learning_begins_with_the_trust_of_the_calibration(void)
     TEST_ASSERT_TRUE(report().learned_sigma_ratio[0] < trust);
 }
 
+/* Trust in each number by itself. A wrong length makes all compliances wrong, by twice its share each; and beside that
+ * the femur's, by as much as its joint yields beside it. Nothing else is doubted: each number's own sigma is left. */
+static void test_trust_in_each_number_of_the_calibration(void)
+{
+    enum { DOUBTS = 5 };
+    static const int diagonal[7] = {0, 7, 13, 18, 22, 25, 27}; /* of the covariance's upper triangle */
+    for (int doubted = 0; doubted < DOUBTS; doubted++) {
+        believed.uncertainty = (brace_uncertainty_t){.compliance_rel = doubted == 0 ? 0.07f : 0.0f,
+                                                     .gain_rel = doubted == 1 ? 0.03f : 0.0f,
+                                                     .length_mm = doubted == 2 ? 2.0f : 0.0f,
+                                                     .angle_rad = doubted == 3 ? 0.02f : 0.0f};
+        brace_drift_setup_t trusting = setup;
+        trusting.joint_compliance_trust_ratio = doubted == 4 ? 0.4f : 0.0f;
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_drift_learn(&drift, &believed, &trusting));
+        const double femur = 2.0 / (double)believed.femur_mm, tibia = 2.0 / (double)believed.tibia_mm;
+        const double hip_c = (double)believed.joint[BRACE_FEMUR].compliance_rad_per_n_mm +
+                             (double)believed.base.rotation_rad_per_n_mm;
+        const double bends = (double)believed.link[BRACE_FEMUR].bending_mm_per_n;
+        const double beside = hip_c * (double)believed.femur_mm * (double)believed.femur_mm / bends;
+        const double length = doubted == 2 ? femur * femur + tibia * tibia : 0.0;
+        const double known = doubted == 0 ? 0.07 * 0.07 : 0.0, gain = doubted == 1 ? 0.03 * 0.03 : 0.0;
+        const double common = gain + 4.0 * length;
+        const double angle = doubted == 3 ? 0.02 * 0.02 : 0.0, heat = doubted == 4 ? 0.4 * 0.4 : 0.0;
+        const double wanted[7] = {known + common + beside * beside * length, -1.0, known + common, 2.0 * angle, angle,
+                                  heat, known};
+        if (doubted == 0) { /* of each bending as a share of itself; the tibia's is a part of what its estimate is of */
+            const double knee_mm = (double)believed.joint[BRACE_TIBIA].compliance_rad_per_n_mm *
+                                   (double)believed.tibia_mm * (double)believed.tibia_mm;
+            const double tibia_mm = (double)believed.link[BRACE_TIBIA].bending_mm_per_n;
+            ASSERT_CLOSE(0.07, report().learned_sigma_ratio[0], 1e-4);
+            ASSERT_CLOSE(0.07 * hypot(tibia_mm, knee_mm) / tibia_mm, report().learned_sigma_ratio[1], 1e-3);
+        }
+        for (int i = 0; i < 7; i++) {
+            const double is = (double)drift.covariance[diagonal[i]];
+            if (wanted[i] >= 0.0) {
+                ASSERT_CLOSE(wanted[i], is, 1e-3 * wanted[i] + 2e-10);
+            } else { /* tibia and knee: their parts' own sigmas are independent, and so are less together */
+                TEST_ASSERT_TRUE(is >= 0.5 * known + common && is <= known + common + 2e-10);
+            }
+        }
+    }
+}
+
+/* The estimates narrow with each run. After the least number of readings they begin anew from the calibration's trust,
+ * because the slopes before were those of the model. */
+static void test_estimates_narrow_and_begin_anew_once(void)
+{
+    const float trust = report().learned_sigma_ratio[0];
+    float before = trust;
+    int anew = 0;
+    for (int i = 0; drift.steps < 2u * BRACE_DRIFT_LEARN_LEAST && drift.state == BRACE_DRIFT_LEARNING; i++) {
+        const uint32_t steps = drift.steps;
+        run(i / 2 % POSTURES, i % 2);
+        const float now = report().learned_sigma_ratio[0];
+        if (steps < BRACE_DRIFT_LEARN_LEAST && drift.steps >= BRACE_DRIFT_LEARN_LEAST) {
+            TEST_ASSERT_TRUE(now > 2.0f * before);
+            anew++;
+        } else {
+            TEST_ASSERT_TRUE(now < 1.001f * before);
+        }
+        before = now;
+        TEST_ASSERT_TRUE(i < 8 || anew > 0 || now < 0.7f * trust);
+    }
+    TEST_ASSERT_EQUAL(1, anew);
+}
+
+/* Evidence of one cause. A change of any size has the log likelihood score^2/(2 information). */
+static void give_evidence(int cause, float evidence, float log_likelihood)
+{
+    drift.evidence[cause] = evidence;
+    drift.information[cause] = 50.0f;
+    drift.score[cause] = sqrtf(2.0f * 50.0f * log_likelihood);
+}
+
+/* A cause counts from half of an alarm's evidence on. The likeliest is told, and every one that is nearly as likely:
+ * less by 3 and a tenth at most. */
+static void test_a_report_names_what_the_readings_support(void)
+{
+    const float half = 0.5f * BRACE_DRIFT_ALARM;
+    for (int cause = 0; cause < BRACE_DRIFT_CAUSE_COUNT; cause++) {
+        const int other = (cause + 1) % BRACE_DRIFT_CAUSE_COUNT;
+        setUp();
+        give_evidence(cause, nextafterf(half, 0.0f), 20.0f);
+        TEST_ASSERT_EQUAL(BRACE_DRIFT_UNEXPLAINED, report().cause);
+        TEST_ASSERT_EQUAL(1u << BRACE_DRIFT_UNEXPLAINED, report().could_be);
+        give_evidence(cause, half, 20.0f);
+        TEST_ASSERT_EQUAL(cause, report().cause);
+        TEST_ASSERT_EQUAL(1u << cause, report().could_be);
+        give_evidence(other, half, 14.9f);
+        TEST_ASSERT_EQUAL(1u << cause, report().could_be);
+        give_evidence(other, half, 15.1f);
+        TEST_ASSERT_EQUAL(cause, report().cause);
+        TEST_ASSERT_EQUAL(1u << cause | 1u << other, report().could_be);
+        give_evidence(other, half, 20.1f);
+        TEST_ASSERT_EQUAL(other, report().cause);
+        drift.information[cause] = 0.0f; /* nothing looked at it */
+        TEST_ASSERT_EQUAL(1u << other, report().could_be);
+    }
+    setUp();
+    give_evidence(BRACE_DRIFT_FEMUR, BRACE_DRIFT_ALARM, 20.0f); /* the compliance has grown by score/information */
+    const double grown = sqrt(2.0 * 50.0 * 20.0) / 50.0;
+    ASSERT_CLOSE(grown / (1.0 + grown), report().loss_ratio, 1e-5);
+    ASSERT_CLOSE(1.0 / sqrt(50.0), report().loss_sigma_ratio, 1e-5);
+}
+
+/* Readings since an evidence left zero: none where it is zero, and one more with each reading. */
+static void test_readings_are_counted_since_the_evidence_left_zero(void)
+{
+    learn_a_slightly_other_limb();
+    real.link[BRACE_FEMUR].bending_mm_per_n /= 0.97f;
+    uint32_t since[BRACE_DRIFT_CAUSE_COUNT + 1], zeros = 0, most = 0;
+    const float *posture = postures[STRETCHED];
+    const brace_stiffness_t model = stiffness_of(&believed, posture), k = stiffness_of(&real, posture);
+    for (int cause = 0; cause <= BRACE_DRIFT_CAUSE_COUNT; cause++) {
+        since[cause] = drift.since[cause];
+    }
+    for (int j = 0; j < 60 && drift.state == BRACE_DRIFT_WATCHING; j++) {
+        const float dz = 0.3f * (float)(j % 5 - 2);
+        const brace_drift_reading_t reading = {posture[0], posture[1], 0.0f, dz,
+                                               k.k_xz_n_per_mm * dz + noise_n * (float)noise_normal(),
+                                               k.k_zz_n_per_mm * dz + noise_n * (float)noise_normal(), 0.0f};
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_drift_step(&drift, &believed, &model, &reading));
+        for (int cause = 0; cause <= BRACE_DRIFT_CAUSE_COUNT; cause++) {
+            if (drift.evidence[cause] <= 0.0f) {
+                TEST_ASSERT_EQUAL(0, drift.since[cause]);
+                zeros++;
+            } else if (j > 0) { /* the first of a run has no mean before it */
+                TEST_ASSERT_TRUE(drift.since[cause] == since[cause] + 1u || drift.since[cause] == 1u);
+            }
+            most = drift.since[cause] > most ? drift.since[cause] : most;
+            since[cause] = drift.since[cause];
+        }
+    }
+    TEST_ASSERT_TRUE(zeros > 10 && most > 3);
+}
+
 /* What was no alarm while learning is no evidence when watching begins. */
 static void test_watching_begins_without_evidence(void)
 {
@@ -159,6 +295,10 @@ static void test_watching_begins_without_evidence(void)
         TEST_ASSERT_EQUAL_FLOAT(0.0f, drift.evidence[cause]);
         TEST_ASSERT_EQUAL(0, drift.since[cause]);
     }
+    for (int cause = 0; cause < BRACE_DRIFT_CAUSE_COUNT; cause++) { /* the baseline is what has been learned */
+        TEST_ASSERT_TRUE(drift.offset[cause] < 0.0f || drift.offset[cause] > 0.0f);
+        TEST_ASSERT_EQUAL_FLOAT(drift.offset[cause], drift.held[cause]);
+    }
 }
 
 /* Readings that fit, within what the model itself may be off, are no evidence of anything. */
@@ -173,6 +313,31 @@ static void test_readings_that_fit_are_no_evidence(void)
         TEST_ASSERT_TRUE(drift.evidence[cause] < 0.25f * BRACE_DRIFT_ALARM);
     }
     TEST_ASSERT_TRUE(report().evidence < 0.25f * BRACE_DRIFT_ALARM);
+}
+
+/* The model may be off by its share of both forces together, also where they are alike. */
+static void test_what_the_model_may_be_off_is_no_evidence(void)
+{
+    const brace_drift_setup_t rough = {0.1f * NOISE_N, 0.02f, 0.02f, 0.2f};
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_drift_learn(&drift, &believed, &rough));
+    noise_n = 0.1f * NOISE_N;
+    rounds(20);
+    TEST_ASSERT_EQUAL(BRACE_DRIFT_WATCHING, drift.state);
+    for (int posture = 0; posture < POSTURES; posture++) {
+        const brace_stiffness_t k = stiffness_of(&believed, postures[posture]);
+        const float det = k.lambda_min_n_per_mm * k.lambda_max_n_per_mm, x_n = 8.0f, z_n = 8.0f;
+        const float dx = (k.k_zz_n_per_mm * x_n - k.k_xz_n_per_mm * z_n) / det;
+        const float dz = (k.k_xx_n_per_mm * z_n - k.k_xz_n_per_mm * x_n) / det;
+        for (int i = 0; i < 30; i++) {
+            const float sign = i % 2 == 0 ? 1.0f : -1.0f, off = 1.0f + 0.018f * (float)(posture % 2 == 0 ? 1 : -1);
+            const brace_drift_reading_t reading = {postures[posture][0], postures[posture][1], sign * dx, sign * dz,
+                                                   sign * x_n * off, sign * z_n * off, 0.0f};
+            TEST_ASSERT_EQUAL(BRACE_OK, brace_drift_step(&drift, &believed, &k, &reading));
+            for (int cause = 0; cause <= BRACE_DRIFT_CAUSE_COUNT; cause++) {
+                TEST_ASSERT_TRUE(drift.evidence[cause] < 0.25f * BRACE_DRIFT_ALARM);
+            }
+        }
+    }
 }
 
 static void check_loss(int link, brace_drift_cause_t cause)
@@ -401,8 +566,13 @@ int main(void)
     RUN_TEST(test_the_state_stays_small);
     RUN_TEST(test_a_limb_within_its_calibration_is_learned_and_raises_no_alarm);
     RUN_TEST(test_learning_begins_with_the_trust_of_the_calibration);
+    RUN_TEST(test_trust_in_each_number_of_the_calibration);
+    RUN_TEST(test_estimates_narrow_and_begin_anew_once);
+    RUN_TEST(test_a_report_names_what_the_readings_support);
+    RUN_TEST(test_readings_are_counted_since_the_evidence_left_zero);
     RUN_TEST(test_watching_begins_without_evidence);
     RUN_TEST(test_readings_that_fit_are_no_evidence);
+    RUN_TEST(test_what_the_model_may_be_off_is_no_evidence);
     RUN_TEST(test_a_tenth_of_the_femurs_stiffness_lost_is_told);
     RUN_TEST(test_a_tenth_of_the_tibias_stiffness_lost_is_told);
     RUN_TEST(test_a_spring_that_goes_soft_is_not_taken_for_the_femur);

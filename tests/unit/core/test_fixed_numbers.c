@@ -281,6 +281,21 @@ static void test_the_inverse_in_space(void)
     }
 }
 
+/* C so small that its words would be noise is refused, sound as it may be. */
+static void test_a_C_below_its_least_trace_is_refused(void)
+{
+    for (int axis = 0; axis < 3; axis++) {
+        const int64_t whole = (int64_t)1 << 20, third = whole / 3, rest = whole - 2 * third;
+        for (int less = 0; less < 2; less++) {
+            const int64_t odd = rest - less;
+            const fixed_tensor3_t c = {.xx = axis == 0 ? odd : third, .yy = axis == 1 ? odd : third,
+                                       .zz = axis == 2 ? odd : third};
+            brace_k3_t k;
+            TEST_ASSERT_EQUAL(less == 0, fixed_inverse3(&c, 0, &k));
+        }
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -295,5 +310,6 @@ int main(void)
     RUN_TEST(test_products_are_noted_from_their_most_on);
     RUN_TEST(test_pivots_are_noted_outside_their_range);
     RUN_TEST(test_the_inverse_in_space);
+    RUN_TEST(test_a_C_below_its_least_trace_is_refused);
     return UNITY_END();
 }

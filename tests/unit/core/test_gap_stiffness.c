@@ -110,6 +110,23 @@ static void it_is_the_limit_of_a_soft_joint(void)
     }
 }
 
+/* An axis has no direction: of its two ends that with x >= 0 is told, and straight up of those with x = 0. */
+static void the_axis_of_what_is_carried_points_outwards(void)
+{
+    const brace_stiffness_t k = stiffness_of(&sample_limb[SAMPLE_PAPER], postures[0]);
+    brace_pose_t pose = pose_of(&sample_limb[SAMPLE_PAPER], postures[0]);
+    for (int i = 1; i <= 400; i++) {
+        const float size_mm = 0.737f * (float)i * (i % 2 == 0 ? 1.0f : -1.0f);
+        brace_gap_stiffness_t gap;
+        pose.lever_femur = (brace_point_t){size_mm, 0.0f}; /* what is carried lies across it */
+        TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_gap_stiffness_known(&k, &pose, BRACE_GAP_FEMUR, &gap));
+        ASSERT_CLOSE(1.5707963, gap.now.stiff_axis_rad, 1e-6);
+        pose.lever_femur = (brace_point_t){0.3f * size_mm, 0.4f * size_mm};
+        TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_gap_stiffness_known(&k, &pose, BRACE_GAP_FEMUR, &gap));
+        ASSERT_CLOSE(atan(-0.75), gap.now.stiff_axis_rad, 1e-6);
+    }
+}
+
 static void both_free_carry_nothing_and_none_free_changes_nothing(void)
 {
     const brace_limb_t *limb = &sample_limb[SAMPLE_PAPER];
@@ -172,6 +189,7 @@ int main(void)
     RUN_TEST(the_rank_one_formula_is_met);
     RUN_TEST(nothing_is_carried_about_the_free_joint);
     RUN_TEST(it_is_the_limit_of_a_soft_joint);
+    RUN_TEST(the_axis_of_what_is_carried_points_outwards);
     RUN_TEST(both_free_carry_nothing_and_none_free_changes_nothing);
     RUN_TEST(a_tip_on_a_free_joints_axis_is_refused_and_touches_nothing);
     RUN_TEST(the_axis_of_a_free_joint_is_told_one_way);

@@ -426,6 +426,22 @@ static void bad_input_is_refused_and_touches_nothing(void)
     TEST_ASSERT_TRUE(angle == 7.0f && tip.x_mm == 300.0f);
 }
 
+static void a_direction_is_told_of_every_angle_in_range(void)
+{
+    for (int i = -79; i <= 79; i++) {
+        const float angle_rad = 0.1f * (float)i;
+        brace_vec_t direction = {9.0f, 9.0f};
+        TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_kinematics_direction(angle_rad, &direction));
+        ASSERT_CLOSE(cos((double)angle_rad), direction.x, 3e-7);
+        ASSERT_CLOSE(sin((double)angle_rad), direction.z, 3e-7);
+    }
+    brace_vec_t untouched = {9.0f, 8.0f};
+    TEST_ASSERT_EQUAL_INT(BRACE_E_RANGE, brace_kinematics_direction(7.91f, &untouched));
+    TEST_ASSERT_EQUAL_INT(BRACE_E_RANGE, brace_kinematics_direction(-7.91f, &untouched));
+    TEST_ASSERT_EQUAL_INT(BRACE_E_NOT_FINITE, brace_kinematics_direction((float)NAN, &untouched));
+    TEST_ASSERT_TRUE(untouched.x == 9.0f && untouched.z == 8.0f);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -444,5 +460,6 @@ int main(void)
     RUN_TEST(unreachable_is_refused);
     RUN_TEST(the_edge_itself_is_reached);
     RUN_TEST(bad_input_is_refused_and_touches_nothing);
+    RUN_TEST(a_direction_is_told_of_every_angle_in_range);
     return UNITY_END();
 }

@@ -1,8 +1,10 @@
 #include <math.h>
+#include <stdbool.h>
 #include <stddef.h>
 #include <string.h>
 
 #include "brace/limb.h"
+#include "reference_planar.h"
 #include "sample_limbs.h"
 #include "unity.h"
 
@@ -154,6 +156,33 @@ static void test_a_bending_femur_that_passes_moments_yields_in_two_directions(vo
     TEST_ASSERT_EQUAL(BRACE_OK, brace_limb_check(&limb));
 }
 
+/* Each subset of the plane's parts yields, with a tilted tibia and moments passed on or not: the limb is taken where C,
+ * as docs/physics.md has it, has an inverse at some posture. */
+static void test_a_limb_is_taken_where_c_has_an_inverse_at_some_posture(void)
+{
+    for (uint32_t subset = 0; subset < 2048u; subset++) {
+        float is[11];
+        for (uint32_t i = 0; i < 11u; i++) {
+            is[i] = (float)(subset >> i & 1u);
+        }
+        all_rigid();
+        limb.link[BRACE_FEMUR] = (brace_link_t){.axial_mm_per_n = 0.3f * is[0], .bending_mm_per_n = 0.4f * is[1],
+                                                .moment_transfer_ratio = 0.8f * is[2]};
+        limb.link[BRACE_TIBIA] = (brace_link_t){.axial_mm_per_n = 0.2f * is[3], .bending_mm_per_n = 0.5f * is[4],
+                                                .tilt_rad = 0.3f * is[5]};
+        limb.joint[BRACE_FEMUR].compliance_rad_per_n_mm = 1e-5f * is[6];
+        limb.joint[BRACE_TIBIA].compliance_rad_per_n_mm = 2e-5f * is[7];
+        limb.base = (brace_base_t){0.1f * is[8], 0.2f * is[9], 1e-5f * is[10]};
+        bool has_inverse = false;
+        for (int posture = 0; posture < 4; posture++) {
+            const reference_planar_t r = reference_planar(&limb, 0.4 + 0.9 * posture, 0.7 + 0.5 * posture);
+            const double trace = r.c_xx + r.c_zz;
+            has_inverse = has_inverse || r.c_xx * r.c_zz - r.c_xz * r.c_xz > 1e-9 * trace * trace;
+        }
+        TEST_ASSERT_EQUAL(has_inverse ? BRACE_OK : BRACE_E_PARAMETER, brace_limb_check(&limb));
+    }
+}
+
 static void test_a_coxa_without_moment_transfer_may_have_no_length(void)
 {
     limb.coxa_mm = 0.0f;
@@ -183,6 +212,7 @@ int main(void)
     RUN_TEST(test_something_must_yield_in_each_direction);
     RUN_TEST(test_knee_spring_and_tibia_bending_are_one_direction);
     RUN_TEST(test_a_bending_femur_that_passes_moments_yields_in_two_directions);
+    RUN_TEST(test_a_limb_is_taken_where_c_has_an_inverse_at_some_posture);
     RUN_TEST(test_a_coxa_without_moment_transfer_may_have_no_length);
     RUN_TEST(test_true_angle_adds_the_offset);
     return UNITY_END();

@@ -269,6 +269,11 @@ static void test_slender_K_is_told_down_to_the_last_place(void)
         TEST_ASSERT_EQUAL_UINT32(BRACE_FLAG_NEAR_SINGULAR, flags);
         TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, put_in_plane(true, &none));
         TEST_ASSERT_EQUAL(BRACE_OK, put_in_plane(false, &told));
+        const brace_k3_t flat = slender_k(axis, 0.0f), unstable = slender_k(axis, -0.5f);
+        for (int is_fixed = 0; is_fixed < 2; is_fixed++) {
+            TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, put_in_plane(is_fixed != 0, &flat));
+            TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, put_in_plane(is_fixed != 0, &unstable));
+        }
     }
 }
 

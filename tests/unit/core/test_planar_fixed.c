@@ -1,7 +1,9 @@
 #include <math.h>
+#include <stdbool.h>
 #include <string.h>
 
 #include "brace/planar_fixed.h"
+#include "fixed/fixed_det.h"
 #include "fixed/fixed_inverse.h"
 #include "fixed/fixed_kept.h"
 #include "fixed/fixed_table.h"
@@ -70,6 +72,28 @@ static void test_every_sample_over_the_workspace(void)
             }
         }
     }
+}
+
+/* Ellipsoids tilted either way, as far as they go. */
+static void test_every_tilt_over_the_knee_s_angles(void)
+{
+    int told = 0;
+    for (int i = 0; i < 64; i++) {
+        brace_limb_t limb = sample_limb[i % 2 == 0 ? SAMPLE_TILTED : SAMPLE_PAPER];
+        limb.link[BRACE_FEMUR].tilt_rad = 0.4f * (float)(i / 2 % 8 - 4);
+        limb.link[BRACE_TIBIA].tilt_rad = 0.5f * (float)(i / 16 - 2) + 0.25f;
+        if (brace_planar_fixed_collapse(&limb, &fixed) != BRACE_OK || fixed.flags != 0u) {
+            continue;
+        }
+        told++;
+        for (int j = -12; j <= 12; j++) {
+            const int32_t theta2 = q28(PI * j / 12.0);
+            const brace_stiffness_t k = stiffness_at(q28(0.3), theta2);
+            const reference_planar_t r = reference_planar(&limb, q28(0.3) / Q28, theta2 / Q28);
+            TEST_ASSERT_TRUE(reference_error(&r, &k) < ERROR_LIMIT);
+        }
+    }
+    TEST_ASSERT_TRUE(told > 40);
 }
 
 static void test_close_to_straight_and_folded(void)
@@ -212,10 +236,38 @@ static void test_cell_table_points_where_its_cells_are(void)
     }
 }
 
+/* Whether K can be told from det C depends on det over mean^2, whatever the unit of length and however stiff the limb.
+ * A tilted limb is flagged sooner. */
+static void test_judging_does_not_depend_on_units(void)
+{
+    static const struct {
+        double ratio;
+        brace_status_t status;
+        bool is_flagged, is_flagged_if_tilted;
+    } row[] = {{1e-7, BRACE_E_UNSUPPORTED, false, false},
+               {1e-6, BRACE_OK, true, true},
+               {1e-5, BRACE_OK, false, true},
+               {1e-3, BRACE_OK, false, false}};
+    for (uint32_t i = 0; i < sizeof row / sizeof *row; i++) {
+        for (int n = 0; n < 18; n++) {
+            const double mean = pow(10.0, n / 3 - 3), least = row[i].ratio * mean * mean;
+            const int tilt = n % 3;
+            const brace_det_t det = {{3.0 * least, 2.0 * least * 0.6, 2.0 * least * 0.8},
+                                     {tilt == 1 ? 0.1 * mean : 0.0, tilt == 2 ? 0.1 * mean : 0.0, 0.3 * mean}};
+            uint32_t flags = 99u;
+            TEST_ASSERT_EQUAL(row[i].status, brace_det_judge(&det, mean, &flags));
+            if (row[i].status == BRACE_OK) {
+                const bool is_flagged = tilt == 0 ? row[i].is_flagged : row[i].is_flagged_if_tilted;
+                TEST_ASSERT_EQUAL_UINT32(is_flagged ? BRACE_FLAG_NEAR_SINGULAR : 0u, flags);
+            }
+        }
+    }
+}
+
 static double axis_of(double length, double angle)
 {
-    const fixed_circle_t circle = {UINT32_MAX, (int32_t)lround(length * cos(angle)), (int32_t)lround(length * sin(angle)),
-                                   0xf0000000u, 127u << 23, 127u << 23, 0u};
+    const int32_t x = (int32_t)lround(length * cos(angle)), z = (int32_t)lround(length * sin(angle));
+    const fixed_circle_t circle = {UINT32_MAX, x, z, 0xf0000000u, 127u << 23, 127u << 23, 0u};
     brace_stiffness_t k;
     stiffness_of_circle(&circle, &k);
     return (double)k.stiff_axis_rad;
@@ -277,6 +329,7 @@ int main(void)
     RUN_TEST(test_a_structure_beyond_its_words_is_not_kept);
     RUN_TEST(test_check_value_of_the_physics_page);
     RUN_TEST(test_every_sample_over_the_workspace);
+    RUN_TEST(test_every_tilt_over_the_knee_s_angles);
     RUN_TEST(test_close_to_straight_and_folded);
     RUN_TEST(test_every_word_is_an_angle);
     RUN_TEST(test_turning_the_limb_leaves_the_eigenvalues);
@@ -286,5 +339,6 @@ int main(void)
     RUN_TEST(test_slender_limbs_are_flagged_where_the_error_grows);
     RUN_TEST(test_seed_table_holds_what_it_says);
     RUN_TEST(test_cell_table_points_where_its_cells_are);
+    RUN_TEST(test_judging_does_not_depend_on_units);
     return UNITY_END();
 }

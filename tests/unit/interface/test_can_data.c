@@ -93,6 +93,28 @@ static void test_process_data_are_thinned_to_the_share_of_the_bus(void)
     TEST_ASSERT_TRUE(load > 0.09f);
 }
 
+/* Where nothing else is to be sent, two frames leave in each tick until a snapshot is told. A port that nobody has
+ * opened takes none of them away. */
+static void test_a_snapshot_leaves_two_frames_at_a_time(void)
+{
+    brace_parameters_t p = bench_parameters();
+    p.controller.stiffness_hz = p.controller.posture_hz = p.controller.load_hz = 37; /* at even ticks and at odd ones */
+    p.controller.bus_load_ratio = 1.0f;
+    bench_start(&p);
+    ticks(50);
+    drain();
+    int ended = 0, before = 0;
+    for (int i = 0; i < 600; i++) {
+        const count_t seen = run(1);
+        const int frames = (int)seen.all - (int)of(&seen, 0x700);
+        TEST_ASSERT_LESS_OR_EQUAL(2, frames);
+        TEST_ASSERT_TRUE(before == 0 || before == 2 || frames == 0); /* fewer only at the end */
+        ended += before != 0 && frames == 0;
+        before = frames;
+    }
+    TEST_ASSERT_GREATER_THAN(20, ended);
+}
+
 static void test_all_frames_of_a_snapshot_are_of_one_tick(void)
 {
     enum { KEPT = 256 };
@@ -489,6 +511,33 @@ static void test_a_snapshot_is_one_frame_of_can_fd(void)
     TEST_ASSERT_UINT32_WITHIN(1, 2, others);
 }
 
+/* By ISO 11898-1 a CAN FD frame of 64 bytes has 30 bits at the bus's rate and 4 for stuffing; at the faster rate 542
+ * bits and up to 136 for stuffing. */
+static void test_can_fd_is_thinned_to_the_share_of_the_bus(void)
+{
+    static const uint32_t fd_bit_rate[] = {1000000, 5000000};
+    for (int i = 0; i < 2; i++) {
+        brace_parameters_t p = bench_parameters();
+        p.controller.can_bit_rate = 500000;
+        p.controller.can_fd_bit_rate = fd_bit_rate[i];
+        p.controller.stiffness_hz = 1000;
+        p.controller.posture_hz = p.controller.load_hz = 0;
+        p.controller.bus_load_ratio = 0.10f;
+        bench_board();
+        fake.can_takes_fd = true;
+        bench_store(&p);
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_app_start(&app, &fake.hal));
+        ticks(50);
+        drain();
+        const count_t seen = run(1000);
+        const float whole_s = 34.0f / 500000.0f + (542.0f + 136.0f) / (float)fd_bit_rate[i];
+        const float beat_s = (float)worst_bits() / 500000.0f;
+        const float taken_s = (float)of(&seen, 0x500) * whole_s + (float)of(&seen, 0x700) * beat_s;
+        TEST_ASSERT_TRUE(taken_s <= 0.101f);
+        TEST_ASSERT_TRUE(taken_s > 0.09f);
+    }
+}
+
 static void test_where_can_is_classic_only_it_stays_so(void)
 {
     start_fd(false);
@@ -555,6 +604,7 @@ int main(void)
     RUN_TEST(test_rates_are_the_parameters);
     RUN_TEST(test_rates_of_zero_are_silence_but_for_the_heartbeat);
     RUN_TEST(test_process_data_are_thinned_to_the_share_of_the_bus);
+    RUN_TEST(test_a_snapshot_leaves_two_frames_at_a_time);
     RUN_TEST(test_all_frames_of_a_snapshot_are_of_one_tick);
     RUN_TEST(test_K_that_is_not_valid_is_never_a_number);
     RUN_TEST(test_four_limbs_take_less_than_a_quarter_of_the_bus_and_begin_apart);
@@ -566,6 +616,7 @@ int main(void)
     RUN_TEST(test_both_ports_carry_the_same_and_neither_waits_for_the_other);
     RUN_TEST(test_text_leaves_as_fast_as_the_line_takes_it);
     RUN_TEST(test_a_snapshot_is_one_frame_of_can_fd);
+    RUN_TEST(test_can_fd_is_thinned_to_the_share_of_the_bus);
     RUN_TEST(test_where_can_is_classic_only_it_stays_so);
     RUN_TEST(test_text_is_classic_beside_can_fd);
     RUN_TEST(test_can_fd_goes_on_until_the_next_start_whatever_is_put_in_force);

@@ -272,6 +272,28 @@ static void test_what_members_say_together(void)
     expect_fault(BRACE_PARAMETER_COUNT); /* nothing yields: no single member is to blame */
 }
 
+/* A drive's noise, bias and take-up may be its whole torque range, and no more; a sample may be as old as a tick. */
+static void test_bounds_between_members_may_be_reached(void)
+{
+    static const uint32_t within[][3] = {
+        {BRACE_PARAMETER_MOTOR_COXA_TORQUE_NOISE_N_MM, BRACE_PARAMETER_MOTOR_COXA_TORQUE_BIAS_N_MM,
+         BRACE_PARAMETER_MOTOR_COXA_TAKEUP_TORQUE_N_MM},
+        {BRACE_PARAMETER_MOTOR_FEMUR_TORQUE_NOISE_N_MM, BRACE_PARAMETER_MOTOR_FEMUR_TORQUE_BIAS_N_MM,
+         BRACE_PARAMETER_MOTOR_FEMUR_TAKEUP_TORQUE_N_MM},
+        {BRACE_PARAMETER_MOTOR_TIBIA_TORQUE_NOISE_N_MM, BRACE_PARAMETER_MOTOR_TIBIA_TORQUE_BIAS_N_MM,
+         BRACE_PARAMETER_MOTOR_TIBIA_TAKEUP_TORQUE_N_MM}};
+    for (uint32_t i = 0; i < 9u; i++) {
+        const uint32_t member = within[i / 3u][i % 3u];
+        const float most = parameters.drive[i / 3u].torque_range_n_mm, beyond = nextafterf(most, INFINITY);
+        memcpy((uint8_t *)&parameters + 4u * member, &most, 4);
+        TEST_ASSERT_EQUAL_MESSAGE(BRACE_OK, brace_parameters_check(&parameters, NULL), brace_parameter_key(member));
+        memcpy((uint8_t *)&parameters + 4u * member, &beyond, 4);
+        expect_fault(member);
+    }
+    parameters.controller.tick_us = parameters.controller.age_limit_us = 2000;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_parameters_check(&parameters, NULL));
+}
+
 /* The dictionary's ranges and those of brace_limb_check are the same: the float next to a bound is refused by both. */
 static void test_ranges_are_those_of_the_limb(void)
 {
@@ -349,6 +371,7 @@ int main(void)
     RUN_TEST(test_refusals_each_have_their_status);
     RUN_TEST(test_the_wrong_member_is_named);
     RUN_TEST(test_what_members_say_together);
+    RUN_TEST(test_bounds_between_members_may_be_reached);
     RUN_TEST(test_ranges_are_those_of_the_limb);
     RUN_TEST(test_identity_is_of_values_alone);
     RUN_TEST(test_members_have_their_names);

@@ -10,7 +10,7 @@ enum { SLOT_BYTES = 8192, IDENTITY = 0x1234 };
 static struct {
     uint8_t bytes[2][SLOT_BYTES];
     bool read_refused, write_refused, write_lost;
-    uint32_t calls, misuse;
+    uint32_t calls, misuse, writes_until_refused;
 } memory;
 
 static brace_hal_t hal;
@@ -34,7 +34,7 @@ static int32_t memory_write(void *context, uint32_t slot, uint32_t offset, const
     memory.calls++;
     TEST_ASSERT_GREATER_OR_EQUAL(BRACE_JOURNAL_AT, offset); /* the store's part is never touched */
     TEST_ASSERT_LESS_OR_EQUAL(SLOT_BYTES, offset + count);
-    if (memory.write_refused) {
+    if (memory.write_refused || (memory.writes_until_refused != 0u && --memory.writes_until_refused == 0u)) {
         return BRACE_HAL_E_DEVICE;
     }
     for (uint32_t i = 0; i < count && !memory.write_lost; i++) {
@@ -172,6 +172,31 @@ static void test_a_memory_that_refuses_or_does_not_keep(void)
     TEST_ASSERT_FALSE(brace_journal_begin(&journal, &state));
 }
 
+/* Whatever write is refused, the next try writes nothing over what stands, and both sessions find the right record. */
+static void test_each_write_refused_in_turn(void)
+{
+    for (uint32_t refused = 1; refused <= (uint32_t)BRACE_JOURNAL_PIECES + 1u; refused++) {
+        for (int is_restarted = 0; is_restarted < 2; is_restarted++) {
+            setUp();
+            TEST_ASSERT_EQUAL(BRACE_JOURNAL_READY, keep(1));
+            if (is_restarted != 0) {
+                TEST_ASSERT_EQUAL(1, restart(0, IDENTITY));
+            }
+            memory.writes_until_refused = refused;
+            const brace_journal_state_t state_then = keep(2);
+            const bool all_were_written = is_restarted == 0 && refused > (uint32_t)BRACE_JOURNAL_PIECES;
+            TEST_ASSERT_EQUAL(all_were_written ? BRACE_JOURNAL_READY : BRACE_JOURNAL_FAILED, state_then);
+            memory.writes_until_refused = 0;
+            TEST_ASSERT_EQUAL(BRACE_JOURNAL_READY, keep(3));
+            TEST_ASSERT_EQUAL(BRACE_JOURNAL_READY, keep(4));
+            TEST_ASSERT_EQUAL(4, restart(0, IDENTITY));
+            TEST_ASSERT_EQUAL(BRACE_JOURNAL_READY, keep(5));
+            TEST_ASSERT_EQUAL(5, restart(0, IDENTITY));
+            tearDown();
+        }
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -180,5 +205,6 @@ int main(void)
     RUN_TEST(test_a_record_with_any_bit_wrong_is_none);
     RUN_TEST(test_half_a_record_does_not_hide_the_one_behind_it);
     RUN_TEST(test_a_memory_that_refuses_or_does_not_keep);
+    RUN_TEST(test_each_write_refused_in_turn);
     return UNITY_END();
 }

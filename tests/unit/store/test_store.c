@@ -11,6 +11,8 @@ static struct {
     int32_t stuck_slot;
     uint32_t stuck_at, writes_until_refused, reads_until_refused;
     uint32_t calls, bytes_moved;
+    uint32_t worn_at; /* a byte that no erase makes blank, less one; 0: none */
+    uint32_t erased_whole; /* how often a block was still there when its slot was erased */
 } memory;
 
 static brace_hal_t hal;
@@ -54,8 +56,12 @@ static int32_t memory_erase(void *context, uint32_t slot)
     if (memory.erase_refused) {
         return BRACE_HAL_E_DEVICE;
     }
+    memory.erased_whole += memcmp(memory.bytes[slot], "BRCE", 4) == 0;
     if (!memory.erase_lost) {
         memset(memory.bytes[slot], 0xff, sizeof memory.bytes[slot]);
+    }
+    if (memory.worn_at != 0u) {
+        memory.bytes[slot][memory.worn_at - 1u] = 0xfeu;
     }
     return BRACE_HAL_OK;
 }
@@ -280,6 +286,36 @@ static void put_refused_block(uint32_t slot, uint32_t sequence)
     memcpy(block + BRACE_STORE_MARKS_AT + 4, &crc, 4);
 }
 
+static void expect_untold(const brace_slot_report_t *told)
+{
+    TEST_ASSERT_EQUAL(0, told->sequence);
+    TEST_ASSERT_EQUAL(0, told->schema_hash);
+    TEST_ASSERT_EQUAL(0, told->block_crc);
+    TEST_ASSERT_EQUAL(0, told->wrong_index);
+}
+
+/* What a slot's condition leaves unknown is told as 0, whatever a start before has found there. */
+static void test_what_a_slot_does_not_tell_is_zero(void)
+{
+    static const brace_slot_condition_t condition[] = {BRACE_SLOT_EMPTY, BRACE_SLOT_DAMAGED, BRACE_SLOT_UNREADABLE};
+    for (uint32_t i = 0; i < 3u; i++) {
+        setUp();
+        put_refused_block(0, 7);
+        put_block(1, 1, 8, true);
+        expect_after_start(BRACE_PARAMETERS_SLOT_B, 1);
+        TEST_ASSERT_EQUAL(7, status_now().slot[0].sequence);
+        memory.bytes[0][0] ^= condition[i] == BRACE_SLOT_EMPTY;
+        memory.bytes[0][30] ^= condition[i] == BRACE_SLOT_DAMAGED;
+        memory.reads_until_refused = condition[i] == BRACE_SLOT_UNREADABLE; /* the first of a start */
+        expect_after_start(BRACE_PARAMETERS_SLOT_B, 1);
+        const brace_store_status_t status = status_now();
+        TEST_ASSERT_EQUAL(condition[i], status.slot[0].condition);
+        expect_untold(&status.slot[0]);
+        TEST_ASSERT_EQUAL(0, status.slot[1].wrong_index);
+        TEST_ASSERT_NOT_EQUAL(0, status.slot[1].block_crc);
+    }
+}
+
 static void test_a_value_out_of_range_is_named(void)
 {
     put_refused_block(0, 7);
@@ -392,6 +428,36 @@ static void test_a_set_that_is_not_the_one_named(void)
 }
 
 /* Erases are counted, up to the greatest number. */
+/* Where the block and the marks will stand, each byte has to be blank after an erase. */
+static void test_a_byte_that_does_not_become_blank(void)
+{
+    const uint32_t marks_bytes = BRACE_STORE_MARK_COUNT * BRACE_STORE_MARK_BYTES;
+    for (uint32_t at = 0; at < (uint32_t)BRACE_BLOCK_BYTES + marks_bytes; at += 7u) {
+        setUp();
+        TEST_ASSERT_EQUAL(BRACE_STORE_DONE, update(1));
+        memory.worn_at =
+            1u + (at < (uint32_t)BRACE_BLOCK_BYTES ? at : at - (uint32_t)BRACE_BLOCK_BYTES + BRACE_STORE_MARKS_AT);
+        TEST_ASSERT_EQUAL(BRACE_STORE_FAILED, update(2));
+        TEST_ASSERT_EQUAL(BRACE_STORE_E_ERASE, status_now().failure);
+        memory.worn_at = 0;
+        expect_after_start(BRACE_PARAMETERS_SLOT_A, 1);
+    }
+    setUp();
+    TEST_ASSERT_EQUAL(BRACE_STORE_DONE, update(1));
+    memory.worn_at = BRACE_STORE_MARKS_AT; /* the byte before the marks holds nothing */
+    TEST_ASSERT_EQUAL(BRACE_STORE_DONE, update(2));
+}
+
+/* An erase that power cuts short may leave anything; so no block is there when it begins. */
+static void test_a_block_is_spoilt_before_its_slot_is_erased(void)
+{
+    for (uint32_t i = 1; i <= 6u; i++) {
+        TEST_ASSERT_EQUAL(BRACE_STORE_DONE, update(i));
+    }
+    TEST_ASSERT_EQUAL(6, store.erases);
+    TEST_ASSERT_EQUAL(0, memory.erased_whole);
+}
+
 static void test_erases_are_counted(void)
 {
     update(1);
@@ -686,11 +752,14 @@ int main(void)
     RUN_TEST(test_sequences_wrap_around);
     RUN_TEST(test_a_block_without_its_mark_does_not_count);
     RUN_TEST(test_a_block_of_another_dictionary);
+    RUN_TEST(test_what_a_slot_does_not_tell_is_zero);
     RUN_TEST(test_a_value_out_of_range_is_named);
     RUN_TEST(test_a_refused_set_leaves_the_other_in_force);
     RUN_TEST(test_marks_never_run_out);
     RUN_TEST(test_a_memory_that_does_not_keep);
     RUN_TEST(test_a_set_that_is_not_the_one_named);
+    RUN_TEST(test_a_byte_that_does_not_become_blank);
+    RUN_TEST(test_a_block_is_spoilt_before_its_slot_is_erased);
     RUN_TEST(test_erases_are_counted);
     RUN_TEST(test_marks_that_are_not_kept_use_up_their_places);
     RUN_TEST(test_each_write_refused_in_turn);

@@ -83,6 +83,13 @@ typedef struct {
     uint32_t count;
 } brace_loading_sums_t;
 
+/* What outlives a test: how a dataset's rows number it. */
+typedef struct {
+    uint16_t run, config;
+    uint16_t rep[2];               /* along each axis */
+    float config_theta_rad[2];
+} brace_loading_counts_t;
+
 /* A test under way. Private. Arrays of two are of femur and tibia joint: BRACE_FEMUR + i. */
 typedef struct {
     uint8_t phase;
@@ -106,9 +113,7 @@ typedef struct {
     float standing_rad[2];         /* true angles at the preload point, what the load turns counted */
     brace_loading_sums_t sums;
     float dx_mm, dz_mm, fx_n, fz_n; /* the last reading */
-    uint16_t run_count, config_count;
-    uint16_t rep_count[2];
-    float config_theta_rad[2];
+    brace_loading_counts_t counts;
     bool held[2];                  /* the joint's backlash was taken up when the test began */
     brace_slope_t slope;
     brace_stiffness_t model, at_reference;

@@ -24,12 +24,11 @@ static frozen_span_t just(float value)
     return (frozen_span_t){value, value};
 }
 
-/* NaN once, and the span stays NaN. */
+/* NaN once, and the span's width stays NaN. */
 static frozen_span_t with(frozen_span_t span, float value)
 {
-    const bool unknown = value != value;
-    return (frozen_span_t){.low = unknown || value < span.low ? value : span.low,
-                           .high = unknown || value > span.high ? value : span.high};
+    return (frozen_span_t){.low = value != value || value < span.low ? value : span.low,
+                           .high = value > span.high ? value : span.high};
 }
 
 /* What an encoder behind the gearbox has told; one sample that is absurd says nothing. */

@@ -37,7 +37,7 @@ typedef struct {
  *         BRACE_E_UNSUPPORTED: the base yields unequally in x and z; or C is so slender at some posture (det C
  *         below 2.5e-7 of the largest mean^2) that 32 bits do not hold it; or C is too far from 1 mm/N (mean compliance
  *         outside 1e-7 to 1e7); or what was made might leave a word at some knee angle, or give a K that is not
- *         positive (in none of 199,032 random limbs that the rest lets through). brace_chain_stiffness serves such a limb.
+ *         positive (no case of it is known). brace_chain_stiffness serves such a limb.
  * Cost: once per parameter change; float and double, in software where there is no FPU: at most 144,000
  *       instructions on a Cortex-M3, stack 888 bytes. RAM: 96 bytes a limb. */
 brace_status_t brace_planar_fixed_collapse(const brace_limb_t *limb, brace_planar_fixed_t *fixed);

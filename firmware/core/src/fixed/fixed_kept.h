@@ -1,4 +1,4 @@
-/* What a structure has to keep so that no sum of planar_fixed.c leaves its word at any knee angle. The collapse looks for
+/* What a structure keeps so that no sum of planar_fixed.c leaves its word at any knee angle. The collapse looks for
  * it last, in integers; the proof of planar_fixed.c stands on it (tests/proofs/harness/fixed_planar.c). */
 #ifndef BRACE_FIXED_KEPT_H
 #define BRACE_FIXED_KEPT_H
@@ -31,7 +31,8 @@ static inline int32_t rest_least(const brace_planar_fixed_t *fixed)
 static inline int64_t room_of(const brace_fixed_harmonic_t *h, int32_t least, int32_t most)
 {
     const int64_t half_q31 = h->constant_q32 / 2;
-    const int64_t below_q31 = half_q31 - (int64_t)least * (1LL << 31), above_q31 = (int64_t)most * (1LL << 31) - half_q31;
+    const int64_t below_q31 = half_q31 - (int64_t)least * (1LL << 31);
+    const int64_t above_q31 = (int64_t)most * (1LL << 31) - half_q31;
     return (below_q31 < above_q31 ? below_q31 : above_q31) / (1LL << 30) - 1;
 }
 

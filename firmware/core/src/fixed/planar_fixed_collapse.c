@@ -105,7 +105,7 @@ static double swing_of(double cos, double sin)
 
 /* Is half the trace longer than the deviator by 4 units at every knee angle, so that K is positive? Its square less the
  * deviator's is det C, of which the rest is told; and what the words' rounding has made of the difference.
- * det_unit: of cross^2, in the unit of the mean's square. The trace is below 2^31, so 4 units are 4 2^31 of the squares;
+ * det_unit: of cross^2, in the unit of the mean's square. The trace is below 2^31: 4 units are 4 2^31 of the squares;
  * that doubled, because sine and cosine are a unit vector within 2e-9 only. */
 static bool is_definite(const brace_planar_fixed_t *fixed, double det_unit)
 {

@@ -48,6 +48,9 @@ static void tick(bool takes_up)
 
 static void test_nothing_is_told_until_something_moves_and_all_is_taken_back(void)
 {
+    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
+        TEST_ASSERT_TRUE(isinf(drives.limit_n_mm[i])); /* nothing limits them yet */
+    }
     tick(false);
     TEST_ASSERT_EQUAL(0, calls[BRACE_FEMUR]);
     flank.joint[BRACE_FEMUR].out.command_rad = 0.01f;

@@ -34,6 +34,14 @@ static void test_a_start_waits_for_sound_joints_for_100_ms(void)
     TEST_ASSERT_FALSE(mode_update(&mode, &inputs));
     TEST_ASSERT_EQUAL(BRACE_MODE_FAULT, mode.now);
     mode_start(&mode);
+    inputs.tick_us = 3000; /* no whole number of them is 100 ms */
+    for (int i = 1; i <= 34; i++) {
+        TEST_ASSERT_EQUAL(BRACE_MODE_START, mode.now);
+        TEST_ASSERT_FALSE(mode_update(&mode, &inputs));
+    }
+    TEST_ASSERT_EQUAL(BRACE_MODE_FAULT, mode.now);
+    inputs.tick_us = TICK_US;
+    mode_start(&mode);
     inputs.joints_are_sound = true;
     TEST_ASSERT_FALSE(mode_update(&mode, &inputs));
     TEST_ASSERT_EQUAL(BRACE_MODE_MONITOR, mode.now);

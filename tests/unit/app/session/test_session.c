@@ -238,6 +238,8 @@ static void test_on_a_bench_who_lives_already_may_move_at_once(void)
 {
     session_start(&session, true, NULL);
     TEST_ASSERT_EQUAL(BRACE_OK, session_life(&session, we, NULL));
+    TEST_ASSERT_FALSE(session.is_open); /* nothing is begun by a sign of life, */
+    TEST_ASSERT_FALSE(session.is_alive); /* and no session lives before there is one */
     (void)session_tick(&session, 100000, SESSION_LIFE_US);
     TEST_ASSERT_EQUAL(BRACE_OK, session_command(&session, we, NULL, order, 8));
     TEST_ASSERT_TRUE(session_may_move(&session));
@@ -245,6 +247,23 @@ static void test_on_a_bench_who_lives_already_may_move_at_once(void)
     TEST_ASSERT_EQUAL(BRACE_OK, session_life(&session, they, NULL));
     TEST_ASSERT_EQUAL(BRACE_OK, session_command(&session, we, NULL, order, 8)); /* another's life is not ours */
     TEST_ASSERT_FALSE(session_may_move(&session));
+}
+
+/* What an owner has begun ends, and it may begin something else as long as its last sign of life counts. */
+static void test_on_a_bench_the_last_sign_of_life_counts_on(void)
+{
+    for (int is_late = 0; is_late < 2; is_late++) {
+        session_start(&session, true, NULL);
+        TEST_ASSERT_EQUAL(BRACE_OK, session_life(&session, we, NULL));
+        TEST_ASSERT_EQUAL(BRACE_OK, session_command(&session, we, NULL, order, 8));
+        TEST_ASSERT_FALSE(session_tick(&session, SESSION_LIFE_US - 1000u, SESSION_LIFE_US));
+        TEST_ASSERT_EQUAL(BRACE_OK, session_life(&session, we, NULL));
+        TEST_ASSERT_TRUE(session_tick(&session, 50000, 0)); /* it has ended */
+        TEST_ASSERT_FALSE(session.is_open);
+        TEST_ASSERT_FALSE(session_tick(&session, SESSION_LIFE_US - 50000u + (uint32_t)is_late, 0));
+        TEST_ASSERT_EQUAL(BRACE_OK, session_command(&session, we, NULL, order, 8));
+        TEST_ASSERT_EQUAL(is_late == 0, session_may_move(&session));
+    }
 }
 
 static void test_who_hangs_up_is_the_owner_no_longer(void)
@@ -336,6 +355,7 @@ int main(void)
     RUN_TEST(test_a_guarded_board_without_a_key_refuses_everybody);
     RUN_TEST(test_on_a_bench_a_command_waits_for_a_sign_of_life);
     RUN_TEST(test_on_a_bench_who_lives_already_may_move_at_once);
+    RUN_TEST(test_on_a_bench_the_last_sign_of_life_counts_on);
     RUN_TEST(test_who_hangs_up_is_the_owner_no_longer);
     RUN_TEST(test_on_a_bench_another_connection_of_the_port_goes_on);
     RUN_TEST(test_a_board_that_becomes_a_bench_is_open_to_all);

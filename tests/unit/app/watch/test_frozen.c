@@ -214,6 +214,22 @@ static void test_a_torque_that_nothing_holds(void)
     }
 }
 
+/* The torque's mean begins with three samples: where it begins is no swing. */
+static void test_a_mean_that_begins_does_not_swing(void)
+{
+    joint_t *joint = &joints.joint[BRACE_TIBIA];
+    joint->samples_seen = 2;
+    joint->torque_n_mm = 0.0f;
+    TEST_ASSERT_FALSE(others_move(BRACE_TIBIA, 2, 0.0f));
+    joint->samples_seen = 3;
+    joint->torque_n_mm = 3000.0f; /* more than a quarter of the range away */
+    joint->sample.torque_n_mm = 3000.0f;
+    TEST_ASSERT_FALSE(others_move(BRACE_TIBIA, 12, 0.0f));
+    joint->torque_n_mm = 0.0f; /* but this is one */
+    joint->sample.torque_n_mm = 1.0f;
+    TEST_ASSERT_TRUE(others_move(BRACE_TIBIA, 1, 0.0f));
+}
+
 static void test_all_is_forgotten(void)
 {
     looks(3);
@@ -238,6 +254,7 @@ int main(void)
     RUN_TEST(test_a_torque_that_swings);
     RUN_TEST(test_a_link_that_leaves_its_motor);
     RUN_TEST(test_a_torque_that_nothing_holds);
+    RUN_TEST(test_a_mean_that_begins_does_not_swing);
     RUN_TEST(test_all_is_forgotten);
     return UNITY_END();
 }

@@ -2,6 +2,7 @@
  * value of its own here, so that two exchanged names are noticed. */
 #include "wire/measured.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "app_bench.h"
@@ -210,6 +211,59 @@ static void test_a_loading_test_that_is_done(void)
     TEST_ASSERT_TRUE(m.loading_score_x != m.loading_score_x && m.loading_k_z_n_per_mm != m.loading_k_z_n_per_mm);
 }
 
+static void test_the_set_in_force(void)
+{
+    const brace_app_counters_t counters = {0};
+    brace_snapshot_t *s = newest();
+    s->parameter_crc = 21u, s->parameter_origin = BRACE_PARAMETERS_SLOT_B, s->parameter_sequence = 23u;
+    s->mode = BRACE_MODE_FAULT, s->faults = 24u, s->stiffness.now.flags = 25u;
+    const brace_measured_t m = told_of(&counters);
+    TEST_ASSERT_EQUAL_UINT32(21, m.parameter_crc);
+    TEST_ASSERT_EQUAL_UINT32(BRACE_PARAMETERS_SLOT_B, m.parameter_origin);
+    TEST_ASSERT_EQUAL_UINT32(23, m.parameter_sequence);
+    TEST_ASSERT_EQUAL_UINT32(BRACE_MODE_FAULT, m.mode);
+    TEST_ASSERT_EQUAL_UINT32(24, m.faults);
+    TEST_ASSERT_EQUAL_UINT32(25, m.flags);
+}
+
+static void test_a_drift_and_its_cause(void)
+{
+    const brace_app_counters_t counters = {0};
+    brace_drift_report_t *report = &app.controller.drift.report;
+    report->state = BRACE_DRIFT_WATCHING, report->cause = (brace_drift_cause_t)2, report->could_be = 31u;
+    report->evidence = 32.0f, report->loss_ratio = 33.0f, report->loss_sigma_ratio = 34.0f;
+    report->since_steps = 35u, report->steps = 36u;
+    brace_measured_t m = told_of(&counters);
+    TEST_ASSERT_EQUAL_UINT32(BRACE_DRIFT_WATCHING, m.drift_state);
+    TEST_ASSERT_EQUAL_UINT32(3, m.drift_cause);
+    TEST_ASSERT_EQUAL_UINT32(31, m.drift_could_be);
+    TEST_ASSERT_EQUAL_FLOAT(32.0f, m.drift_evidence);
+    TEST_ASSERT_EQUAL_FLOAT(33.0f, m.drift_loss_ratio);
+    TEST_ASSERT_EQUAL_FLOAT(34.0f, m.drift_loss_sigma_ratio);
+    TEST_ASSERT_EQUAL_UINT32(35, m.drift_since_readings);
+    TEST_ASSERT_EQUAL_UINT32(36, m.drift_readings);
+    report->evidence = 0.0f; /* no cause is told without evidence */
+    m = told_of(&counters);
+    TEST_ASSERT_EQUAL_UINT32(BRACE_DRIFT_CAUSE_NONE, m.drift_cause);
+    TEST_ASSERT_EQUAL_UINT32(0, m.drift_could_be);
+    TEST_ASSERT_TRUE(isnan(m.drift_loss_ratio) && isnan(m.drift_loss_sigma_ratio));
+    TEST_ASSERT_EQUAL_UINT32(UINT32_MAX, m.drift_since_readings);
+    report->state = BRACE_DRIFT_DRIFTED; /* a baseline that walked away */
+    TEST_ASSERT_EQUAL_UINT32(3, told_of(&counters).drift_cause);
+}
+
+/* Nothing of what was there before stays: every value is written, whatever it is. */
+static void test_every_value_is_written(void)
+{
+    const brace_app_counters_t counters = {0};
+    brace_measured_t over_ones, over_others;
+    memset(&over_ones, 0xff, sizeof over_ones);
+    memset(&over_others, 0x5a, sizeof over_others);
+    measured_take(&app, &counters, newest()->taken_us, &over_ones);
+    measured_take(&app, &counters, newest()->taken_us, &over_others);
+    TEST_ASSERT_EQUAL_HEX32_ARRAY(&over_ones, &over_others, BRACE_MEASURED_COUNT);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -218,5 +272,8 @@ int main(void)
     RUN_TEST(test_joints_and_what_is_around_them);
     RUN_TEST(test_counters_and_who_owns_it);
     RUN_TEST(test_a_loading_test_that_is_done);
+    RUN_TEST(test_the_set_in_force);
+    RUN_TEST(test_a_drift_and_its_cause);
+    RUN_TEST(test_every_value_is_written);
     return UNITY_END();
 }

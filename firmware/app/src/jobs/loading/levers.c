@@ -23,10 +23,7 @@ void levers_begin(brace_loading_t *test, const loading_inputs_t *inputs)
     take_straight_levers(test, &posture->unbent);
     for (int i = 0; i < BRACE_LINK_COUNT; i++) {
         test->lever_rad[i] = posture->unbent_rad[i];
-        test->behind_rad[i] = 0.0f;
     }
-    test->lever_force_n = (brace_vec3_t){0};
-    test->lever_step = 0;
     inputs->work->is_under_way = false;
 }
 

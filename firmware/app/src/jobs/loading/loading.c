@@ -46,20 +46,21 @@ static bool setup_is_sound(const brace_loading_setup_t *setup)
 /* Numbers the run, the posture and the repeat, as a dataset's rows carry them. */
 static void count_run(brace_loading_t *test, brace_axis_t axis, const float theta_rad[BRACE_LINK_COUNT])
 {
+    brace_loading_counts_t *counts = &test->counts;
     const bool is_elsewhere =
-        test->run_count == 0u ||
-        __builtin_fabsf(theta_rad[BRACE_FEMUR] - test->config_theta_rad[0]) > SAME_POSTURE_RAD ||
-        __builtin_fabsf(theta_rad[BRACE_TIBIA] - test->config_theta_rad[1]) > SAME_POSTURE_RAD;
-    test->run_count++;
+        counts->run == 0u ||
+        __builtin_fabsf(theta_rad[BRACE_FEMUR] - counts->config_theta_rad[0]) > SAME_POSTURE_RAD ||
+        __builtin_fabsf(theta_rad[BRACE_TIBIA] - counts->config_theta_rad[1]) > SAME_POSTURE_RAD;
+    counts->run++;
     if (is_elsewhere) {
-        test->config_count++;
-        test->rep_count[0] = test->rep_count[1] = 0;
-        test->config_theta_rad[0] = theta_rad[BRACE_FEMUR];
-        test->config_theta_rad[1] = theta_rad[BRACE_TIBIA];
+        counts->config++;
+        counts->rep[0] = counts->rep[1] = 0;
+        counts->config_theta_rad[0] = theta_rad[BRACE_FEMUR];
+        counts->config_theta_rad[1] = theta_rad[BRACE_TIBIA];
     }
-    test->result.run = test->run_count;
-    test->result.config = test->config_count;
-    test->result.rep = test->rep_count[axis]++;
+    test->result.run = counts->run;
+    test->result.config = counts->config;
+    test->result.rep = counts->rep[axis]++;
 }
 
 static uint32_t step_count(const brace_loading_t *test)
@@ -84,7 +85,6 @@ static void prepare_joint(brace_loading_t *test, const loading_inputs_t *inputs,
     }
     test->held[i] = held;
     test->torque_max_n_mm[i] = most_n_mm;
-    test->give_rad_per_mm[i] = test->trim_rad[i] = 0.0f;
     /* Within this nothing is corrected: an encoder knows no finer, and a servo that sticks would go to and fro. */
     test->there_rad[i] = THERE_SHARE * furthest_rad + drive->angle_step_rad;
     test->start_motor_rad[i] = inputs->joints->joint[BRACE_FEMUR + i].sample.motor_rad;
@@ -110,23 +110,18 @@ brace_status_t loading_start(brace_loading_t *test, const loading_inputs_t *inpu
     if (!setup_is_sound(setup) || !moves_everywhere(setup, inputs->parameters->controller.tick_us)) {
         return BRACE_E_RANGE;
     }
-    brace_loading_t next = *test;
-    next.result = (brace_loading_result_t){.outcome = BRACE_LOADING_RUNNING, .setup = *setup};
+    brace_loading_t next = {.phase = LOADING_LISTEN,
+                            .counts = test->counts,
+                            .result = {.outcome = BRACE_LOADING_RUNNING, .setup = *setup}};
     levers_begin(&next, inputs);
     if (!now->k_is_valid || !set_out(&next, inputs)) {
         return BRACE_E_SINGULAR;
     }
     *test = next;
     count_run(test, setup->axis, inputs->posture->unbent_rad);
-    test->model = now->stiffness.engaged;
-    test->along_mm = 0.0f;
-    test->step = 0;
-    test->test_us = test->phase_us = test->resting_us = 0;
-    test->rests[0] = test->rests[1] = false;
     const float step_us = 2.0f * ((float)setup->dwell_us + 1e6f * setup->step_mm / setup->rate_mm_per_s);
     const float all_us = (float)step_count(test) * (step_us + (float)SETTLE_US);
     test->limit_us = (uint32_t)smaller_of(all_us, TIME_MOST_US) + TIME_SPARE_US;
-    test->phase = LOADING_LISTEN;
     return BRACE_OK;
 }
 

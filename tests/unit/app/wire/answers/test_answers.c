@@ -193,6 +193,21 @@ static void test_faults_are_cleared_and_what_is_left_is_told(void)
     refuses(BRACE_E_RANGE, 0, BRACE_REQUEST_CLEAR);
 }
 
+static void test_each_number_of_a_drift(void)
+{
+    brace_measured_t *m = &app.wires.measured;
+    m->drift_state = 1, m->drift_cause = 2, m->drift_could_be = 3, m->drift_next_step = 4;
+    m->drift_evidence = 5.0f, m->drift_loss_ratio = 6.0f, m->drift_loss_sigma_ratio = 7.0f;
+    m->drift_since_readings = 8, m->drift_readings = 9;
+    takes(BRACE_REQUEST_DRIFT);
+    const brace_drift_answer_t *a = &answer.drift;
+    const float told[] = {(float)a->state, (float)a->cause, (float)a->could_be, (float)a->next_step, a->evidence,
+                          a->loss_ratio, a->loss_sigma_ratio, (float)a->since_readings, (float)a->readings};
+    for (int i = 0; i < 9; i++) {
+        TEST_ASSERT_EQUAL_FLOAT(1.0f + (float)i, told[i]);
+    }
+}
+
 static void test_play_and_its_take_up(void)
 {
     brace_parameters_t p = bench_parameters();
@@ -253,6 +268,30 @@ static void test_a_seal_is_for_a_command(void)
     TEST_ASSERT_TRUE(seal.is_there);
     (void)put(BRACE_REQUEST_LET_GO);
     TEST_ASSERT_FALSE(seal.is_there);
+}
+
+/* Commands that are no entry to be written take no part of CONFIGURATION, and move nothing. */
+static void test_an_entry_that_is_none_is_no_command(void)
+{
+    static const uint32_t none[] = {BRACE_ENTRY_COMMANDS, BRACE_ENTRY_COMMANDS + 1u, UINT32_MAX};
+    for (uint32_t i = 0; i < 3u; i++) {
+        asked.write_entry = (brace_write_entry_request_t){none[i], 1};
+        TEST_ASSERT_EQUAL(BRACE_E_RANGE, put(BRACE_REQUEST_WRITE_ENTRY));
+        TEST_ASSERT_FALSE(app.controller.ownership.has_configurer);
+        TEST_ASSERT_FALSE(app.controller.ownership.session.is_open);
+    }
+}
+
+/* On a bench, who asks or tells becomes nobody's owner; who commands does. */
+static void test_a_question_owns_nothing(void)
+{
+    takes(BRACE_REQUEST_IDENTIFY);
+    asked.set_gravity = (brace_set_gravity_request_t){.direction_rad = -1.2f, .lean_rad = 0.1f};
+    takes(BRACE_REQUEST_SET_GRAVITY);
+    TEST_ASSERT_FALSE(app.controller.ownership.session.is_open);
+    TEST_ASSERT_FALSE(app.controller.ownership.has_configurer);
+    (void)put(BRACE_REQUEST_LET_GO);
+    TEST_ASSERT_TRUE(app.controller.ownership.session.is_open);
 }
 
 static void test_what_no_request_stands_for(void)
@@ -518,6 +557,21 @@ static void test_a_block_of_another_dictionary_is_refused(void)
     }
 }
 
+/* What is no block is refused as such, though its CRC fits. */
+static void test_what_is_no_block_is_refused(void)
+{
+    to_configuration();
+    for (int i = 0; i < 2; i++) {
+        uint8_t block[BRACE_BLOCK_BYTES];
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_parameters_pack(brace_app_parameters(&app), 1, block, sizeof block));
+        block[i == 0 ? 0 : 4] ^= 2u; /* its name; its format */
+        const uint32_t crc = brace_crc32(0, block, BRACE_BLOCK_BYTES - 4);
+        memcpy(block + BRACE_BLOCK_BYTES - 4, &crc, sizeof crc);
+        upload_block(block);
+        refuses(i == 0 ? BRACE_E_MAGIC : BRACE_E_FORMAT, BRACE_SCHEMA_HASH, BRACE_REQUEST_COMMIT);
+    }
+}
+
 /* The board's ceiling holds for a whole block and for what is staged one by one; the refusal tells which entry. */
 static void test_the_board_s_ceiling_refuses_a_block_and_tells_which_entry(void)
 {
@@ -536,6 +590,23 @@ static void test_the_board_s_ceiling_refuses_a_block_and_tells_which_entry(void)
     takes(BRACE_REQUEST_WRITE_ENTRY);
     asked.commit = (brace_commit_request_t){.crc = 0};
     refuses(BRACE_REFUSED_CEILING, number, BRACE_REQUEST_COMMIT);
+}
+
+/* Values that come as a block are judged on the way to the store: the one at fault is named then. */
+static void test_a_set_that_the_store_refuses_names_its_member(void)
+{
+    to_configuration();
+    brace_parameters_t set = *brace_app_parameters(&app);
+    set.controller.node_id = 200; /* no node has it */
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_parameters_commit(&app, &set));
+    for (int i = 0; i < 500 && brace_app_is_storing(&app); i++) {
+        ticks(1);
+    }
+    brace_commit_answer_t stored;
+    request = (request_t){.app = &app};
+    TEST_ASSERT_EQUAL(BRACE_E_PARAMETER, answer_of_storing(&request, &stored));
+    TEST_ASSERT_EQUAL(brace_parameter_number(BRACE_PARAMETER_CONTROLLER_NODE_ID), request.detail);
+    TEST_ASSERT_EQUAL(5, brace_app_parameters(&app)->controller.node_id);
 }
 
 static void test_a_set_that_is_stored_answers_with_what_is_in_force(void)
@@ -606,9 +677,12 @@ int main(void)
     RUN_TEST(test_the_torque_of_a_test_is_the_stronger_motor_s);
     RUN_TEST(test_each_item_of_a_loading_test_s_result);
     RUN_TEST(test_faults_are_cleared_and_what_is_left_is_told);
+    RUN_TEST(test_each_number_of_a_drift);
     RUN_TEST(test_play_and_its_take_up);
     RUN_TEST(test_stop_takes_back_what_has_not_begun);
     RUN_TEST(test_a_seal_is_for_a_command);
+    RUN_TEST(test_an_entry_that_is_none_is_no_command);
+    RUN_TEST(test_a_question_owns_nothing);
     RUN_TEST(test_what_no_request_stands_for);
     RUN_TEST(test_a_force_is_used_up_by_its_answer);
     RUN_TEST(test_both_knees_under_a_load);
@@ -619,7 +693,9 @@ int main(void)
     RUN_TEST(test_what_no_limb_has_is_refused);
     RUN_TEST(test_an_upload_needs_its_mode_its_size_and_its_order);
     RUN_TEST(test_a_block_of_another_dictionary_is_refused);
+    RUN_TEST(test_what_is_no_block_is_refused);
     RUN_TEST(test_the_board_s_ceiling_refuses_a_block_and_tells_which_entry);
+    RUN_TEST(test_a_set_that_the_store_refuses_names_its_member);
     RUN_TEST(test_a_set_that_is_stored_answers_with_what_is_in_force);
     RUN_TEST(test_a_download_is_the_block);
     return UNITY_END();

@@ -118,10 +118,42 @@ static void test_every_change_of_the_mode_is_told_once(void)
     TEST_ASSERT_TRUE(is_silent());
 }
 
+/* What is likeliest of a drift is told with it, told again when it is another, and taken back with the fault. */
+static void test_every_cause_of_a_drift_is_told_once(void)
+{
+    brace_drift_report_t *report = &app.controller.drift.report;
+    app.controller.faults.now = BRACE_FAULT_MODEL_DRIFT | BRACE_FAULT_MEMORY;
+    report->state = BRACE_DRIFT_DRIFTED;
+    uint32_t code = 0;
+    for (int cause = 0; cause < (int)BRACE_DRIFT_CAUSE_COUNT; cause++) {
+        report->cause = (brace_drift_cause_t)cause;
+        const brace_can_emergency_t told = emergency();
+        TEST_ASSERT_EQUAL(cause + 1, told.drift_cause);
+        if (cause == 0) {
+            app.controller.faults.now = BRACE_FAULT_MODEL_DRIFT;
+            code = emergency().error_code;
+            app.controller.faults.now |= BRACE_FAULT_MEMORY;
+        } else { /* of the faults, it is the drift that has changed */
+            TEST_ASSERT_EQUAL_HEX32(code, told.error_code);
+        }
+        if (cause == 1) {
+            announce_skip(&announce, &tick);
+        } else {
+            announce_sent(&announce, &tick, BRACE_CAN_ID_EMERGENCY);
+        }
+        TEST_ASSERT_TRUE(is_silent());
+    }
+    app.controller.faults.now = BRACE_FAULT_MEMORY;
+    TEST_ASSERT_EQUAL(BRACE_DRIFT_CAUSE_NONE, emergency().drift_cause);
+    announce_skip(&announce, &tick);
+    TEST_ASSERT_TRUE(is_silent());
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_every_change_of_the_faults_is_told_once);
+    RUN_TEST(test_every_cause_of_a_drift_is_told_once);
     RUN_TEST(test_a_heart_beats_at_its_rate);
     RUN_TEST(test_every_change_of_the_mode_is_told_once);
     return UNITY_END();

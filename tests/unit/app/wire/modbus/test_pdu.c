@@ -211,6 +211,56 @@ static void test_a_request_over_tcp_may_come_in_pieces(void)
     }
 }
 
+/* The take-up that has begun last reads as it was written; one that is refused leaves it. */
+static void test_a_take_up_that_began_reads_back(void)
+{
+    const uint32_t place = (uint32_t)offsetof(brace_commands_t, take_up), tibia_positive = 0x102u;
+    brace_parameters_t p = bench_parameters();
+    p.controller.modbus_address = UNIT;
+    p.limb.joint[BRACE_TIBIA].gap_rad = 0.005f;
+    bench_start(&p);
+    ticks(50);
+    const uint32_t before = told_by(place);
+    refused(write_value(BRACE_REGISTER_COMMANDS + place / 2u, 0x302u), 16, MODBUS_E_VALUE); /* no such flank */
+    TEST_ASSERT_EQUAL_HEX32(before, told_by(place));
+    TEST_ASSERT_EQUAL(5, write_value(BRACE_REGISTER_COMMANDS + place / 2u, tibia_positive).count);
+    TEST_ASSERT_EQUAL_HEX32(tibia_positive, told_by(place));
+    TEST_ASSERT_EQUAL(2, write_value(BRACE_REGISTER_COMMANDS + place / 2u, 0x201u).count); /* no play there */
+    TEST_ASSERT_EQUAL_HEX32(tibia_positive, told_by(place));
+}
+
+/* A question puts out those that are answered in the same registers, and no others. */
+static void test_a_question_puts_out_its_own_kind(void)
+{
+    int taken = 0;
+    for (uint32_t q = 0; q < (uint32_t)BRACE_QUESTION_COUNT; q++) {
+        const brace_question_t *question = &brace_questions[q];
+        uint32_t words[16], *written = (uint32_t *)&app.wires.modbus.server.written;
+        setUp();
+        for (uint32_t i = 0; i < sizeof app.wires.modbus.server.written / 4u; i++) {
+            written[i] = 0x5a5a5a5au;
+        }
+        for (uint32_t i = 0; i < question->count; i++) { /* a posture, a tip within reach, small forces */
+            words[i] = bits(question->codes > 1u ? 200.0f : 0.5f);
+        }
+        words[question->count - 1u] = question->codes > 1u ? 0u : words[question->count - 1u];
+        const reply_t reply = write_values(BRACE_REGISTER_COMMANDS + 2u * question->first, words, question->count);
+        if (reply.count != 5u) {
+            continue; /* refused */
+        }
+        taken++;
+        for (uint32_t o = 0; o < (uint32_t)BRACE_QUESTION_COUNT; o++) {
+            const brace_question_t *other = &brace_questions[o];
+            const bool stays = other->answer_first != question->answer_first;
+            for (uint32_t i = 0; i < other->count && o != q; i++) {
+                TEST_ASSERT_EQUAL(stays, written[other->first + i] == 0x5a5a5a5au);
+            }
+        }
+        TEST_ASSERT_EQUAL_HEX32_ARRAY(words, written + question->first, question->count);
+    }
+    TEST_ASSERT_GREATER_THAN(5, taken);
+}
+
 /* Before anybody has asked, every register of the question and of the answer says: not known. */
 static void test_questions_that_nobody_asked_read_as_not_known(void)
 {
@@ -236,6 +286,8 @@ int main(void)
     RUN_TEST(test_a_diagnosis_has_its_length);
     RUN_TEST(test_a_request_of_another_length_is_none);
     RUN_TEST(test_a_request_over_tcp_may_come_in_pieces);
+    RUN_TEST(test_a_take_up_that_began_reads_back);
+    RUN_TEST(test_a_question_puts_out_its_own_kind);
     RUN_TEST(test_questions_that_nobody_asked_read_as_not_known);
     return UNITY_END();
 }
