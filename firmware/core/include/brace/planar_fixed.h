@@ -9,14 +9,9 @@
 
 #include <stdint.h>
 
+#include "brace/fixed_harmonic.h"
 #include "brace/limb.h"
 #include "brace/stiffness.h"
-
-/* A function of the knee angle, constant + per_cos cos theta2 + per_sin sin theta2, scaled to integers. */
-typedef struct {
-    int64_t constant_q32;     /* in the result's unit; holds half a unit more, so that truncation rounds */
-    int32_t per_cos, per_sin; /* in twice the result's unit: their products with a q31 number are q32 */
-} brace_fixed_harmonic_t;
 
 /* One limb, ready for the tick. brace_planar_fixed_collapse writes it; other code must not read its members. */
 typedef struct {

@@ -2,7 +2,7 @@
 #ifndef BRACE_CORE_FIXED_HARMONIC_H
 #define BRACE_CORE_FIXED_HARMONIC_H
 
-#include "brace/planar_fixed.h"
+#include "brace/fixed_harmonic.h"
 #include "fixed/fixed_sincos.h"
 
 /* In the harmonic's own unit. */
