@@ -349,6 +349,27 @@ static void bad_input_is_refused_and_touches_nothing(void)
     TEST_ASSERT_EQUAL_INT(0, memcmp(&grip_before, &grip, sizeof grip));
 }
 
+/* Every limit is inclusive, and whatever is no number is refused as that. */
+static void limits_are_inclusive(void)
+{
+    const float most = 7.5f, beyond = nextafterf(most, INFINITY), least = -2.5f;
+    for (float sign = -1.0f; sign <= 1.0f; sign += 2.0f) {
+        TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_check_magnitude(sign * most, most));
+        TEST_ASSERT_EQUAL_INT(BRACE_E_RANGE, brace_check_magnitude(sign * beyond, most));
+        TEST_ASSERT_EQUAL_INT(BRACE_E_NOT_FINITE, brace_check_magnitude(sign * INFINITY, most));
+        TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_check_two(sign * most, -sign * most, most));
+        TEST_ASSERT_EQUAL_INT(BRACE_E_RANGE, brace_check_two(sign * beyond, 0.0f, most));
+        TEST_ASSERT_EQUAL_INT(BRACE_E_RANGE, brace_check_two(0.0f, sign * beyond, most));
+        TEST_ASSERT_EQUAL_INT(BRACE_E_NOT_FINITE, brace_check_two(beyond, sign * INFINITY, most));
+        TEST_ASSERT_EQUAL_INT(BRACE_E_NOT_FINITE, brace_check_two((float)NAN, beyond, most));
+    }
+    TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_check_range(least, least, most));
+    TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_check_range(most, least, most));
+    TEST_ASSERT_EQUAL_INT(BRACE_E_RANGE, brace_check_range(nextafterf(least, -INFINITY), least, most));
+    TEST_ASSERT_EQUAL_INT(BRACE_E_RANGE, brace_check_range(beyond, least, most));
+    TEST_ASSERT_EQUAL_INT(BRACE_E_NOT_FINITE, brace_check_range((float)NAN, least, most));
+}
+
 /* Of several refusals the first is told, as check.h says. */
 static void the_first_refusal_is_told(void)
 {
@@ -374,6 +395,7 @@ int main(void)
     RUN_TEST(the_choice_of_stiffness);
     RUN_TEST(bad_stiffness_is_refused);
     RUN_TEST(bad_input_is_refused_and_touches_nothing);
+    RUN_TEST(limits_are_inclusive);
     RUN_TEST(the_first_refusal_is_told);
     return UNITY_END();
 }
