@@ -208,6 +208,40 @@ static void assert_answers(const answer_t *answer, const under_load_t *expected,
     ASSERT_CLOSE(expected->moved_mm[2], f.dz_mm, 6e-3);
 }
 
+/* Where the limb is and under its load, K is what it would be told elsewhere: the load couples plane and across. */
+static void test_K_here_is_K_as_asked_for_here(void)
+{
+    for (int joint = 0; joint < BRACE_LINK_COUNT; joint++) {
+        fake.joint[joint].sample.motor_rad = load_posture_rad[joint];
+    }
+    fake.joint[BRACE_COXA].sample.torque_n_mm = 2500.0f;
+    fake.force_x_n = -5.0f, fake.force_z_n = 12.0f;
+    ticks(200);
+    TEST_ASSERT_TRUE(now()->space.is_valid && now()->load.is_counted);
+    TEST_ASSERT_TRUE(fabsf(now()->load.force_y_n) > 2.0f);
+    const brace_k_question_t question = {
+        .where = BRACE_K_IN_SPACE,
+        .theta_rad = {app.controller.posture.unbent_rad[0], app.controller.posture.unbent_rad[1],
+                      app.controller.posture.unbent_rad[2]},
+        .tip_force = {now()->load.force_x_n, now()->load.force_z_n},
+        .force_across_n = now()->load.force_y_n};
+    brace_k_answer_t answer;
+    int32_t status = BRACE_APP_LATER;
+    for (int i = 0; i < 30 && status == BRACE_APP_LATER; i++) {
+        status = brace_app_ask_k(&app, BRACE_ASKER_PROGRAM, &question, &answer);
+        ticks(1);
+    }
+    TEST_ASSERT_EQUAL(BRACE_OK, status);
+    const brace_stiffness_spatial_t *here = &now()->space.engaged, *asked = &answer.in_space;
+    const double off = 1e-4 * (double)asked->lambda_n_per_mm[2];
+    ASSERT_CLOSE(asked->k_xx_n_per_mm, here->k_xx_n_per_mm, off);
+    ASSERT_CLOSE(asked->k_xy_n_per_mm, here->k_xy_n_per_mm, off);
+    ASSERT_CLOSE(asked->k_xz_n_per_mm, here->k_xz_n_per_mm, off);
+    ASSERT_CLOSE(asked->k_yy_n_per_mm, here->k_yy_n_per_mm, off);
+    ASSERT_CLOSE(asked->k_yz_n_per_mm, here->k_yz_n_per_mm, off);
+    ASSERT_CLOSE(asked->k_zz_n_per_mm, here->k_zz_n_per_mm, off);
+}
+
 static void test_K_in_space_elsewhere_counts_a_force_once(void)
 {
     const under_load_t alone = under_load((float[]){0.0f, 0.0f, 0.0f});
@@ -719,6 +753,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_K_in_space_is_the_reference_at_every_posture);
     RUN_TEST(test_K_in_space_elsewhere_is_the_reference);
+    RUN_TEST(test_K_here_is_K_as_asked_for_here);
     RUN_TEST(test_K_in_space_elsewhere_counts_a_force_once);
     RUN_TEST(test_K_in_space_elsewhere_under_a_force_that_folds_the_limb_is_refused);
     RUN_TEST(test_K_in_space_elsewhere_under_a_force_over_the_line_and_over_TCP);

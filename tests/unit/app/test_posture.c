@@ -88,6 +88,10 @@ static void test_a_force_across_is_told_by_the_coxa_joint(void)
     const float tip_mm = parameters.limb.coxa_mm + posture.pose.tip.x_mm;
     const float across_n = posture_force_across_n(&posture, &parameters, down, 100.0f, false, &outwards_n);
     ASSERT_CLOSE(-100.0 / (double)tip_mm, across_n, 1e-5);
+    posture.tip_across_mm = 12.0f; /* a tip beside the plane, and no force outwards that were known */
+    float unknown_n = NAN;
+    ASSERT_CLOSE(-100.0 / (double)tip_mm,
+                 posture_force_across_n(&posture, &parameters, down, 100.0f, false, &unknown_n), 1e-5);
 }
 
 /* Without a length a link has no lever, and beyond the greatest angle there is none either; at it there is. */

@@ -93,6 +93,21 @@ static void test_process_data_are_thinned_to_the_share_of_the_bus(void)
     TEST_ASSERT_TRUE(load > 0.09f);
 }
 
+/* Heartbeats alone may take more than the share: then a snapshot leaves now and then all the same, and no more. */
+static void test_a_share_that_heartbeats_use_up_leaves_little(void)
+{
+    brace_parameters_t p = bench_parameters();
+    p.controller.stiffness_hz = p.controller.posture_hz = p.controller.load_hz = 100;
+    p.controller.heartbeat_hz = 10;
+    p.controller.can_bit_rate = 125000;
+    p.controller.bus_load_ratio = 0.001f;
+    bench_start(&p);
+    drain();
+    const count_t seen = run(2000);
+    TEST_ASSERT_UINT32_WITHIN(1, 20, of(&seen, 0x700));
+    TEST_ASSERT_LESS_OR_EQUAL(of(&seen, 0x700) + 12u, seen.all); /* one snapshot, of no more than a dozen frames */
+}
+
 /* Where nothing else is to be sent, two frames leave in each tick until a snapshot is told. A port that nobody has
  * opened takes none of them away. */
 static void test_a_snapshot_leaves_two_frames_at_a_time(void)
@@ -604,6 +619,7 @@ int main(void)
     RUN_TEST(test_rates_are_the_parameters);
     RUN_TEST(test_rates_of_zero_are_silence_but_for_the_heartbeat);
     RUN_TEST(test_process_data_are_thinned_to_the_share_of_the_bus);
+    RUN_TEST(test_a_share_that_heartbeats_use_up_leaves_little);
     RUN_TEST(test_a_snapshot_leaves_two_frames_at_a_time);
     RUN_TEST(test_all_frames_of_a_snapshot_are_of_one_tick);
     RUN_TEST(test_K_that_is_not_valid_is_never_a_number);

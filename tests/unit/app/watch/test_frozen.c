@@ -152,6 +152,20 @@ static void test_a_load_that_is_not_felt(void)
     }
 }
 
+/* Each joint's sensor noise comes by its own lever. */
+static void test_a_load_on_the_tibia_joint_that_is_not_felt(void)
+{
+    parameters.sensor.noise_n = 0.1f;
+    press(0.0f);
+    posture.pose.lever_femur = (brace_point_t){0.0f, 1000.0f}; /* there the bound is 1,775 N mm, */
+    posture.pose.lever_tibia = (brace_point_t){0.0f, 100.0f};  /* here 425 */
+    TEST_ASSERT_FALSE(others_move(BRACE_TIBIA, 3, 0.0f));
+    force.z_n = 4.2f;
+    TEST_ASSERT_FALSE(others_move(BRACE_TIBIA, 30, 0.0f));
+    force.z_n = 4.3f;
+    TEST_ASSERT_TRUE(others_move(BRACE_TIBIA, 5, 0.0f));
+}
+
 /* The angle stays within half a step while the torque swings by more than a quarter of its range and four times
  * friction. */
 static void test_a_torque_that_swings(void)
@@ -251,6 +265,7 @@ int main(void)
     RUN_TEST(test_told_to_move);
     RUN_TEST(test_a_look_counts_for_a_while);
     RUN_TEST(test_a_load_that_is_not_felt);
+    RUN_TEST(test_a_load_on_the_tibia_joint_that_is_not_felt);
     RUN_TEST(test_a_torque_that_swings);
     RUN_TEST(test_a_link_that_leaves_its_motor);
     RUN_TEST(test_a_torque_that_nothing_holds);
