@@ -1,4 +1,4 @@
-"""Prove the claims of proofs.toml with CBMC, show that each proof can fail, and write docs/proofs.md.
+"""Prove the claims of proofs.toml, show that each proof can fail, and write docs/proofs.md.
 
 usage: run.py [--only NAME ...] [--jobs N] [--seconds-most S] [--afresh] [--known] [--list]
 
@@ -21,6 +21,7 @@ import tomllib
 from dataclasses import dataclass
 
 import cbmc
+import counted
 import report
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -50,6 +51,7 @@ class Proof:
     unwind: int
     unwindset: dict[str, int]
     conversions: bool
+    counted: bool  # gone through on this machine, input by input, instead of by CBMC
     options: tuple[str, ...]
     broken: tuple[Broken, ...]
 
@@ -75,6 +77,7 @@ def read_proofs() -> list[Proof]:
                 item["unwind"],
                 dict(item.get("unwindset", {})),
                 bool(item.get("conversions", False)),
+                bool(item.get("counted", False)),
                 tuple(item.get("options", ())),
                 broken,
             )
@@ -86,6 +89,8 @@ def program(proof: Proof, into: pathlib.Path) -> cbmc.Program:
     """The proof's files, preprocessed."""
     shutil.rmtree(into, ignore_errors=True)
     into.mkdir(parents=True)
+    if proof.counted:
+        return cbmc.Program((counted.preprocess(HERE / "harness" / f"{proof.name}.c", into),), proof.unwind)
     sources = [HERE / "harness" / f"{proof.name}.c", *(cbmc.ROOT / source for source in proof.sources)]
     files = tuple(cbmc.preprocess(COMPILER, source, into) for source in sources)
     return cbmc.Program(files, proof.unwind, proof.unwindset, proof.conversions, proof.options)
@@ -140,8 +145,11 @@ def known(proof: Proof, version: str) -> report.Outcome | None:
 
 def prove_now(proof: Proof, whole: cbmc.Program, tool: str, seconds_most: float) -> report.Outcome:
     """The same, from CBMC."""
-    verdict = cbmc.check(tool, whole, seconds_most)
-    if verdict.failures:
+    if proof.counted:
+        verdict = counted.check(whole.files[0], seconds_most)
+    else:
+        verdict = cbmc.check(tool, whole, seconds_most)
+    if verdict.failures and not proof.counted:
         verdict = cbmc.Verdict(
             False,
             verdict.properties,
@@ -152,7 +160,8 @@ def prove_now(proof: Proof, whole: cbmc.Program, tool: str, seconds_most: float)
     twins = []
     for number, twin in enumerate(proof.broken):
         copy = breaks(whole, twin, BUILD / proof.name / f"broken{number}")
-        twins.append((f"{twin.old} → {twin.new}", cbmc.refute(tool, copy, seconds_most)))
+        found = counted.check(copy.files[0], seconds_most) if proof.counted else cbmc.refute(tool, copy, seconds_most)
+        twins.append((f"{twin.old} → {twin.new}", found))
     return report.Outcome(
         proof.name, proof.claim, proof.functions, proof.bound, proof.stands_on, verdict, tuple(twins)
     )

@@ -4,6 +4,8 @@
 
 #include "brace/planar_fixed.h"
 #include "fixed/fixed_det.h"
+#include "fixed/fixed_inverse.h"
+#include "fixed/fixed_kept.h"
 #include "fixed/fixed_table.h"
 #include "reference_planar.h"
 #include "sample_limbs.h"
@@ -262,9 +264,69 @@ static void test_judging_does_not_depend_on_units(void)
     }
 }
 
+static double axis_of(double length, double angle)
+{
+    const int32_t x = (int32_t)lround(length * cos(angle)), z = (int32_t)lround(length * sin(angle));
+    const fixed_circle_t circle = {UINT32_MAX, x, z, 0xf0000000u, 127u << 23, 127u << 23, 0u};
+    brace_stiffness_t k;
+    stiffness_of_circle(&circle, &k);
+    return (double)k.stiff_axis_rad;
+}
+
+/* The deviator's length is that many of 2^31; the axis' promise follows from it. */
+static void test_axis_of_a_nearly_round_compliance(void)
+{
+    for (int bits = 12; bits < 24; bits++) {
+        const double length = ldexp(1.0, bits), limit = AXIS_LIMIT_RAD * 0x1p31 / (2.0 * length);
+        for (int i = 0; i < 48; i++) {
+            const double angle = PI * (i + 0.3) / 24.0, off = axis_of(length, angle) - axis_of(0x1p30, angle);
+            TEST_ASSERT_DOUBLE_WITHIN(limit, 0.0, off - PI * floor(off / PI + 0.5));
+        }
+    }
+}
+
+static void test_a_harmonic_is_kept_by_its_largest_and_least_value(void)
+{
+    const int64_t unit = (int64_t)1 << 32;
+    brace_fixed_harmonic_t h = {50 * unit, 0, 60}; /* 50 - 30 to 50 + 30 */
+    TEST_ASSERT_TRUE(stays_within(&h, 18, 82));
+    TEST_ASSERT_FALSE(stays_within(&h, 21, 82));
+    TEST_ASSERT_FALSE(stays_within(&h, 18, 79));
+    h.per_cos = 60; /* 42.4 to either side */
+    TEST_ASSERT_TRUE(stays_within(&h, 6, 94));
+    TEST_ASSERT_FALSE(stays_within(&h, 9, 94));
+    TEST_ASSERT_FALSE(stays_within(&h, 6, 91));
+}
+
+static void test_a_structure_beyond_its_words_is_not_kept(void)
+{
+    collapse(SAMPLE_TILTED);
+    const brace_planar_fixed_t good = fixed;
+    TEST_ASSERT_TRUE(is_kept(&fixed));
+    fixed.mean.constant_q32 = 0;
+    TEST_ASSERT_FALSE(is_kept(&fixed));
+    fixed = good, fixed.minus_dev_x.constant_q32 = INT64_MIN;
+    TEST_ASSERT_FALSE(is_kept(&fixed));
+    fixed = good, fixed.dev_z.constant_q32 = INT64_MAX;
+    TEST_ASSERT_FALSE(is_kept(&fixed));
+    fixed = good, fixed.cross.constant_q32 = INT64_MIN;
+    TEST_ASSERT_FALSE(is_kept(&fixed));
+    fixed = good, fixed.rest.constant_q32 = 0;
+    TEST_ASSERT_FALSE(is_kept(&fixed));
+    fixed = good, fixed.rest_weight -= 1;
+    TEST_ASSERT_FALSE(is_kept(&fixed));
+    fixed = good, fixed.exponent_k = 0u;
+    TEST_ASSERT_FALSE(is_kept(&fixed));
+    fixed = good, fixed.exponent_min = 255u << 23;
+    TEST_ASSERT_FALSE(is_kept(&fixed));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(test_axis_of_a_nearly_round_compliance);
+    RUN_TEST(test_a_harmonic_is_kept_by_its_largest_and_least_value);
+    RUN_TEST(test_a_structure_beyond_its_words_is_not_kept);
     RUN_TEST(test_check_value_of_the_physics_page);
     RUN_TEST(test_every_sample_over_the_workspace);
     RUN_TEST(test_every_tilt_over_the_knee_s_angles);

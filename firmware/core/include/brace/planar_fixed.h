@@ -9,14 +9,9 @@
 
 #include <stdint.h>
 
+#include "brace/fixed_harmonic.h"
 #include "brace/limb.h"
 #include "brace/stiffness.h"
-
-/* A function of the knee angle, constant + per_cos cos theta2 + per_sin sin theta2, scaled to integers. */
-typedef struct {
-    int64_t constant_q32;     /* in the result's unit; holds half a unit more, so that truncation rounds */
-    int32_t per_cos, per_sin; /* in twice the result's unit: their products with a q31 number are q32 */
-} brace_fixed_harmonic_t;
 
 /* One limb, ready for the tick. brace_planar_fixed_collapse writes it; other code must not read its members. */
 typedef struct {
@@ -36,9 +31,10 @@ typedef struct {
  * returns BRACE_OK, what brace_limb_check says, or
  *         BRACE_E_UNSUPPORTED: the base yields unequally in x and z; or C is so slender at some posture (det C
  *         below 2.5e-7 of the largest mean^2) that 32 bits do not hold it; or C is too far from 1 mm/N (mean compliance
- *         outside 1e-7 to 1e7). brace_chain_stiffness serves such a limb.
- * Cost: once per parameter change; float and double, in software where there is no FPU: at most 134,000
- *       instructions on a Cortex-M3, stack 632 bytes. RAM: 96 bytes a limb. */
+ *         outside 1e-7 to 1e7); or what was made might leave a word at some knee angle, or give a K that is not
+ *         positive (no case of it is known). brace_chain_stiffness serves such a limb.
+ * Cost: once per parameter change; float and double, in software where there is no FPU: at most 144,000
+ *       instructions on a Cortex-M3, stack 888 bytes. RAM: 96 bytes a limb. */
 brace_status_t brace_planar_fixed_collapse(const brace_limb_t *limb, brace_planar_fixed_t *fixed);
 
 /* K, its eigenvalues and the stiff axis.
@@ -49,8 +45,8 @@ brace_status_t brace_planar_fixed_collapse(const brace_limb_t *limb, brace_plana
  *            flags: BRACE_FLAG_NEAR_SINGULAR when the limb is so slender or so uneven that the accuracy below is
  *            not promised.
  * returns BRACE_OK, BRACE_E_NULL.
- * Cost on a Cortex-M3: 256 instructions at every posture (GCC 12, -O2), one division (udiv) and no call among
- *       them; stack 80 bytes; flash 1,916 bytes with its tables.
+ * Cost on a Cortex-M3: 258 instructions at every posture (GCC 12, -O2), one division (udiv) and no call among
+ *       them; stack 80 bytes; flash 1,920 bytes with its tables.
  * Thread rule: a pure function of its arguments; safe from any context once they are not written.
  * Accuracy: K within 5e-7 of lambda_max, the eigenvalues within 5e-7 of themselves (2e-6 and 5e-6 promised), the
  *       axis within 3e-7 rad / (1 - lambda_min/lambda_max). Floats are rounded towards zero.

@@ -3,8 +3,8 @@
 #define BRACE_CORE_FIXED_INVERSE_H
 
 #include "brace/stiffness.h"
+#include "fixed/fixed_roots.h"
 #include "fixed/fixed_sincos.h"
-#include "fixed/fixed_table.h"
 #include "fixed/fixed_word.h"
 
 /* C in a frame of its own: its trace shifted so that it fills its word, and its deviator in the same unit,
@@ -17,32 +17,21 @@ typedef struct {
     uint32_t twice_turn;               /* twice the angle of C's frame */
 } fixed_circle_t;
 
-/* One over the root of a number from a quarter to 1, given by its 32 bits (q32). A table guesses it, and one step of
- * Newton's method makes it exact. */
-static inline uint32_t fixed_per_root_q28(uint32_t number_q32)
-{
-    const brace_fixed_seed_t seed = brace_fixed_seed[number_q32 >> 26];
-    const uint32_t across_cell = (number_q32 >> 10) & 0xffffu;
-    const uint32_t guess_q29 = ((uint32_t)seed.at_q13 << 16) - (uint32_t)seed.slope_q13 * across_cell;
-    const uint32_t excess_q26 = high_unsigned(high_unsigned(guess_q29, guess_q29), number_q32);
-    return high_unsigned(guess_q29, (RSQRT_THREE_Q26 - excess_q26) << 4);
-}
-
 /* The length of a vector, and 2^(32 - shift) over it. */
 typedef struct {
-    uint32_t length, per_length_q28, shift;
+    uint32_t length, per_length_q27, shift;
 } fixed_length_t;
 
 /* By the leading bits of its square, shifted by an even number. */
 static inline fixed_length_t fixed_length_of(int32_t x, int32_t z)
 {
-    const uint64_t square = (uint64_t)((int64_t)x * x + (int64_t)z * z);
+    const uint64_t square = (uint64_t)whole_sum(x, x, z, z);
     const uint32_t square_high = (uint32_t)(square >> 32), square_low = (uint32_t)square;
     const uint32_t shift = leading_zeros(square_high | 1u) >> 1;
     const uint32_t square_from_low = (square_low >> (16u - shift)) >> (16u - shift);
     const uint32_t square_leading = ((square_high << shift) << shift) | square_from_low;
-    const uint32_t per_length_q28 = fixed_per_root_q28(square_leading);
-    return (fixed_length_t){(high_unsigned(square_leading, per_length_q28) << 4) >> shift, per_length_q28, shift};
+    const uint32_t per_length_q27 = fixed_per_root_q27(square_leading);
+    return (fixed_length_t){(high_unsigned(square_leading, per_length_q27) << 5) >> shift, per_length_q27, shift};
 }
 
 /* Half the angle of (x, -z), of that length, and half of another angle: an axis, [-pi/2, pi/2]. The highest bits of the
@@ -51,12 +40,11 @@ static inline fixed_length_t fixed_length_of(int32_t x, int32_t z)
 static inline float fixed_axis_rad(int32_t x, int32_t z, const fixed_length_t *length, uint32_t twice_turn)
 {
     const uint32_t half_shift = length->shift - 1u;
-    const int32_t cosine_q27 = high((int32_t)((uint32_t)x << half_shift), (int32_t)length->per_length_q28);
-    const int32_t sine_q27 = high((int32_t)((uint32_t)z << half_shift), (int32_t)length->per_length_q28);
-    const uint32_t entry = brace_fixed_cell[((uint32_t)sine_q27 >> 24) & 15u][((uint32_t)cosine_q27 >> 24) & 15u];
-    const brace_sincos_t opposite = brace_fixed_sincos[entry];
-    const int32_t sine_off_q26 = high_sum(sine_q27, opposite.cos_q31, cosine_q27, opposite.sin_q31);
-    const int32_t sine_off_q32 = (int32_t)((uint32_t)sine_off_q26 << 6);
+    uint32_t entry;
+    const int32_t per_length_q27 = (int32_t)length->per_length_q27;
+    const int32_t cosine_q26 = high((int32_t)((uint32_t)x << half_shift), per_length_q27);
+    const int32_t sine_q26 = high((int32_t)((uint32_t)z << half_shift), per_length_q27);
+    const int32_t sine_off_q32 = fixed_off_entry_q32(cosine_q26, sine_q26, &entry);
     const int32_t off_turn = high(sine_off_q32, ASIN_1 + high(high(sine_off_q32, sine_off_q32), ASIN_3));
     const int32_t axis_twice_turn = (int32_t)(twice_turn + (entry << 26) + (uint32_t)off_turn);
     const uint32_t axis = high_unsigned(magnitude_of(axis_twice_turn), PI_Q30) | 1u;
@@ -72,12 +60,9 @@ static inline void stiffness_of_circle(const fixed_circle_t *c, brace_stiffness_
     const fixed_length_t deviator = fixed_length_of(minus_dev_x, dev_z);
     const uint32_t radius = deviator.length;
 
-    /* One division serves both 1/det and 1/(mean + radius): it inverts their product, by sixteen bits and one step of
-     * Newton's method. */
+    /* One division serves both 1/det and 1/(mean + radius): it inverts their product. */
     const uint32_t longest = (trace >> 1) + radius;
-    const uint32_t product = high_unsigned(c->det_leading, longest);
-    const uint32_t quotient = (0x80000000u / (product >> 16)) << 13;
-    const uint32_t inverse = high_unsigned(quotient, (0x20000000u - high_unsigned(product, quotient)) << 3);
+    const uint32_t inverse = fixed_per_product(high_unsigned(c->det_leading, longest));
     const uint32_t per_det = high_unsigned(longest, inverse);
     const uint32_t per_longest = high_unsigned(c->det_leading, inverse);
     stiffness->lambda_max_n_per_mm = float_of(float_bits(high_unsigned(longest, per_det), c->exponent_k - (1u << 23)));
@@ -91,9 +76,9 @@ static inline void stiffness_of_circle(const fixed_circle_t *c, brace_stiffness_
     const int32_t minus_world_z = high_sum(minus_dev_x, to_world.sin_q31, -dev_z, to_world.cos_q31);
     const int32_t mean_quarter = (int32_t)(trace >> 2);
     stiffness->k_xx_n_per_mm =
-        float_of(float_bits(high_unsigned((uint32_t)(mean_quarter + minus_world_x), per_det), c->exponent_k));
+        float_of(float_bits(high_unsigned((uint32_t)(mean_quarter + minus_world_x), per_det) | 1u, c->exponent_k));
     stiffness->k_zz_n_per_mm =
-        float_of(float_bits(high_unsigned((uint32_t)(mean_quarter - minus_world_x), per_det), c->exponent_k));
+        float_of(float_bits(high_unsigned((uint32_t)(mean_quarter - minus_world_x), per_det) | 1u, c->exponent_k));
     stiffness->k_xz_n_per_mm = float_of(
         float_bits(high_unsigned(magnitude_of(minus_world_z), per_det) | 1u, c->exponent_k) | sign_of(minus_world_z));
 }

@@ -11,9 +11,15 @@
 
 #include "fixed/fixed_turn.h"
 
+/* The whole product. */
+static inline int64_t whole_product(int32_t a, int32_t b)
+{
+    return (int64_t)a * b;
+}
+
 static inline int32_t high(int32_t a, int32_t b)
 {
-    return brace_high_word((int64_t)a * b);
+    return brace_high_word(whole_product(a, b));
 }
 
 static inline uint32_t high_unsigned(uint32_t a, uint32_t b)
@@ -21,10 +27,16 @@ static inline uint32_t high_unsigned(uint32_t a, uint32_t b)
     return (uint32_t)(((uint64_t)a * b) >> 32);
 }
 
-/* The high word of a b + c d. */
+/* a b + c d, whole. */
+static inline int64_t whole_sum(int32_t a, int32_t b, int32_t c, int32_t d)
+{
+    return whole_product(a, b) + whole_product(c, d);
+}
+
+/* Its high word. */
 static inline int32_t high_sum(int32_t a, int32_t b, int32_t c, int32_t d)
 {
-    return brace_high_word((int64_t)a * b + (int64_t)c * d);
+    return brace_high_word(whole_sum(a, b, c, d));
 }
 
 /* Number of leading zeros of a word that is not zero. */

@@ -2,6 +2,7 @@
 
 #include <stddef.h>
 
+#include "fixed/fixed_harmonic.h"
 #include "fixed/fixed_inverse.h"
 #include "fixed/fixed_sincos.h"
 #include "fixed/fixed_turn.h"
@@ -10,12 +11,6 @@
 /* Formats: _q31 is a number times 2^31 in 32 bits, _turn a fraction of a turn times 2^32. A name without a format is an
  * integer whose unit brace_planar_fixed_collapse has chosen (compliances), or a count of bits. A product of two words
  * keeps only its high word: q31 times q31 gives q30. */
-
-/* A harmonic's value, in the harmonic's own unit. */
-static inline int32_t harmonic(const brace_fixed_harmonic_t *h, brace_sincos_t knee)
-{
-    return brace_high_word(h->constant_q32 + (int64_t)h->per_cos * knee.cos_q31 + (int64_t)h->per_sin * knee.sin_q31);
-}
 
 brace_status_t brace_planar_fixed_stiffness(const brace_planar_fixed_t *fixed, int32_t theta1_rad_q28,
                                             int32_t theta2_rad_q28, brace_stiffness_t *stiffness)
@@ -29,7 +24,7 @@ brace_status_t brace_planar_fixed_stiffness(const brace_planar_fixed_t *fixed, i
 
     /* det C = cross^2 + rest, and the leading 32 bits of det C. */
     const int32_t cross = harmonic(&fixed->cross, knee), rest = harmonic(&fixed->rest, knee);
-    const uint64_t det = (uint64_t)((int64_t)cross * cross + (int64_t)rest * fixed->rest_weight);
+    const uint64_t det = (uint64_t)whole_sum(cross, cross, rest, fixed->rest_weight);
     const uint32_t det_high = (uint32_t)(det >> 32), det_low = (uint32_t)det;
     const uint32_t det_zeros = leading_zeros(det_high);
     const uint32_t det_leading = (det_high << det_zeros) | ((det_low >> 1) >> (31u - det_zeros));

@@ -1,11 +1,13 @@
 #include "brace/planar_fixed.h"
 
+#include <math.h>
 #include <stddef.h>
 #include <string.h>
 
 #include "chain/elements.h"
 #include "chain/harmonics.h"
 #include "fixed/fixed_det.h"
+#include "fixed/fixed_kept.h"
 #include "fixed/fixed_table.h"
 
 /* Where the least mean over the largest is below this, the words that hold the mean are too short for the accuracy. */
@@ -71,6 +73,54 @@ static float padded(double value)
     return (float)value * 1.0005f;
 }
 
+/* --- the last look at what has been made ---------------------------------------------------------------------- */
+
+/* A function of the knee angle. */
+typedef struct {
+    double constant, cos, sin, cos_2, sin_2;
+} waves_t;
+
+static brace_det_harmonic_t of_words(const brace_fixed_harmonic_t *h)
+{
+    const double per_turn = (double)BRACE_FIXED_ONE / 0x1p32;
+    return (brace_det_harmonic_t){(double)h->constant_q32 / 0x1p32, (double)h->per_cos * per_turn,
+                                  (double)h->per_sin * per_turn};
+}
+
+static void add_square(waves_t *sum, double factor, const brace_fixed_harmonic_t *words)
+{
+    const brace_det_harmonic_t h = of_words(words);
+    sum->constant += factor * (h.constant * h.constant + 0.5 * (h.per_cos * h.per_cos + h.per_sin * h.per_sin));
+    sum->cos += factor * 2.0 * h.constant * h.per_cos;
+    sum->sin += factor * 2.0 * h.constant * h.per_sin;
+    sum->cos_2 += factor * 0.5 * (h.per_cos * h.per_cos - h.per_sin * h.per_sin);
+    sum->sin_2 += factor * h.per_cos * h.per_sin;
+}
+
+static double swing_of(double cos, double sin)
+{
+    const brace_det_harmonic_t wave = {0.0, cos, sin};
+    return brace_det_extent(&wave).swing;
+}
+
+/* Is half the trace longer than the deviator by 4 units at every knee angle, so that K is positive? Its square less the
+ * deviator's is det C, of which the rest is told; and what the words' rounding has made of the difference.
+ * det_unit: of cross^2, in the unit of the mean's square. The trace is below 2^31: 4 units are 4 2^31 of the squares;
+ * that doubled, because sine and cosine are a unit vector within 2e-9 only. */
+static bool is_definite(const brace_planar_fixed_t *fixed, double det_unit)
+{
+    const brace_det_harmonic_t rest = of_words(&fixed->rest);
+    const double rest_unit = det_unit * (double)fixed->rest_weight;
+    waves_t off = {-rest_unit * rest.constant, -rest_unit * rest.per_cos, -rest_unit * rest.per_sin, 0.0, 0.0};
+    const brace_fixed_harmonic_t *const squared[4] = {&fixed->mean, &fixed->minus_dev_x, &fixed->dev_z, &fixed->cross};
+    const double factor[4] = {0.25, -1.0, -1.0, -det_unit};
+    for (int i = 0; i < 4; i++) {
+        add_square(&off, factor[i], squared[i]);
+    }
+    const double most_off = fabs(off.constant) + swing_of(off.cos, off.sin) + swing_of(off.cos_2, off.sin_2);
+    return rest_unit * brace_det_extent(&rest).least - most_off > 8.0 * 0x1p31;
+}
+
 static brace_status_t quantise(const brace_harmonics_t *plane, const brace_det_t *det,
                                brace_planar_fixed_t *fixed)
 {
@@ -93,15 +143,20 @@ static brace_status_t quantise(const brace_harmonics_t *plane, const brace_det_t
     if (weight < 0) {
         return BRACE_E_UNSUPPORTED;
     }
-    fixed->mean = quantised_float(&plane->mean, 1.0, mean_scale + 1);
-    fixed->minus_dev_x = quantised_float(&plane->dev_x, -1.0, mean_scale);
-    fixed->dev_z = quantised_float(&plane->dev_z, 1.0, mean_scale);
-    fixed->cross = quantised(&det->cross, cross_scale);
-    fixed->rest = quantised(&det->rest, rest_scale);
-    fixed->rest_weight = (int32_t)1 << weight;
-    fixed->exponent_k = (uint32_t)(99 + 2 * cross_scale - mean_scale) << 23;
-    fixed->exponent_min = (uint32_t)(98 + mean_scale) << 23;
-    fixed->flags = mean.least < UNEVEN * mean.most ? BRACE_FLAG_NEAR_SINGULAR : flags;
+    const brace_planar_fixed_t made = {
+        .mean = quantised_float(&plane->mean, 1.0, mean_scale + 1),
+        .minus_dev_x = quantised_float(&plane->dev_x, -1.0, mean_scale),
+        .dev_z = quantised_float(&plane->dev_z, 1.0, mean_scale),
+        .cross = quantised(&det->cross, cross_scale),
+        .rest = quantised(&det->rest, rest_scale),
+        .rest_weight = (int32_t)1 << weight,
+        .exponent_k = (uint32_t)(99 + 2 * cross_scale - mean_scale) << 23,
+        .exponent_min = (uint32_t)(98 + mean_scale) << 23,
+        .flags = mean.least < UNEVEN * mean.most ? BRACE_FLAG_NEAR_SINGULAR : flags};
+    if (!is_kept(&made) || !is_definite(&made, (double)two_to(2 * (mean_scale - cross_scale)))) {
+        return BRACE_E_UNSUPPORTED;
+    }
+    *fixed = made;
     return BRACE_OK;
 }
 
