@@ -62,7 +62,7 @@ static int64_t square_parts(int32_t number)
 static int64_t any_product(int32_t a, int32_t b)
 {
     const int64_t product = any_sum(a == b ? square_parts(a) : size_of(a) * parts_of(b));
-    ASSUME(a != b || product >= 0);
+    ASSUME(product >= 0 || (a < 0) != (b < 0));
     return product;
 }
 

@@ -7,6 +7,7 @@
 
 /* Turns (loaded_turns). */
 #define DIRECTION_MOST ((1LL << 30) + 2)
+#define SMALL_TURN_LEAST PART_OF(30, 0.999)
 #define SMALL_TURN_MOST PART_OF(30, 1.001)
 #define SMALL_ANGLE_MOST ((int32_t)PART_OF(29, 1.045))
 

@@ -19,7 +19,7 @@ static void small_turns(int32_t angle_q29)
 {
     const uint64_t square = square_of(fixed_small_turn(angle_q29));
     PROVE(square <= SMALL_TURN_MOST * SMALL_TURN_MOST, "a small turn lengthens by a thousandth at most");
-    PROVE(square >= (SMALL_TURN_MOST / 4 * 3) * (SMALL_TURN_MOST / 4 * 3), "and is one");
+    PROVE(square >= SMALL_TURN_LEAST * SMALL_TURN_LEAST, "and shortens by as much");
 }
 
 static void pivots_invert(int32_t pivot_q27)
