@@ -281,8 +281,8 @@ static void test_the_inverse_in_space(void)
     }
 }
 
-/* No limb yields along an axis against the force. Here a minor of C is negative by the last place of its words alone, and
- * the cofactors across it are far larger than the sum that gives all of them their common shift. */
+/* A minor of C that is negative by the last place of its words alone: C is not positive definite. The cofactors across
+ * it are far larger than the sum of the others, which gives all of them their common shift. */
 static void test_a_minor_that_is_negative_by_a_last_place_is_refused(void)
 {
     for (int axis = 0; axis < 3; axis++) {

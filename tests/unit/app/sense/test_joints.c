@@ -163,7 +163,7 @@ static void test_link_angles_are_watched_too(void)
     TEST_ASSERT_TRUE(isnan(link_rad[BRACE_FEMUR]) && isnan(link_rad[BRACE_COXA]));
 }
 
-/* One bound for both: where an encoder behind the gear is all there is, an angle that is sound is a link's angle too. */
+/* One bound for both: where the encoder behind the gear is the only one, an angle that is sound is the link's too. */
 static void test_what_is_sound_is_no_absurd_link_angle(void)
 {
     for (int i = 0; i < 2; i++) {

@@ -242,7 +242,8 @@ static void test_a_long_answer_leaves_in_parts(void)
     uint32_t count = 0;
     for (int i = 0; i < ANSWER_TICKS && count < 253u; i++) {
         ticks(1);
-        const uint32_t more = brace_fake_bytes_take(&fake, BRACE_SERIAL_MODBUS, all + count, (uint32_t)sizeof all - count);
+        const uint32_t more =
+            brace_fake_bytes_take(&fake, BRACE_SERIAL_MODBUS, all + count, (uint32_t)sizeof all - count);
         TEST_ASSERT_LESS_OR_EQUAL(60, more);
         count += more;
     }
