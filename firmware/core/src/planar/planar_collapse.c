@@ -51,7 +51,7 @@ static rest_t rest_of(brace_harmonics_t *harmonics, float iso_mm_per_n, float me
  * from D, and the root becomes zero. Where q is negligible beside A or D, cross is A cos^2 h or D sin^2 h. The smaller
  * of the two is then a residue of rounding and is dropped; otherwise it would become as large as the other. Where
  * the rounding of `least` leaves a negative number under the root, the smaller of A and D takes the value that makes it
- * zero. That moves cross by rounding alone; without it B would be wrong by as large a share as the number is negative. */
+ * zero. That moves cross by rounding alone; else B would be wrong by half the share by which the number is negative. */
 static void factor_cross(const brace_harmonic_t *cross, brace_planar_t *planar)
 {
     const float straight = cross->at_fold + cross->per_cos2, folded = cross->at_fold;
