@@ -430,6 +430,13 @@ static void test_postures_and_repeats_are_numbered(void)
     starts_at(1.000f, 1.400f, BRACE_AXIS_X, 5, 1);
 }
 
+/* The first posture is one, a straight limb along x, too. */
+static void test_the_first_posture_may_be_all_zeros(void)
+{
+    starts_at(0.0f, 0.005f, BRACE_AXIS_Z, 1, 0);
+    starts_at(0.0f, 0.005f, BRACE_AXIS_Z, 1, 1);
+}
+
 /* What cannot begin leaves everything as it was. */
 static void test_what_is_refused_changes_nothing(void)
 {
@@ -467,6 +474,7 @@ int main(void)
     RUN_TEST(test_a_step_s_way_takes_its_time);
     RUN_TEST(test_a_motor_has_to_rest_for_all_of_20_ms);
     RUN_TEST(test_postures_and_repeats_are_numbered);
+    RUN_TEST(test_the_first_posture_may_be_all_zeros);
     RUN_TEST(test_what_is_refused_changes_nothing);
     return UNITY_END();
 }
