@@ -291,6 +291,8 @@ static void test_the_recorder_keeps_the_newest_rows(void)
     TEST_ASSERT_EQUAL(BRACE_OK, brace_recorder_row(&recorder, BRACE_RECORDER_ROWS - 1, &row));
     TEST_ASSERT_EQUAL(BRACE_RECORDER_ROWS + 9, row.step);
     TEST_ASSERT_EQUAL(BRACE_E_RANGE, brace_recorder_row(&recorder, BRACE_RECORDER_ROWS, &row));
+    TEST_ASSERT_EQUAL(BRACE_E_RANGE, brace_recorder_row(&recorder, BRACE_RECORDER_ROWS + 1, &row));
+    TEST_ASSERT_EQUAL(BRACE_E_RANGE, brace_recorder_row(&recorder, UINT32_MAX, &row));
     TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_recorder_row(&recorder, 0, NULL));
     float value = 7.0f;
     for (uint32_t column = 0; column < BRACE_ROW_COLUMNS; column++) {

@@ -133,6 +133,29 @@ static void test_an_answer_leaves_without_a_gap(void)
     TEST_ASSERT_EQUAL(WHOLE, in_port);
 }
 
+/* What a tick works on is bounded: 48 bytes more than the line carries until the next one, and one for rounding. */
+static void test_a_tick_makes_no_more_of_an_answer_ready_than_it_needs(void)
+{
+    enum { BAUD = 9600, BITS = 11, TICK_US = 1000 };
+    brace_parameters_t p = bench_parameters();
+    p.controller.modbus_address = UNIT;
+    p.controller.modbus_baud = BAUD;
+    p.controller.tick_us = TICK_US;
+    bench_start(&p);
+    uint8_t ask[8] = {UNIT, 4, 0, 0, 0, 120};
+    const uint32_t crc = crc_by_bits(ask, 6);
+    ask[6] = (uint8_t)crc, ask[7] = (uint8_t)(crc >> 8);
+    line_says(ask, sizeof ask);
+    uint32_t came = 0;
+    for (int i = 0; i < 60 && came == 0u; i++) {
+        uint8_t sink[300];
+        fake.now_us += TICK_US;
+        brace_app_tick(&app, fake.now_us);
+        came = brace_fake_bytes_take(&fake, BRACE_SERIAL_MODBUS, sink, sizeof sink);
+    }
+    TEST_ASSERT_TRUE(came > 0u && came <= 48u + BAUD / (1000u * BITS) + 1u);
+}
+
 static void test_a_line_that_takes_nothing_does_not_hold_it(void)
 {
     brace_fake_fail_next(&fake, BRACE_FAKE_SERIAL_WRITE, 10000, BRACE_HAL_E_DEVICE);
@@ -340,6 +363,7 @@ int main(void)
     RUN_TEST(test_others_requests_and_their_answers_pass);
     RUN_TEST(test_everybody_obeys_and_nobody_answers);
     RUN_TEST(test_an_answer_leaves_without_a_gap);
+    RUN_TEST(test_a_tick_makes_no_more_of_an_answer_ready_than_it_needs);
     RUN_TEST(test_a_line_that_takes_nothing_does_not_hold_it);
     RUN_TEST(test_a_flood_stops_nothing);
     RUN_TEST(test_tcp_answers_the_same);

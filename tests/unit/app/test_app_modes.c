@@ -81,6 +81,43 @@ static void test_a_board_without_all_that_a_key_needs_refuses_motion(void)
     }
 }
 
+static uint32_t random_low, random_high;
+static bool is_low;
+
+static int32_t two_words(void *context, uint32_t *word)
+{
+    (void)context;
+    is_low = !is_low;
+    *word = is_low ? random_low : random_high;
+    return BRACE_HAL_OK;
+}
+
+static uint64_t challenge_of(uint32_t low, uint32_t high)
+{
+    static const uint8_t key[BRACE_HAL_KEY_BYTES] = {1, 2, 3};
+    setUp();
+    brace_fake_guarded(&fake, key);
+    random_low = low, random_high = high, is_low = false;
+    fake.hal.random_read = two_words;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_start(&app, &fake.hal));
+    ticks(1);
+    brace_session_report_t session;
+    brace_app_session(&app, &session);
+    TEST_ASSERT_TRUE(session.has_challenge);
+    return session.challenge;
+}
+
+/* Two random words make a challenge, and every bit of both counts. */
+static void test_a_challenge_is_another_one_for_each_bit_of_both_words(void)
+{
+    const uint64_t first = challenge_of(5u, 9u);
+    TEST_ASSERT_TRUE(first == challenge_of(5u, 9u));
+    for (int bit = 0; bit < 32; bit++) {
+        TEST_ASSERT_TRUE(first != challenge_of(5u ^ 1u << bit, 9u));
+        TEST_ASSERT_TRUE(first != challenge_of(5u, 9u ^ 1u << bit));
+    }
+}
+
 static void test_before_the_first_tick_nothing_is_known(void)
 {
     TEST_ASSERT_EQUAL(BRACE_MODE_START, now()->mode);
@@ -239,6 +276,7 @@ int main(void)
     RUN_TEST(test_start_needs_a_whole_door);
     RUN_TEST(test_a_wire_of_which_an_entry_is_absent_is_none);
     RUN_TEST(test_a_board_without_all_that_a_key_needs_refuses_motion);
+    RUN_TEST(test_a_challenge_is_another_one_for_each_bit_of_both_words);
     RUN_TEST(test_before_the_first_tick_nothing_is_known);
     RUN_TEST(test_sound_samples_lead_to_monitor);
     RUN_TEST(test_no_samples_at_start_is_a_fault_that_names_the_joints);

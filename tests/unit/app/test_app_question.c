@@ -162,6 +162,32 @@ static void test_what_was_given_up_is_nobody_else_s(void)
     ASSERT_CLOSE(k.displacement.z_mm, answer.moved_mm.z_mm, 2e-3);
 }
 
+/* Where all questions are forgotten, the one in work is, too: whoever asks next waits for the K of its own question. */
+static void test_what_was_in_work_is_forgotten_with_the_rest(void)
+{
+    question_job_t *job = &app.controller.question;
+    const question_inputs_t inputs = {.model = &app.controller.model,
+                                      .parameters = brace_app_parameters(&app),
+                                      .origin = BRACE_PARAMETERS_SLOT_A,
+                                      .joints = &app.controller.joints,
+                                      .down = app.controller.gravity.down};
+    const brace_k_question_t first = {.where = BRACE_K_AT_POSTURE, .theta_rad = {0.0f, 0.3f, 0.9f}};
+    const brace_k_question_t second = {.where = BRACE_K_AT_POSTURE, .theta_rad = {0.0f, 0.8f, 1.2f}};
+    brace_k_answer_t answer;
+    TEST_ASSERT_EQUAL(BRACE_APP_LATER, question_job_ask(job, BRACE_ASKER_CAN, &first, &answer));
+    TEST_ASSERT_TRUE(question_job_work(job, &inputs, 1));
+    question_job_forget(job);
+    TEST_ASSERT_FALSE(question_job_work(job, &inputs, 1));
+    TEST_ASSERT_EQUAL(BRACE_APP_LATER, question_job_ask(job, BRACE_ASKER_CAN, &second, &answer));
+    for (int i = 0; i < 2; i++) {
+        TEST_ASSERT_EQUAL(BRACE_APP_LATER, question_job_ask(job, BRACE_ASKER_CAN, &second, &answer));
+        TEST_ASSERT_TRUE(question_job_work(job, &inputs, 1));
+    }
+    TEST_ASSERT_EQUAL(BRACE_OK, question_job_ask(job, BRACE_ASKER_CAN, &second, &answer));
+    const brace_loaded_stiffness_t k = expected(0.8f, 1.2f, 0.0f, 0.0f);
+    ASSERT_CLOSE(k.stiffness.k_xx_n_per_mm, answer.k.k_xx_n_per_mm, 4e-4);
+}
+
 /* An answer that nobody has taken gives way to the next one, and is not told to whom the next one is not for. Who still
  * waits keeps its place. */
 static void test_an_answer_goes_to_its_asker_alone(void)
@@ -530,6 +556,7 @@ int main(void)
     RUN_TEST(test_an_answer_goes_to_its_asker_alone);
     RUN_TEST(test_a_quiet_tick_answers_at_once);
     RUN_TEST(test_what_was_given_up_is_nobody_else_s);
+    RUN_TEST(test_what_was_in_work_is_forgotten_with_the_rest);
     RUN_TEST(test_a_warm_joint_yields_more_wherever_it_is_asked);
     RUN_TEST(test_without_parameters_the_answer_is_uncalibrated);
     RUN_TEST(test_a_force_that_folds_the_limb_or_is_none_is_refused);

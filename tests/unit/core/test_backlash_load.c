@@ -52,6 +52,20 @@ static void observe(double motor_rad, double torque_n_mm)
     backlash_load_observe(&joint, &sample);
 }
 
+/* What has not been seen to move has no direction, whatever was there before. */
+static void a_start_has_no_direction(void)
+{
+    for (int way = -1; way <= 1; way += 2) {
+        begin(0.0, 0.0);
+        for (int i = 1; i < 40; i++) {
+            observe(way * 0.001 * i, 0.0);
+        }
+        TEST_ASSERT_EQUAL_INT(way, joint.direction);
+        begin(0.0, 0.0);
+        TEST_ASSERT_EQUAL_INT(0, joint.direction);
+    }
+}
+
 static double proof_n_mm(void) /* six sigmas of the fast mean, and the bias */
 {
     const double gain = 1.0 / 11.0;
@@ -140,6 +154,10 @@ static void a_direction_is_sure_after_six_ticks(void)
     }
     for (int i = 0; i < 50; i++) {
         ASSERT_CLOSE(unsure, width_of_tick(motor_rad + (i % 2) * 1.4 * STEP_RAD), 1.0);
+        TEST_ASSERT_TRUE(backlash_load_standing(&joint));
+    }
+    for (int i = 0; i < 50; i++) { /* nor has one that goes on by less than half a step: rounding alone may look so */
+        ASSERT_CLOSE(unsure, width_of_tick(motor_rad - (i % 2) * 0.3 * STEP_RAD), 1.0);
         TEST_ASSERT_TRUE(backlash_load_standing(&joint));
     }
     for (int i = 1; i <= 20; i++) { /* once it has stood, the same way has to be shown anew */
@@ -366,6 +384,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(a_first_sample_is_the_load_and_proves_nothing);
+    RUN_TEST(a_start_has_no_direction);
     RUN_TEST(friction_is_known_while_the_motor_turns);
     RUN_TEST(a_motor_stands_after_eight_ticks);
     RUN_TEST(a_direction_is_sure_after_six_ticks);

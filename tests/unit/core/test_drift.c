@@ -496,6 +496,29 @@ static void test_a_run_is_of_one_posture_and_of_64_readings(void)
     }
 }
 
+/* However far off the sensor's zero and the tip were in the run before: the new run's mean does not know of it. */
+static void test_a_run_knows_nothing_of_the_run_before(void)
+{
+    const brace_stiffness_t model = stiffness_of(&believed, postures[0]);
+    brace_drift_t told[2];
+    for (int is_off = 0; is_off < 2; is_off++) {
+        brace_drift_reading_t reading = {postures[0][0], postures[0][1], 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
+        reading.dx_mm = reading.dz_mm = is_off != 0 ? 1e4f : 0.0f;
+        reading.fx_n = reading.fz_n = is_off != 0 ? 1e6f : 0.0f;
+        setUp();
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_drift_step(&drift, &believed, &model, &reading));
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_drift_run(&drift));
+        for (int i = 0; i < 5; i++) {
+            reading.dx_mm = 0.1f + 0.3f * (float)i, reading.dz_mm = 0.7f;
+            reading.fx_n = 4.01f + 0.2f * (float)i, reading.fz_n = -3.03f;
+            TEST_ASSERT_EQUAL(BRACE_OK, brace_drift_step(&drift, &believed, &model, &reading));
+        }
+        told[is_off] = drift;
+    }
+    TEST_ASSERT_EQUAL_MEMORY(told[0].run_mean, told[1].run_mean, sizeof told[0].run_mean);
+    TEST_ASSERT_EQUAL_MEMORY(told[0].offset, told[1].offset, sizeof told[0].offset);
+}
+
 static void test_refused_calls_leave_everything_as_it_was(void)
 {
     const brace_stiffness_t model = stiffness_of(&believed, postures[0]);
@@ -584,6 +607,7 @@ int main(void)
     RUN_TEST(test_a_calibration_that_does_not_fit_shows_in_the_baseline);
     RUN_TEST(test_the_outlook_tells_where_a_loss_shows);
     RUN_TEST(test_a_run_is_of_one_posture_and_of_64_readings);
+    RUN_TEST(test_a_run_knows_nothing_of_the_run_before);
     RUN_TEST(test_refused_calls_leave_everything_as_it_was);
     return UNITY_END();
 }

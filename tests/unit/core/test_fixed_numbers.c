@@ -281,6 +281,25 @@ static void test_the_inverse_in_space(void)
     }
 }
 
+/* A minor of C that is negative by the last place of its words alone: C is not positive definite. The cofactors across
+ * it are far larger than the sum of the others, which gives all of them their common shift. */
+static void test_a_minor_that_is_negative_by_a_last_place_is_refused(void)
+{
+    for (int axis = 0; axis < 3; axis++) {
+        const int p = axis == 0 ? 1 : 0, q = axis == 2 ? 1 : 2;
+        for (int64_t n = 16384; n < 23000; n += 7) {
+            int64_t m[3][3] = {{0}};
+            m[p][p] = n * n, m[q][q] = n * n + 2, m[p][q] = m[q][p] = n * n + 1; /* their minor is -1 */
+            m[axis][axis] = 1, m[axis][p] = m[p][axis] = n, m[axis][q] = m[q][axis] = n - 1;
+            const int64_t unit = (int64_t)1 << 23;
+            const fixed_tensor3_t c = {.xx = unit * m[0][0], .xy = unit * m[0][1], .xz = unit * m[0][2],
+                                       .yy = unit * m[1][1], .yz = unit * m[1][2], .zz = unit * m[2][2]};
+            brace_k3_t k;
+            TEST_ASSERT_FALSE(fixed_inverse3(&c, 0, &k));
+        }
+    }
+}
+
 /* C so small that its words would be noise is refused, sound as it may be. */
 static void test_a_C_below_its_least_trace_is_refused(void)
 {
@@ -310,6 +329,7 @@ int main(void)
     RUN_TEST(test_products_are_noted_from_their_most_on);
     RUN_TEST(test_pivots_are_noted_outside_their_range);
     RUN_TEST(test_the_inverse_in_space);
+    RUN_TEST(test_a_minor_that_is_negative_by_a_last_place_is_refused);
     RUN_TEST(test_a_C_below_its_least_trace_is_refused);
     return UNITY_END();
 }

@@ -277,6 +277,16 @@ static void test_compliances_under_the_load_taken_many_times(void)
     TEST_ASSERT_TRUE(within > 300 * TIMES && beyond > 10 * TIMES && buckled > 30 * TIMES);
 }
 
+/* A pivot of exactly 0 counts as a 64th in the determinant, and so in the compliance: both of the same sign. */
+static void test_a_pivot_of_nothing_counts_alike_in_both(void)
+{
+    fixed_overload_t overload = {.mantissa_q31 = 1 << 30, .exponent = 1};
+    noted_t noted = 0u;
+    TEST_ASSERT_EQUAL_INT32(64 << 14, overload_softened(1 << 14, -(1 << 24), &overload, &noted));
+    TEST_ASSERT_FALSE(overload.is_negative || overload.has_buckled || is_refused(noted));
+    TEST_ASSERT_DOUBLE_WITHIN(0.0, 0x1p-6, ldexp((double)overload.mantissa_q31, overload.exponent - 31));
+}
+
 /* The determinant is the product of all pivots, its sign that of them. Once one is negative the limb has buckled. After
  * a refusal it stays as it is. */
 static void test_a_determinant_is_the_product_of_its_pivots(void)
@@ -311,6 +321,7 @@ int main(void)
     RUN_TEST(test_a_link_s_turns_on_the_way_out);
     RUN_TEST(test_the_springs_at_a_link_s_end);
     RUN_TEST(test_compliances_under_the_load_taken_many_times);
+    RUN_TEST(test_a_pivot_of_nothing_counts_alike_in_both);
     RUN_TEST(test_a_determinant_is_the_product_of_its_pivots);
     return UNITY_END();
 }

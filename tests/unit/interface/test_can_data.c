@@ -69,6 +69,20 @@ static void test_rates_of_zero_are_silence_but_for_the_heartbeat(void)
     TEST_ASSERT_UINT32_WITHIN(1, 100, of(&posture, 0x480));
 }
 
+/* Where no rate is set no snapshot is taken for the bus either: the ticks stay free for the jobs. */
+static void test_without_a_rate_no_snapshot_is_taken(void)
+{
+    brace_parameters_t p = bench_parameters();
+    p.controller.stiffness_hz = p.controller.posture_hz = p.controller.load_hz = 0;
+    bench_start(&p);
+    ticks(50);
+    const process_t *process = &app.wires.can.bus_port.process;
+    const uint32_t taken_us = process->taken_us;
+    ticks(2500);
+    TEST_ASSERT_TRUE(process->is_configured);
+    TEST_ASSERT_EQUAL_UINT32(taken_us, process->taken_us);
+}
+
 /* Bits of a frame of eight bytes as long as stuffing can make it: 34 + 64 bits may be stuffed, one in four after the
  * first; 10 fixed bits, 3 between frames. */
 static uint32_t worst_bits(void)
@@ -618,6 +632,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_rates_are_the_parameters);
     RUN_TEST(test_rates_of_zero_are_silence_but_for_the_heartbeat);
+    RUN_TEST(test_without_a_rate_no_snapshot_is_taken);
     RUN_TEST(test_process_data_are_thinned_to_the_share_of_the_bus);
     RUN_TEST(test_a_share_that_heartbeats_use_up_leaves_little);
     RUN_TEST(test_a_snapshot_leaves_two_frames_at_a_time);

@@ -49,7 +49,9 @@ static rest_t rest_of(brace_harmonics_t *harmonics, float iso_mm_per_n, float me
  * cos h between them: cross = A cos^2 h + B sin h cos h + D sin^2 h. With q = -(B + sqrt(B^2 - 4 A D) sign B)/2 that is
  * -q (sin h - A/q cos h) (cos h - D/q sin h). Where cross has no zero, its least value `least` is subtracted from A and
  * from D, and the root becomes zero. Where q is negligible beside A or D, cross is A cos^2 h or D sin^2 h. The smaller
- * of the two is then a residue of rounding and is dropped; otherwise it would become as large as the other. */
+ * of the two is then a residue of rounding and is dropped; otherwise it would become as large as the other. Where
+ * the rounding of `least` leaves a negative number under the root, the smaller of A and D takes the value that makes it
+ * zero. That moves cross by rounding alone; else B would be wrong by half the share by which the number is negative. */
 static void factor_cross(const brace_harmonic_t *cross, brace_planar_t *planar)
 {
     const float straight = cross->at_fold + cross->per_cos2, folded = cross->at_fold;
@@ -62,6 +64,14 @@ static void factor_cross(const brace_harmonic_t *cross, brace_planar_t *planar)
     const float root = sqrtf(discriminant > 0.0f ? discriminant : 0.0f);
     const float q = -0.5f * (b + copysignf(root, b));
     const float larger = fmaxf(fabsf(a), fabsf(d));
+    if (discriminant < 0.0f) {
+        const float product = 0.25f * b * b;
+        if (fabsf(a) < larger) {
+            a = product / d;
+        } else {
+            d = product / a;
+        }
+    }
     float divisor = q;
     if (!(fabsf(q) > ROUNDING * larger)) {
         divisor = NEARLY_NOTHING_RATIO * larger + FLT_MIN;

@@ -85,6 +85,22 @@ static void test_what_is_made_anew_is_right(void)
     }
 }
 
+/* Spans that change again and again do not hold up the look at the others. */
+static void test_another_span_made_anew_leaves_the_look_where_it_is(void)
+{
+    for (uint32_t changed = 1; changed < SPANS; changed++) {
+        setUp();
+        for (uint32_t word = 0; word < words_in[0]; word++) {
+            TEST_ASSERT_EQUAL_UINT32(0u, guard.span);
+            TEST_ASSERT_EQUAL_UINT32(word, guard.word);
+            TEST_ASSERT_EQUAL(0, wrong_in(1, 1));
+            const guard_span_t span = span_of(changed);
+            guard_take(&guard, changed, &span);
+        }
+        TEST_ASSERT_EQUAL_UINT32(1u, guard.span);
+    }
+}
+
 /* The bytes behind a span do not belong to it. */
 static void test_words_behind_a_span_do_not_count(void)
 {
@@ -98,6 +114,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_every_bit_that_flips_is_found_once_a_round);
     RUN_TEST(test_what_is_made_anew_is_right);
+    RUN_TEST(test_another_span_made_anew_leaves_the_look_where_it_is);
     RUN_TEST(test_words_behind_a_span_do_not_count);
     return UNITY_END();
 }

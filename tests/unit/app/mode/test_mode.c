@@ -46,6 +46,11 @@ static void test_a_start_waits_for_sound_joints_for_100_ms(void)
     TEST_ASSERT_FALSE(mode_update(&mode, &inputs));
     TEST_ASSERT_EQUAL(BRACE_MODE_MONITOR, mode.now);
     mode_start(&mode);
+    inputs.takes_up = true; /* a start ends in MONITOR, whatever the next tick finds */
+    TEST_ASSERT_FALSE(mode_update(&mode, &inputs));
+    TEST_ASSERT_EQUAL(BRACE_MODE_MONITOR, mode.now);
+    inputs.takes_up = false;
+    mode_start(&mode);
     inputs.faults = BRACE_FAULT_ENCODER_STUCK; /* brought along */
     TEST_ASSERT_FALSE(mode_update(&mode, &inputs));
     TEST_ASSERT_EQUAL(BRACE_MODE_START, mode.now);

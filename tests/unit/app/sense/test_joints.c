@@ -163,6 +163,20 @@ static void test_link_angles_are_watched_too(void)
     TEST_ASSERT_TRUE(isnan(link_rad[BRACE_FEMUR]) && isnan(link_rad[BRACE_COXA]));
 }
 
+/* One bound for both: where the encoder behind the gear is the only one, an angle that is sound is the link's too. */
+static void test_what_is_sound_is_no_absurd_link_angle(void)
+{
+    for (int i = 0; i < 2; i++) {
+        const float bound_rad = i == 0 ? 100.0f : -100.0f;
+        float link_rad[BRACE_LINK_COUNT];
+        joints_start(&joints, &hal);
+        TEST_ASSERT_EQUAL_FLOAT(bound_rad, read_at(NAN, bound_rad, 100.0f)->sample.motor_rad);
+        TEST_ASSERT_EQUAL(0, bad);
+        joints_link_angles(&joints, link_rad);
+        TEST_ASSERT_EQUAL_FLOAT(bound_rad, link_rad[BRACE_FEMUR]);
+    }
+}
+
 static void test_absurd_samples_are_counted_and_grow_old(void)
 {
     static const float motor_rad[] = {101.0f, NAN, 1.0f, 1.0f, 1.0f};
@@ -231,6 +245,7 @@ int main(void)
     RUN_TEST(test_a_sound_sample_between_two_wild_ones_parts_them);
     RUN_TEST(test_an_angle_that_no_joint_could_have_reached_is_refused_once);
     RUN_TEST(test_link_angles_are_watched_too);
+    RUN_TEST(test_what_is_sound_is_no_absurd_link_angle);
     RUN_TEST(test_absurd_samples_are_counted_and_grow_old);
     RUN_TEST(test_a_drive_that_refuses_or_has_nothing_newer);
     RUN_TEST(test_temperatures_stand_in_for_one_another);

@@ -1,5 +1,7 @@
 /* The search for a limb's buckling load in space, a step in two ticks: how old its result may be, and who goes
  * first. */
+#include <string.h>
+
 #include "stiffness/softening.h"
 
 #include "app_bench.h"
@@ -40,6 +42,17 @@ static void step(bool is_counted, bool may_work)
     if (may_work && (softening_is_due(&softening) || softening_is_overdue(&softening))) {
         softening_work(&softening, &model, &parameters.limb, unbent_rad);
     }
+}
+
+/* Before the first search nothing is known, and nothing that is not known is a number. */
+static void test_a_start_knows_nothing(void)
+{
+    memset(&softening, 0, sizeof softening);
+    softening_start(&softening);
+    TEST_ASSERT_TRUE(isnan(softening.factor));
+    TEST_ASSERT_TRUE(isnan(softening.unloaded.k_xx_n_per_mm));
+    TEST_ASSERT_TRUE(isnan(softening.unloaded.stiff_axis_rad));
+    TEST_ASSERT_TRUE(isnan(softening.unloaded_across_n_per_mm));
 }
 
 /* Runs the search until it has found a factor. returns how many steps that took */
@@ -146,6 +159,7 @@ static void test_near_its_buckling_the_limb_is_flagged(void)
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(test_a_start_knows_nothing);
     RUN_TEST(test_a_search_ends_and_is_repeated);
     RUN_TEST(test_a_search_is_of_its_own_load);
     RUN_TEST(test_a_factor_grows_old);

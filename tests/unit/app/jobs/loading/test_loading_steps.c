@@ -382,6 +382,23 @@ static void test_a_step_s_way_takes_its_time(void)
     TEST_ASSERT_EQUAL(RESTING_TICKS, ticks_in(LOADING_MOVE));
 }
 
+/* Seven ticks that are a microsecond short of 20 ms together are too few for a motor to have come to rest. */
+static void test_a_motor_has_to_rest_for_all_of_20_ms(void)
+{
+    brace_parameters_t p = *inputs.parameters;
+    brace_loading_setup_t setup = along_x;
+    p.controller.tick_us = 2857;
+    inputs.parameters = &p;
+    setup.rate_mm_per_s = 10.0f;
+    begin(&setup);
+    to_row(1);
+    while (test.phase == LOADING_MOVE && test.along_mm != -setup.step_mm) {
+        tick();
+        follow();
+    }
+    TEST_ASSERT_EQUAL(8, ticks_in(LOADING_MOVE));
+}
+
 /* --- how runs are numbered --------------------------------------------------------------------------------------- */
 
 static void starts_at(float theta1_rad, float theta2_rad, brace_axis_t axis, uint16_t config, uint16_t rep)
@@ -411,6 +428,13 @@ static void test_postures_and_repeats_are_numbered(void)
     starts_at(1.011f, 1.400f, BRACE_AXIS_Z, 4, 0);
     starts_at(1.000f, 1.400f, BRACE_AXIS_X, 5, 0);
     starts_at(1.000f, 1.400f, BRACE_AXIS_X, 5, 1);
+}
+
+/* The first posture is one, a straight limb along x, too. */
+static void test_the_first_posture_may_be_all_zeros(void)
+{
+    starts_at(0.0f, 0.005f, BRACE_AXIS_Z, 1, 0);
+    starts_at(0.0f, 0.005f, BRACE_AXIS_Z, 1, 1);
 }
 
 /* What cannot begin leaves everything as it was. */
@@ -448,7 +472,9 @@ int main(void)
     RUN_TEST(test_a_start_forgets_the_test_before);
     RUN_TEST(test_the_second_half_of_a_dwell_is_averaged);
     RUN_TEST(test_a_step_s_way_takes_its_time);
+    RUN_TEST(test_a_motor_has_to_rest_for_all_of_20_ms);
     RUN_TEST(test_postures_and_repeats_are_numbered);
+    RUN_TEST(test_the_first_posture_may_be_all_zeros);
     RUN_TEST(test_what_is_refused_changes_nothing);
     return UNITY_END();
 }

@@ -11,7 +11,7 @@ static can_bus_t bus;
 static brace_hal_t hal;
 static brace_can_setup_t last_setup;
 static int32_t setup_status, classic_status, health_status, send_status;
-static uint32_t setups, recoveries;
+static uint32_t setups, recoveries, looks;
 static brace_can_health_t health;
 static brace_app_counters_t counted;
 
@@ -26,6 +26,7 @@ static int32_t port_setup(void *context, const brace_can_setup_t *setup)
 static int32_t port_health(void *context, brace_can_health_t *told)
 {
     (void)context;
+    looks++;
     if (health_status != BRACE_HAL_OK) {
         memset(told, 0xff, sizeof *told);
         return health_status;
@@ -68,7 +69,7 @@ void setUp(void)
                         .can_health = port_health, .can_recover = port_recover};
     setup_status = classic_status = health_status = send_status = BRACE_HAL_OK;
     health = (brace_can_health_t){.bus_off = false};
-    setups = recoveries = 0;
+    setups = recoveries = looks = 0;
     memset(&counted, 0, sizeof counted);
     start(0, 5);
 }
@@ -195,6 +196,15 @@ static void test_health_is_told_every_ten_milliseconds(void)
     TEST_ASSERT_EQUAL(9, bus.frames_lost);
 }
 
+/* With a tick that three times over is a microsecond short of 10 ms, each look takes four. */
+static void test_health_is_not_asked_for_a_microsecond_early(void)
+{
+    for (uint32_t i = 1; i <= 40u; i++) {
+        can_bus_watch(&bus, &hal, 3333);
+        TEST_ASSERT_EQUAL(i / 4u, looks);
+    }
+}
+
 /* The first look after its time comes, then after twice as long each time, at most 2 s. */
 static void recovers_after(const uint32_t *wait_ms, uint32_t count)
 {
@@ -284,6 +294,7 @@ int main(void)
     RUN_TEST(test_a_set_up_that_failed_is_tried_again);
     RUN_TEST(test_a_board_without_can_is_asked_once);
     RUN_TEST(test_health_is_told_every_ten_milliseconds);
+    RUN_TEST(test_health_is_not_asked_for_a_microsecond_early);
     RUN_TEST(test_the_way_back_is_tried_ever_more_rarely);
     RUN_TEST(test_what_is_not_taken_is_tried_again_and_what_is_refused_is_counted);
     RUN_TEST(test_a_frame_has_come_or_none);

@@ -110,11 +110,26 @@ static void test_a_peer_that_does_not_read_loses_its_answer(void)
     TEST_ASSERT_EQUAL_UINT32(4, sent_count);
 }
 
+/* The second counts from the answer, however long the request has waited for it. */
+static void test_the_second_begins_with_the_answer(void)
+{
+    link.active_us = tick.now_us;
+    tick.now_us += 600000u;
+    answer_of(10);
+    tick.now_us += 1000000u;
+    modbus_link_send(&link, &tick, BRACE_SERIAL_MODBUS);
+    TEST_ASSERT_TRUE(link.is_sending);
+    tick.now_us += 1u;
+    modbus_link_send(&link, &tick, BRACE_SERIAL_MODBUS);
+    TEST_ASSERT_FALSE(link.is_sending);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_what_comes_is_gathered);
     RUN_TEST(test_a_slow_reader_gets_all_of_its_answer);
     RUN_TEST(test_a_peer_that_does_not_read_loses_its_answer);
+    RUN_TEST(test_the_second_begins_with_the_answer);
     return UNITY_END();
 }

@@ -6,6 +6,7 @@
 #include "brace/questions.h"
 #include "wire/modbus/pdu.h"
 #include "wire/modbus/refusal.h"
+#include "wire/modbus/write.h"
 
 void setUp(void)
 {
@@ -212,6 +213,44 @@ static void test_a_request_over_tcp_may_come_in_pieces(void)
 }
 
 /* The take-up that has begun last reads as it was written; one that is refused leaves it. */
+/* A command's value that stands for none, and a parameter while nothing may be written. */
+static void test_a_refused_write_leaves_the_answer_s_length(void)
+{
+    const wire_tick_t tick = {.app = &app, .hal = &fake.hal, .now_us = fake.now_us};
+    static const uint32_t at[] = {BRACE_REGISTER_COMMANDS, 2};
+    static const modbus_exception_t why[] = {MODBUS_E_VALUE, MODBUS_E_FUNCTION};
+    for (int i = 0; i < 2; i++) {
+        modbus_server_t server = app.wires.modbus.server;
+        brace_seal_t seal = {.is_there = false};
+        uint8_t pdu[MODBUS_PDU_BYTES] = {16, (uint8_t)(at[i] >> 8), (uint8_t)at[i], 0, 2, 4, 0, 0, 0, 0};
+        uint32_t answer = 77;
+        server.seal = &seal, server.pdu = pdu, server.length = 10;
+        TEST_ASSERT_EQUAL(why[i], modbus_write_block(&server, &tick, pdu, 10, &answer));
+        TEST_ASSERT_EQUAL(77, answer);
+    }
+}
+
+/* The check of a long answer is worked out while it leaves: of 255 bytes no more than 48 and a few leave at once. */
+static void test_a_long_answer_leaves_in_parts(void)
+{
+    const uint8_t pdu[] = {UNIT, 4, 0, 0, 0, 124};
+    uint8_t frame[8], all[260];
+    memcpy(frame, pdu, sizeof pdu);
+    const uint32_t crc = crc_by_bits(frame, sizeof pdu);
+    frame[6] = (uint8_t)crc, frame[7] = (uint8_t)(crc >> 8);
+    line_says(frame, sizeof frame);
+    uint32_t count = 0;
+    for (int i = 0; i < ANSWER_TICKS && count < 253u; i++) {
+        ticks(1);
+        const uint32_t more =
+            brace_fake_bytes_take(&fake, BRACE_SERIAL_MODBUS, all + count, (uint32_t)sizeof all - count);
+        TEST_ASSERT_LESS_OR_EQUAL(60, more);
+        count += more;
+    }
+    TEST_ASSERT_EQUAL(253, count);
+    TEST_ASSERT_EQUAL_HEX16(0, crc_by_bits(all, count));
+}
+
 static void test_a_take_up_that_began_reads_back(void)
 {
     const uint32_t place = (uint32_t)offsetof(brace_commands_t, take_up), tibia_positive = 0x102u;
@@ -286,6 +325,8 @@ int main(void)
     RUN_TEST(test_a_diagnosis_has_its_length);
     RUN_TEST(test_a_request_of_another_length_is_none);
     RUN_TEST(test_a_request_over_tcp_may_come_in_pieces);
+    RUN_TEST(test_a_refused_write_leaves_the_answer_s_length);
+    RUN_TEST(test_a_long_answer_leaves_in_parts);
     RUN_TEST(test_a_take_up_that_began_reads_back);
     RUN_TEST(test_a_question_puts_out_its_own_kind);
     RUN_TEST(test_questions_that_nobody_asked_read_as_not_known);
