@@ -329,7 +329,8 @@ static void test_a_tibia_close_to_its_limit_is_refused(void)
         const double resists = any(-1.1, -0.9), pivot = any(0.0625, 0.066);
         const fixed_rest_t tibia = {.resists = {.rr = word(resists, 27)}};
         const fixed_rest_t femur = {.end_softens = word(any(0.2, 0.5), 27)};
-        const fixed_stance_t stance = {.femur = &femur, .tibia = &tibia, .knee = word((pivot - 1.0) / resists, 29)};
+        const int32_t knee = word((pivot - 1.0) / resists, 29);
+        const fixed_stance_t stance = {.femur = &femur, .tibia = &tibia, .knee = knee};
         fixed_pivots_t p;
         TEST_ASSERT_FALSE(fixed_pivots_of(&stance, &p));
     }
