@@ -321,8 +321,9 @@ static void test_a_step_from_the_chord_s_root(void)
     TEST_ASSERT_TRUE(ends[0] > 100 * TIMES && ends[1] + ends[2] > 0);
 }
 
-/* A tibia that all but buckles about the knee passes on nearly 16 times what it resists, and the femur's end is softened
- * beside it: the sum leaves its word, and the limb is refused. (The sanitized build stops where it overflows.) */
+/* A tibia that all but buckles about the knee passes on nearly 16 times what it resists, and the femur's end is
+ * softened beside it: the sum leaves its word, and the limb is refused. (The sanitized build stops where it
+ * overflows.) */
 static void test_a_tibia_close_to_its_limit_is_refused(void)
 {
     for (int n = 0; n < 200 * TIMES; n++) {
