@@ -15,7 +15,8 @@ INTRODUCTION = """# What is proven
 integers and pointers), into one formula and finds no input that breaks it. Beside each claim it checks every array index,
 pointer, shift, division and signed overflow on the way, and that no loop goes further than the bound says.
 
-`fixed_lengths` is no formula: there the firmware's text runs through all inputs, one after the other.
+`fixed_lengths` and `loaded_turns` are no formulas: there the firmware's text runs through all inputs, one after the
+other.
 
 A proof that cannot fail proves nothing: every one is run again on code with a mistake put in, and has to find it. The
 mistakes stand at the end. What a proof takes from elsewhere stands under *stands on*: a function that has its own proof is

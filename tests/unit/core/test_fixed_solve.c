@@ -321,12 +321,29 @@ static void test_a_step_from_the_chord_s_root(void)
     TEST_ASSERT_TRUE(ends[0] > 100 * TIMES && ends[1] + ends[2] > 0);
 }
 
+/* A tibia that all but buckles about the knee passes on nearly 16 times what it resists, and the femur's end is
+ * softened beside it: the sum leaves its word, and the limb is refused. (The sanitized build stops where it
+ * overflows.) */
+static void test_a_tibia_close_to_its_limit_is_refused(void)
+{
+    for (int n = 0; n < 200 * TIMES; n++) {
+        const double resists = any(-1.1, -0.9), pivot = any(0.0625, 0.066);
+        const fixed_rest_t tibia = {.resists = {.rr = word(resists, 27)}};
+        const fixed_rest_t femur = {.end_softens = word(any(0.2, 0.5), 27)};
+        const int32_t knee = word((pivot - 1.0) / resists, 29);
+        const fixed_stance_t stance = {.femur = &femur, .tibia = &tibia, .knee = knee};
+        fixed_pivots_t p;
+        TEST_ASSERT_FALSE(fixed_pivots_of(&stance, &p));
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_a_link_s_matrix_is_eliminated_within_its_words);
     RUN_TEST(test_a_link_is_solved_within_its_words);
     RUN_TEST(test_a_joint_s_pivot_stays_within_its_word);
+    RUN_TEST(test_a_tibia_close_to_its_limit_is_refused);
     RUN_TEST(test_a_wide_product);
     RUN_TEST(test_a_step_bends_no_link_too_far);
     RUN_TEST(test_shifts_of_the_search);

@@ -175,7 +175,8 @@ INLINE bool fixed_pivots_of(const fixed_stance_t *limb, fixed_pivots_t *p)
     }
     p->per_knee = inverse_q27(p->knee);
     rest = limb->femur;
-    end = rest->end_resists - rest->end_softens + kept((int64_t)p->tibia.resists * p->per_knee, 27, ROOM_RATIO, &lost);
+    end = wrapped_plus(rest->end_resists - rest->end_softens,
+                       kept((int64_t)p->tibia.resists * p->per_knee, 27, ROOM_RATIO, &lost));
     if (lost >= LOST) {
         return false;
     }

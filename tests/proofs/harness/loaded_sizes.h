@@ -1,0 +1,43 @@
+/* Sizes of K under load in fixed point, which one proof promises and another takes: lengths of vectors, magnitudes of
+ * numbers, in the formats of loaded/fixed_vec.h. */
+#ifndef BRACE_PROOF_LOADED_SIZES_H
+#define BRACE_PROOF_LOADED_SIZES_H
+
+#define PART_OF(format, number) ((int64_t)((number) * (double)(1LL << (format))))
+
+/* Turns (loaded_turns). */
+#define DIRECTION_MOST ((1LL << 30) + 2)
+#define SMALL_TURN_LEAST PART_OF(30, 0.999)
+#define SMALL_TURN_MOST PART_OF(30, 1.001)
+#define SMALL_ANGLE_MOST ((int32_t)PART_OF(29, 1.045))
+
+/* Angles of a shape on the way, and at points of it (loaded_points). */
+#define ROOT_ANGLE_MOST PART_OF(29, 2.0)
+#define CURVATURE_MOST PART_OF(29, 0.9)
+#define FIRST_MOST PART_OF(29, 2.52)
+#define SECOND_MOST PART_OF(29, 3.42)
+#define NEAR_MOST PART_OF(29, 0.52)  /* from the root to the first, from the second to the end */
+#define FAR_MOST PART_OF(29, 1.04)   /* from the first to the second */
+
+/* A link: the unit of length is above the reach, the unit of force above the loads, springs move by a quarter. The
+ * tilt is a quarter turn at most, so that the way to the beam is the root of two times as long. */
+#define BEAM_MOST (PART_OF(28, 1.0) + 16)
+#define TO_BEAM_MOST (PART_OF(28, 1.41421357) + 16)
+#define SPRING_MOST (PART_OF(30, 0.5) + 16)
+#define RIGID_MOST (TO_BEAM_MOST + PART_OF(28, 0.25) + 32)
+#define FORCE_MOST (PART_OF(30, 1.0) + 64)
+#define SPRING_GIVES_MOST PART_OF(30, 0.503) /* turned, along a force or across */
+#define END_MOST PART_OF(30, 0.25)
+
+/* What a link tells on the way (loaded_link), and at the equilibrium. */
+#define RESISTS_MOST PART_OF(27, 2.7)
+#define END_RESISTS_MOST PART_OF(27, 0.26)
+#define ROOT_DRIVES_MOST PART_OF(27, 6.9)
+#define DRIVES_MOST PART_OF(27, 4.0)
+#define END_DRIVES_MOST PART_OF(27, 1.095)
+#define REST_MOST PART_OF(27, 3.0)
+#define SOFTENS_MOST PART_OF(27, 0.51)
+#define TIP_MOST PART_OF(28, 3.3)
+#define LEVER_MOST PART_OF(28, 1.3)
+
+#endif
