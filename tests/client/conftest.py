@@ -28,8 +28,10 @@ LIMB = PROJECT / "tools" / "brace" / "data" / "paper-limb.toml"
 sys.path.insert(0, str(Path(__file__).parent))
 TELLING_S = 3.0
 PROMISED_MS = 2500  # given this time-out, the client tells every failure within TELLING_S
-# The guest kernel stands still for seconds when the machine is busy, and what is tested there is not its speed.
-ANSWER_MS = 20000 if os.environ.get("BRACE_TEST_CAN") else PROMISED_MS
+# The guest kernel stands still for seconds when the machine is busy, and so does an emulated board, whose serial frames
+# are torn by that, too. What is tested there is not their speed.
+PATIENT_MS = 20000
+ANSWER_MS = PATIENT_MS if os.environ.get("BRACE_TEST_CAN") else PROMISED_MS
 
 
 @dataclass

@@ -6,7 +6,7 @@ import sys
 from collections.abc import Callable, Iterator
 
 import pytest
-from conftest import PROJECT, Answer
+from conftest import PATIENT_MS, PROJECT, Answer
 from test_against_sim import INDEX, POSTURE, check_k
 
 sys.path.append(str(PROJECT / "tests" / "socketcan"))
@@ -24,12 +24,13 @@ def board(tmp_path_factory: pytest.TempPathFactory) -> Iterator[dict[str, str]]:
 
 @pytest.mark.parametrize("way", ["can", "modbus"])
 def test_k_of_now_and_elsewhere(probe: Probe, board: dict[str, str], way: str) -> None:
-    now = probe(board[way], "read", 7, 1)
+    now = probe(board[way], "read", 7, 1, timeout_ms=PATIENT_MS)
     assert now.code == 0, now.err
     [snapshot] = now.snapshots
     assert snapshot["parts"] == 7 and snapshot["valid"] == 1
     for posture in (POSTURE, (0.2, 1.9)):
-        there = probe(board[way], "posture", *posture)
+        there = probe(board[way], "posture", *posture, timeout_ms=PATIENT_MS)
         assert there.code == 0, there.err
         check_k(there.values, posture)
-    assert probe(board[way], "entry_f32", INDEX["probe_f32"]).values == {"value": 12345.5}
+    entry = probe(board[way], "entry_f32", INDEX["probe_f32"], timeout_ms=PATIENT_MS)
+    assert entry.values == {"value": 12345.5}
