@@ -38,7 +38,7 @@ static void roots_fit(uint32_t number)
     PROVE(per_root >> 26 != 0u && per_root >> 31 == 0u, "one over it fits its word");
     const unsigned __int128 one = (unsigned __int128)1 << 86, square = (unsigned __int128)per_root * per_root;
     PROVE(number < 1u << 30 || square * ((uint64_t)number + 1u) >= one - (one >> 20), "one over a root");
-    /* Of most numbers what follows is told without the root: the squares are 2^118 at most. */
+    /* For most numbers the squares (at most 2^118) show that no component is too long. The others need the root. */
     if (square * ((uint64_t)number + 1u) > one) {
         const uint64_t longest = root_of(((uint64_t)number << 32) | 0xffffffffu);
         PROVE(longest * per_root < 1ull << 59, "no component is longer than one");

@@ -113,7 +113,7 @@ static void test_defaults_are_mended_too(void)
     ticks(MENDED_WITHIN_TICKS);
     TEST_ASSERT_EQUAL_MEMORY(&defaults, &app.controller.parameters.in_force, sizeof defaults);
     TEST_ASSERT_BITS_LOW(BRACE_FAULT_MEMORY, now()->faults);
-    app.controller.parameters.crc ^= 4u; /* what the set is told by */
+    app.controller.parameters.crc ^= 4u; /* the CRC that the snapshot carries for the set */
     app.controller.parameters.origin = BRACE_PARAMETERS_SLOT_A;
     TEST_ASSERT_TRUE(is_seen());
     ticks(MENDED_WITHIN_TICKS);

@@ -154,7 +154,7 @@ static void test_when_it_may_write(void)
 {
     job.drift.state = BRACE_DRIFT_WATCHING;
     job.looks = true;
-    work(3); /* what is told first */
+    work(3); /* the job writes its first record */
     inputs.may_write = false;
     const uint32_t before = fake.calls[BRACE_FAKE_NVM_WRITE];
     TEST_ASSERT_FALSE(drift_job_work(&job, &inputs));
@@ -175,8 +175,8 @@ static void test_when_it_may_write(void)
     TEST_ASSERT_EQUAL(BRACE_JOURNAL_PIECES, pieces);
 }
 
-/* A memory that refuses is told, and there is no second look until something happens; a set of its own slot alone has a
- * journal. */
+/* The job reports a memory that refuses, and does not read it again until something happens. Only a set that lies in a
+ * slot has a journal. */
 static void test_a_memory_that_fails_is_told(void)
 {
     job.drift.state = BRACE_DRIFT_WATCHING;

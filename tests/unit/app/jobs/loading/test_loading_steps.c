@@ -57,7 +57,7 @@ static void motor_moves(int i, float by_rad)
     joints.joint[BRACE_FEMUR + i].sample.motor_rad += by_rad;
 }
 
-/* Motors that do what they are told. */
+/* Both motors stand where the test has commanded them. */
 static void follow(void)
 {
     for (int i = 0; i < 2; i++) {
@@ -120,7 +120,7 @@ static void test_the_force_may_change_by_its_bound(void)
     }
 }
 
-/* Nineteen twentieths of the bound that is told the drives. */
+/* The test ends at 95 % of the torque bound that the drives were given. */
 static void test_the_torque_of_either_motor_is_bounded(void)
 {
     for (int i = 0; i < 8; i++) {
