@@ -104,7 +104,7 @@ static double swing_of(double cos, double sin)
 }
 
 /* Is half the trace longer than the deviator by 4 units at every knee angle, so that K is positive? The squares
- * of the two differ by det C, which is at least `rest`. What rounding to words has added to that difference counts, too.
+ * of the two differ by det C, which is at least `rest`. What rounding to words adds to that counts, too.
  * det_unit: of cross^2, in the unit of the mean's square. The trace is below 2^31: 4 units are 4 2^31 of the squares;
  * that doubled, because sine and cosine are a unit vector within 2e-9 only. */
 static bool is_definite(const brace_planar_fixed_t *fixed, double det_unit)

@@ -118,8 +118,8 @@ static void test_every_change_of_the_mode_is_told_once(void)
     TEST_ASSERT_TRUE(is_silent());
 }
 
-/* The emergency message of a drift names the likeliest cause. A new one goes out when the cause changes, and one when the
- * fault ends. */
+/* The emergency message of a drift names the likeliest cause. A new one goes out when the cause changes, and
+ * one when the fault ends. */
 static void test_every_cause_of_a_drift_is_told_once(void)
 {
     brace_drift_report_t *report = &app.controller.drift.report;
