@@ -15,7 +15,7 @@
  * So the program runs again and again (`prove`): what one run learns of a number bounds it in the next, in the place
  * where it is made, until nothing more is learned. A number is known in the next run by its key: the how-manieth number
  * it is since the last comparison, after these answers to the comparisons before. A bound goes from v to what v is made
- * of only through steps that wrapped nothing in that run, whose own ranges were right for all runs that are not refused.
+ * of only through steps that wrapped nothing in that run, whose own ranges were right for all that are not refused.
  * So by induction all ranges are. A number is made with its bound only after its range without it was found to fit.
  *
  * Lengths. Turns keep a vector's length, but the box around a turned vector grows. So a table says of numbers together
