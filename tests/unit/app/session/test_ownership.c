@@ -149,6 +149,7 @@ static void test_one_master_writes_until_it_has_gone(void)
     TEST_ASSERT_EQUAL(BRACE_OK, ownership_may_write(&ownership, others, true));
     (void)ownership_step(&ownership, &rests); /* CONFIGURATION has ended */
     TEST_ASSERT_EQUAL(BRACE_OK, ownership_may_write(&ownership, we, false));
+    TEST_ASSERT_EQUAL(BRACE_REFUSED_OWNED, ownership_may_write(&ownership, they, true));
 }
 
 static void test_storing_is_no_silence(void)

@@ -107,8 +107,10 @@ static void test_a_start_goes_on_from_the_record_and_knows_it(void)
     job.drift.state = BRACE_DRIFT_WATCHING;
     job.drift.steps = 5000;
     job.drift.evidence[1] = 7.0f;
+    job.drift.run_count = 9;
     TEST_ASSERT_TRUE(is_kept());
     start(false);
+    TEST_ASSERT_EQUAL(0, job.drift.run_count); /* the sensors were off meanwhile: its readings belong to no run */
     TEST_ASSERT_EQUAL(BRACE_DRIFT_WATCHING, job.drift.state);
     TEST_ASSERT_EQUAL(5000, job.drift.steps);
     TEST_ASSERT_EQUAL_FLOAT(7.0f, job.drift.evidence[1]);
