@@ -6,6 +6,7 @@
 #include "brace/backlash.h"
 #include "brace/ranges.h"
 #include "close.h"
+#include "noise.h"
 
 enum { TICK_US = 1000 };
 #define STEP_RAD 2e-5
@@ -50,6 +51,28 @@ static void observe(double motor_rad, double torque_n_mm)
     now_us += TICK_US;
     const brace_backlash_sample_t sample = sample_of(motor_rad, torque_n_mm);
     backlash_load_observe(&joint, &sample);
+}
+
+/* The slow mean of a load that stays is as quiet as its gain says, and what is known of it narrows to that. A load that
+ * changes starts it anew from the fast one. */
+static void the_slow_mean_is_the_quiet_one(void)
+{
+    const double gain = 1.0 / 81.0, sigma = NOISE_N_MM * sqrt(gain / (2.0 - gain));
+    double squares = 0.0;
+    noise_state = 5u;
+    begin(0.0, 1000.0);
+    for (int i = 0; i < 4000; i++) {
+        observe(0.0, 1000.0 + NOISE_N_MM * noise_normal());
+        const double off = (double)joint.slow_n_mm - 1000.0;
+        squares += i >= 1000 ? off * off / 3000.0 : 0.0;
+    }
+    TEST_ASSERT_DOUBLE_WITHIN(0.4 * sigma, sigma, sqrt(squares)); /* of some forty independent ones */
+    ASSERT_CLOSE(sigma, joint.slow_spread_n_mm, 1e-3 * sigma);
+    for (int i = 0; i < 12; i++) {
+        observe(0.0, 3000.0);
+    }
+    ASSERT_CLOSE(joint.fast_n_mm, joint.slow_n_mm, 4.0 * sigma);
+    TEST_ASSERT_TRUE((double)joint.slow_spread_n_mm > 2.0 * sigma);
 }
 
 /* What has not been seen to move has no direction, whatever was there before. */
@@ -247,6 +270,8 @@ static void a_short_stop_leaves_the_direction_sure(void)
 static void where_the_link_may_be_in_its_gap(void)
 {
     const double half = 0.005;
+    ASSERT_CLOSE(-half, joint.play_low_rad, 1e-9); /* before anything is seen, anywhere */
+    ASSERT_CLOSE(half, joint.play_high_rad, 1e-9);
     double low = -half, high = half, motor_rad = 0.3;
     begin(motor_rad, 0.0);
     joint.play_low_rad = (float)low, joint.play_high_rad = (float)high;
@@ -384,6 +409,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(a_first_sample_is_the_load_and_proves_nothing);
+    RUN_TEST(the_slow_mean_is_the_quiet_one);
     RUN_TEST(a_start_has_no_direction);
     RUN_TEST(friction_is_known_while_the_motor_turns);
     RUN_TEST(a_motor_stands_after_eight_ticks);
