@@ -358,6 +358,29 @@ static brace_backlash_out_t tick_at(double motor_rad, double torque_n_mm)
 }
 
 /* The link's place in its gap stays known in every state but FAULT. After FAULT the link may be anywhere. */
+/* Ticks until a take-up of a motor that meets nothing is given up for its time. */
+static int ticks_of_takeup(uint32_t time_max_us)
+{
+    int count = 0;
+    setUp();
+    joint.params.takeup.time_max_us = time_max_us;
+    (void)tick_at(0.0, 0.0);
+    TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_takeup_request(&joint, 1));
+    while (tick_at(0.0, 0.0).takeup == BRACE_TAKEUP_RUNNING) {
+        count++;
+    }
+    TEST_ASSERT_EQUAL_INT(BRACE_TAKEUP_E_TIME, tick_at(0.0, 0.0).takeup);
+    return count;
+}
+
+static void a_takeup_has_its_time_to_the_microsecond(void)
+{
+    const int count = ticks_of_takeup(50u * TICK_US);
+    TEST_ASSERT_EQUAL_INT(count, ticks_of_takeup(49u * TICK_US + 1u));
+    TEST_ASSERT_EQUAL_INT(count + 1, ticks_of_takeup(50u * TICK_US + 1u));
+    TEST_ASSERT_INT_WITHIN(1, 50, count);
+}
+
 static void only_a_fault_forgets_where_the_link_is(void)
 {
     int states = 0, last = -1;
@@ -421,6 +444,7 @@ int main(void)
     RUN_TEST(where_the_link_may_be_in_its_gap);
     RUN_TEST(a_takeup_needs_more_torque_than_friction_hides);
     RUN_TEST(every_parameter_has_its_bounds);
+    RUN_TEST(a_takeup_has_its_time_to_the_microsecond);
     RUN_TEST(only_a_fault_forgets_where_the_link_is);
     RUN_TEST(acceleration_widens_the_doubt);
     return UNITY_END();

@@ -39,6 +39,7 @@ static brace_slot_condition_t condition_of(uint32_t block_bytes)
 static void test_a_block_ends_before_the_marks(void)
 {
     TEST_ASSERT_EQUAL(BRACE_SLOT_OTHER_SCHEMA, condition_of(BRACE_BLOCK_BYTES));
+    TEST_ASSERT_EQUAL(0, store.next_mark[0]); /* none is there: the first one comes to the first place */
     TEST_ASSERT_EQUAL(BRACE_SLOT_OTHER_SCHEMA, condition_of(BRACE_STORE_MARKS_AT));
     TEST_ASSERT_EQUAL(BRACE_SLOT_DAMAGED, condition_of(BRACE_STORE_MARKS_AT + 4));
 }

@@ -47,6 +47,7 @@ void session_end(session_t *session)
 {
     session->has_challenge = session->has_challenge && !session->is_open; /* each session has its own */
     session->is_open = session->is_alive = session->has_heard = false;
+    session->counter = session->silent_us = 0;
 }
 
 static void open_for(session_t *session, brace_who_t who)
@@ -54,7 +55,6 @@ static void open_for(session_t *session, brace_who_t who)
     session->is_open = true;
     session->has_hung_up = false;
     session->owner = who;
-    session->counter = session->silent_us = 0;
 }
 
 /* -------------------------------------------------------------------------------------------- seals -- */

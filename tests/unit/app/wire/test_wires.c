@@ -187,6 +187,7 @@ static void test_process_data_count(void)
 {
     uint32_t snapshots = 0, most = 0;
     start(100);
+    TEST_ASSERT_EQUAL_UINT32(10000, app.wires.can.bus_port.process.period_us);
     for (int i = 0; i < 200; i++) {
         const uint32_t told = done(), frames = data_told();
         const bool on_bus = is_taken_now(&app.wires.can.bus_port), as_text = is_taken_now(&app.wires.can.text_port);
