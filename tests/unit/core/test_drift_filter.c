@@ -1,5 +1,5 @@
-/* The drift check beside the same filter in double precision, with whole matrices, one reading at a time: what a reading
- * teaches, what evidence it is of, and what follows from that (docs/drift.md). */
+/* The drift check beside the same filter in double precision, with whole matrices, one reading at a time: what a
+ * reading teaches, what evidence it is of, and what follows from that (docs/drift.md). */
 #include <math.h>
 #include <stdbool.h>
 #include <string.h>
