@@ -389,6 +389,8 @@ static void only_a_fault_forgets_where_the_link_is(void)
         motor_rad += i < 200 ? 1e-4 : 0.0;
         const brace_backlash_out_t out = tick_at(motor_rad, i < 400 ? 2500.0 : 2500.0 - 12.0 * (i - 400));
         TEST_ASSERT_NOT_EQUAL(BRACE_BACKLASH_FAULT, out.state);
+        ASSERT_CLOSE(-0.5 * (double)(joint.play_high_rad + joint.play_low_rad), out.offset_rad, 1e-8);
+        ASSERT_CLOSE(0.5 * (double)(joint.play_high_rad - joint.play_low_rad), out.offset_off_rad, 1e-8);
         states += (int)out.state != last ? 1 : 0;
         last = (int)out.state;
         if (i > 110) { /* the motor has gone through the gap of 10 mrad, so the link lies at its end */
