@@ -104,6 +104,8 @@ static void a_first_sample_is_the_load_and_proves_nothing(void)
     ASSERT_CLOSE(1500.0, joint.slow_n_mm, 0.0);
     ASSERT_CLOSE(1500.0, joint.torque_n_mm, 0.0);
     TEST_ASSERT_TRUE(backlash_load_off_n_mm(&joint) > 8000.0f); /* as wide as any torque */
+    TEST_ASSERT_EQUAL_UINT32(0, joint.positive_us);
+    TEST_ASSERT_EQUAL_UINT32(0, joint.negative_us);
     TEST_ASSERT_EQUAL_INT(0, backlash_load_proven(&joint));
     const brace_backlash_sample_t sample = sample_of(0.3, 1500.0);
     TEST_ASSERT_EQUAL_INT(0, backlash_load_told(&joint, &sample, 0.7f));
