@@ -73,6 +73,26 @@ static void test_what_each_mode_takes(void)
     }
 }
 
+/* What has begun is told from then on, and not from the next tick. */
+static void test_the_mode_changes_with_the_request(void)
+{
+    TEST_ASSERT_EQUAL(BRACE_OK, start_test());
+    TEST_ASSERT_EQUAL(BRACE_MODE_LOADING_TEST, brace_app_mode(&app));
+    TEST_ASSERT_EQUAL(BRACE_E_MODE, start_test());
+    TEST_ASSERT_EQUAL(BRACE_OK, stop_test());
+    setUp();
+    TEST_ASSERT_EQUAL(BRACE_OK, enter());
+    TEST_ASSERT_EQUAL(BRACE_MODE_CONFIGURATION, brace_app_mode(&app));
+    TEST_ASSERT_EQUAL(BRACE_OK, leave());
+    TEST_ASSERT_EQUAL(BRACE_MODE_START, brace_app_mode(&app));
+    brace_parameters_t p = bench_parameters();
+    p.limb.joint[BRACE_TIBIA].gap_rad = 0.005f;
+    stand(&p);
+    ticks(50);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_take_up(&app, BRACE_TIBIA, 1));
+    TEST_ASSERT_EQUAL(BRACE_MODE_TAKING_UP, brace_app_mode(&app));
+}
+
 static void test_a_test_needs_drives_that_take_commands(void)
 {
     fake.hal.joint_command = NULL;
@@ -168,6 +188,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_what_each_mode_takes);
+    RUN_TEST(test_the_mode_changes_with_the_request);
     RUN_TEST(test_a_test_needs_drives_that_take_commands);
     RUN_TEST(test_configuration_asked_for_again_goes_on);
     RUN_TEST(test_each_fault_is_cleared_alone);
