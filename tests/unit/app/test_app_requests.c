@@ -93,6 +93,34 @@ static void test_the_mode_changes_with_the_request(void)
     TEST_ASSERT_EQUAL(BRACE_MODE_TAKING_UP, brace_app_mode(&app));
 }
 
+static bool program_moves(void)
+{
+    const bool moves = app.controller.ownership.program_moves;
+    app.controller.ownership.program_moves = false;
+    return moves;
+}
+
+/* Whoever asks for a motion, or for its end, answers for it from then on: here the board's own program. */
+static void test_who_asks_moves(void)
+{
+    brace_parameters_t p = bench_parameters();
+    p.limb.joint[BRACE_TIBIA].gap_rad = 0.005f;
+    stand(&p);
+    ticks(50);
+    TEST_ASSERT_FALSE(program_moves());
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_take_up(&app, BRACE_TIBIA, 1));
+    TEST_ASSERT_TRUE(program_moves());
+    TEST_ASSERT_EQUAL(BRACE_OK, let_go());
+    TEST_ASSERT_TRUE(program_moves());
+    setUp();
+    TEST_ASSERT_EQUAL(BRACE_OK, start_test());
+    TEST_ASSERT_TRUE(program_moves());
+    TEST_ASSERT_EQUAL(BRACE_OK, stop_test());
+    TEST_ASSERT_TRUE(program_moves());
+    TEST_ASSERT_EQUAL(BRACE_E_MODE, enter()); /* it moves back still */
+    TEST_ASSERT_FALSE(program_moves());
+}
+
 static void test_a_test_needs_drives_that_take_commands(void)
 {
     fake.hal.joint_command = NULL;
@@ -189,6 +217,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_what_each_mode_takes);
     RUN_TEST(test_the_mode_changes_with_the_request);
+    RUN_TEST(test_who_asks_moves);
     RUN_TEST(test_a_test_needs_drives_that_take_commands);
     RUN_TEST(test_configuration_asked_for_again_goes_on);
     RUN_TEST(test_each_fault_is_cleared_alone);
