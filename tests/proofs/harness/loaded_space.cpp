@@ -205,6 +205,7 @@ static uint32_t over_q61(uint32_t leading)
 /* Truncation, in each component, of a high word alone that is shifted up by two bits: below 4 units. */
 constexpr long double COARSE = 4.0L, ROOT_OF_2 = 1.41421357L, ROOT_OF_3 = 1.7320509L;
 constexpr long double ONE_Q30 = 0x1p30L;
+constexpr long double SPRING_TURN = 0.25L; /* what end springs turn by, at most: noted */
 
 static long double length3(fixed3_t v)
 {
@@ -273,6 +274,8 @@ static fixed_vec_t fixed_small_turn_of(int32_t angle_q29)
     PROVE(ranged::size_of(angle_q29) <= SMALL_ANGLE_MOST, "a small turn is small");
     if (now.complaints.size() == before) {
         has_length({turn.x, turn.z}, SMALL_TURN_MOST);
+        ranged::within(turn.x, 0, SMALL_TURN_MOST);
+        ranged::within(turn.z, -SMALL_SINE_MOST, SMALL_SINE_MOST);
     }
     return turn;
 }
@@ -352,6 +355,21 @@ static void fixed_axes_about_z(fixed_axes_t *axes, fixed_vec_t by)
     axes_turned(axes, by, &fixed_axes_t::x, &fixed_axes_t::y, text_axes_about_z);
 }
 
+/* A vector's length, where its parts are known by shares: for each size, the length of the parts' shares of it. */
+static ranged::shares_t shares_of_length(fixed3_t v)
+{
+    ranged::shares_t length;
+    for (const int32_t part : {v.x, v.y, v.z}) {
+        length.is_known = length.is_known || now.has_shares(part.id);
+        const ranged::shares_t shares = now.shares_of(part.id);
+        for (std::size_t i = 0; i < shares.by.size(); i++) {
+            length.by[i] = std::sqrt(length.by[i] * length.by[i] + shares.by[i] * shares.by[i]);
+        }
+        length.more = std::sqrt(length.more * length.more + shares.more * shares.more);
+    }
+    return length;
+}
+
 /* Each part is a sum of products of two threes of numbers: Cauchy's inequality. */
 static fixed3_t fixed_axes_times(const fixed_axes_t *e, fixed3_t v)
 {
@@ -359,8 +377,11 @@ static fixed3_t fixed_axes_times(const fixed_axes_t *e, fixed3_t v)
     const fixed3_t result = text_axes_times(e, v);
     if (now.complaints.size() == before) {
         int32_t fixed3_t::*const part[3] = {&fixed3_t::x, &fixed3_t::y, &fixed3_t::z};
+        const ranged::shares_t shares = shares_of_length(v);
         for (auto p : part) {
-            has_length({result.*p}, length_of({e->x.*p, e->y.*p, e->z.*p}) * (length3(v) / 0x1p32L) + 1.0L);
+            const long double row = length_of({e->x.*p, e->y.*p, e->z.*p}) / 0x1p32L;
+            has_length({result.*p}, row * length3(v) + 1.0L);
+            ranged::with_shares(result.*p, shares.times(row, 1.0L));
         }
     }
     return result;
@@ -417,13 +438,41 @@ static void fixed_sym3_about_z(fixed_sym3_t *m, fixed_vec_t by)
 #define overload_softened(first, ...) PICK(SOFTENED_##first, any_overload_softened, ~)(first, __VA_ARGS__)
 #define SOFTENED_int32_t ~, text_overload_softened,
 
+#define is_settled(first, ...) PICK(SETTLED first, text_is_settled, ~)(first, __VA_ARGS__) /* its call has a cast */
+#define SETTLED(...) ~, any_is_settled,
+
+#define fixed_bend_link(first, ...) PICK(BEND_##first, any_bend_link, ~)(first, __VA_ARGS__)
+#define BEND_const ~, text_bend_link,
+
+template <class LINK, class REST, class BENT, class NOTED>
+void any_bend_link(const LINK *link, const REST *rest, fixed3_t turn, int32_t twists_q27, BENT *bent, NOTED *noted);
 static int32_t any_over_second_step(int32_t second_by_first, uint32_t first2);
-struct overload;
-#define fixed_overload_t fixed_overload_t
+static bool any_is_settled(uint32_t first2_q25, uint32_t second2_q25);
 template <class OVERLOAD, class NOTED>
 int32_t any_overload_softened(int32_t yields_q14, int32_t entry_q24, OVERLOAD *overload, NOTED *noted);
 
 #include "fixed_space/loaded_space_fixed.c"
+
+/* The link's direction (x, z), turned by a quarter, and turned by a share s of the link's turn besides, is
+ * (-z - s x, x - s z), which is the root of 1 + s^2 long. What shortens the link makes its first part smaller. */
+template <class LINK, class REST, class BENT, class NOTED>
+void any_bend_link(const LINK *link, const REST *rest, fixed3_t turn, int32_t twists_q27, BENT *bent, NOTED *noted)
+{
+    const std::size_t before = now.complaints.size();
+    text_bend_link(link, rest, turn, twists_q27, bent, noted);
+    if (now.complaints.size() == before) {
+        const long double share = ranged::size_of(link->end_share_q30) / ONE_Q30;
+        const long double turned_y = share * (ranged::size_of(turn.y) / 0x1p29L) + 8.0L / ONE_Q30;
+        const long double turned_z = share * (ranged::size_of(turn.z) / 0x1p29L) + 8.0L / ONE_Q30;
+        const long double along = length_of({link->along_q30.x, link->along_q30.z});
+        const long double shortens = ranged::size_of(link->shortens_q30) * SPRING_TURN + 8.0L;
+        const long double flat = along * std::sqrt(1.0L + turned_z * turned_z) + 2.0L * shortens + ROOT_OF_2 * COARSE;
+        has_length({bent->across_q30.x, bent->across_q30.y}, flat);
+        has_length({bent->across_q30.x, bent->across_q30.y, bent->across_q30.z},
+                   along * std::sqrt(1.0L + turned_y * turned_y + turned_z * turned_z) + 2.0L * shortens +
+                       ROOT_OF_3 * COARSE);
+    }
+}
 
 /* By how much the second step is prolonged (space_step). */
 static int32_t any_over_second_step(int32_t second_by_first, uint32_t first2)
@@ -433,6 +482,12 @@ static int32_t any_over_second_step(int32_t second_by_first, uint32_t first2)
         now.is_exact ? (plain::over_second_step)(by, static_cast<std::uint32_t>(exact_of(first2))) : 0;
     PROVE(ranged::size_of(second_by_first) <= 0x1p30L, "steps' products are within their proof's range");
     return given(PART_OF(29, 0.5), PART_OF(29, 2.001), &exact);
+}
+
+static bool any_is_settled(uint32_t first2_q25, uint32_t second2_q25)
+{
+    const std::vector<bool> answers = ranged::each_way([&] { return text_is_settled(first2_q25, second2_q25); });
+    return std::find(answers.begin(), answers.end(), true) != answers.end();
 }
 
 template <class OVERLOAD, class NOTED>
@@ -487,38 +542,52 @@ constexpr wide_t WORD_MOST = (wide_t{1} << 31) - 1;
         .tilt_q28 = {GIVEN(-TILT_MOST, TILT_MOST, limb.link.tilt_q28.x),                                               \
                      GIVEN(-TILT_MOST, TILT_MOST, limb.link.tilt_q28.z)},                                              \
         .bow_q28 = {GIVEN(-BOW_MOST, BOW_MOST, limb.link.bow_q28.x), GIVEN(-BOW_MOST, BOW_MOST, limb.link.bow_q28.z)}, \
-        .twist_q31 = GIVEN(0, WORD_MOST, limb.link.twist_q31),                                                         \
+        .twist_q31 = GIVEN(0, TWIST_MOST, limb.link.twist_q31),                                                         \
         .sideways_q31 = GIVEN(0, WORD_MOST, limb.link.sideways_q31),                                                   \
         .bend_q31 = GIVEN(0, WORD_MOST, limb.link.bend_q31),                                                           \
         .across_arm_q31 = GIVEN(0, WORD_MOST, limb.link.across_arm_q31),                                               \
         .sideways_arm_q31 = GIVEN(0, WORD_MOST, limb.link.sideways_arm_q31),                                           \
-        .across_spread_q31 = GIVEN(0, WORD_MOST, limb.link.across_spread_q31),                                         \
-        .sideways_spread_q31 = GIVEN(0, WORD_MOST, limb.link.sideways_spread_q31),                                     \
+        .across_spread_q31 = GIVEN(0, SPREAD_MOST, limb.link.across_spread_q31),                                         \
+        .sideways_spread_q31 = GIVEN(0, SPREAD_MOST, limb.link.sideways_spread_q31),                                     \
         .stretch_q31 = GIVEN(0, WORD_MOST, limb.link.stretch_q31),                                                     \
-        .end_share_q30 = GIVEN(0, 1 << 29, limb.link.end_share_q30),                                                   \
+        .end_share_q30 = GIVEN(0, (1 << 29) - 1, limb.link.end_share_q30),                                                   \
         .stretch_end_share_q30 = GIVEN(-(1 << 29), 1 << 29, limb.link.stretch_end_share_q30),                          \
         .own_share_q30 = GIVEN(0, 1 << 29, limb.link.own_share_q30),                                                   \
         .curl_q30 = GIVEN(0, 1 << 30, limb.link.curl_q30),                                                             \
-        .shortens_q30 = GIVEN(0, 1 << 30, limb.link.shortens_q30),                                                     \
+        .shortens_q30 = GIVEN(0, PART_OF(30, 0.6) + 4, limb.link.shortens_q30),                                                     \
         .weight_q31 = GIVEN(0, WORD_MOST, limb.link.weight_q31),                                                       \
         .arm_shift = ranged::any<uint32_t>(sample == nullptr ? 0 : sample->limb.link.arm_shift,                        \
                                            sample == nullptr ? 20 : sample->limb.link.arm_shift)                       \
     }
 
+#define TWIST_MOST PART_OF(31, 0.8001)
+#define SPREAD_MOST PART_OF(31, 0.0834)
 #define TILT_MOST (PART_OF(28, 0.7072) + 2)
 #define BOW_MOST (PART_OF(28, 0.2185) + 2)
 
-static void with_lengths(fixed_link3_t *link)
+/* What grows with the link's length, and how; the sum of all lengths is one unit, and two for their rounding. */
+static void with_lengths(fixed_link3_t *link, std::size_t index)
 {
+    ranged::shares_t length = {.is_known = true};
+    length.by[index] = 0x1p28L + 2.0L;
+    ranged::with_shares(link->length_q28, length);
+    ranged::with_shares(link->twelfth_q28, length.times(1.0L / 12.0L, 2.0L));
+    for (const int32_t part : {link->tilt_q28.x, link->tilt_q28.z}) {
+        ranged::with_shares(part, length.times(0.7072L, 2.0L));
+    }
+    for (const int32_t part : {link->bow_q28.x, link->bow_q28.z}) {
+        ranged::with_shares(part, length.times(0.2185L, 2.0L));
+    }
     has_length({link->along_q30.x, link->along_q30.z}, static_cast<long double>(DIRECTION_MOST));
     has_length({link->tilt_q28.x, link->tilt_q28.z}, static_cast<long double>(TILT_MOST));
     has_length({link->bow_q28.x, link->bow_q28.z}, static_cast<long double>(BOW_MOST));
 }
 
 /* The unit of force is above the components' sum and one and a half times all weights. So the range of the force at the
- * tip is cut into parts, and for each the weights are at most what the least force of the part leaves them. */
-enum { PARTS = 8 };
-static int part;
+ * tip is cut into parts, and for each the weights are at most what the least force of the part leaves them. The femur's
+ * weight and that beyond it are all of it; so that weight is cut into shares. */
+enum { PARTS = 16, SHARES = 8 };
+static int part, share;
 
 static uint32_t given_shift(const std::uint32_t *exact)
 {
@@ -531,21 +600,22 @@ static void run_once()
     limb.coxa = ANY_LINK(coxa);
     limb.femur = ANY_LINK(femur);
     limb.tibia = ANY_LINK(tibia);
-    with_lengths(&limb.coxa);
-    with_lengths(&limb.femur);
-    with_lengths(&limb.tibia);
+    with_lengths(&limb.coxa, 0);
+    with_lengths(&limb.femur, 1);
+    with_lengths(&limb.tibia, 2);
     limb.base_x_q31 = GIVEN(0, WORD_MOST, limb.base_x_q31);
     limb.base_z_q31 = GIVEN(0, WORD_MOST, limb.base_z_q31);
 
     const wide_t one = PART_OF(30, 1.0), down = one + (one >> 10);
     const wide_t force = one * (part + 1) / PARTS, weight = (one - one * part / PARTS) * 2 / 3 + 64;
+    const wide_t own = weight * share / SHARES, own_most = weight * (share + 1) / SHARES, beyond = weight - own + 512;
     fixed_inputs3_t in = {
         .tip_q30 = {GIVEN(-force, force, in.tip_q30.x), GIVEN(-force, force, in.tip_q30.y),
                     GIVEN(-force, force, in.tip_q30.z)},
         .down_q30 = {GIVEN(-down, down, in.down_q30.x), GIVEN(-down, down, in.down_q30.y),
                      GIVEN(-down, down, in.down_q30.z)},
-        .weights = {GIVEN(0, weight, in.weights.beyond_coxa_q30), GIVEN(0, weight, in.weights.beyond_femur_q30),
-                    GIVEN(0, weight, in.weights.femur_q30), GIVEN(0, weight, in.weights.tibia_q30)},
+        .weights = {GIVEN(0, weight, in.weights.beyond_coxa_q30), GIVEN(0, beyond, in.weights.beyond_femur_q30),
+                    GIVEN(own, own_most, in.weights.femur_q30), GIVEN(0, beyond, in.weights.tibia_q30)},
         .yields = {.base_q26 = GIVEN(0, WORD_MOST, in.yields.base_q26),
                    .yaw_q26 = GIVEN(0, WORD_MOST, in.yields.yaw_q26),
                    .hip_q26 = GIVEN(0, WORD_MOST, in.yields.hip_q26),
@@ -591,15 +661,17 @@ int main(int, char **arguments)
 {
     using ranged::now;
     now.noted_limit = 1 << NOTED_BITS;
-    for (firmware::part = 0; firmware::part < firmware::PARTS; firmware::part++) {
-        const std::size_t left = ranged::prove(firmware::run_once);
-        std::printf("part %d: %zu numbers, %zu complaints\n", firmware::part, now.numbers.size(), left);
-        for (std::size_t i = 0; i < std::min<std::size_t>(left, 8); i++) {
-            ranged::tell(arguments[0], now.complaints[i].first, now.complaints[i].second);
-        }
-        if (left != 0) {
-            return 1;
+    std::size_t left = 0;
+    for (firmware::part = 0; firmware::part < firmware::PARTS && left == 0; firmware::part++) {
+        for (firmware::share = 0; firmware::share < firmware::SHARES && left == 0; firmware::share++) {
+            left = ranged::prove(firmware::run_once);
         }
     }
-    return 0;
+    if (left != 0) {
+        std::printf("part %d, share %d: %zu places\n", firmware::part, firmware::share, left);
+    }
+    for (std::size_t i = 0; i < std::min<std::size_t>(left, 8); i++) {
+        ranged::tell(arguments[0], now.complaints[i].first, now.complaints[i].second);
+    }
+    return left == 0 ? 0 : 1;
 }

@@ -20,7 +20,9 @@ static void directions_turn(uint32_t angle_turn)
 
 static void small_turns(int32_t angle_q29)
 {
-    const uint64_t square = square_of(fixed_small_turn(angle_q29));
+    const fixed_vec_t turn = fixed_small_turn(angle_q29);
+    const uint64_t square = square_of(turn);
+    PROVE(turn.x >= 0 && turn.z <= SMALL_SINE_MOST && turn.z >= -SMALL_SINE_MOST, "a small turn's parts");
     PROVE(square <= SMALL_TURN_MOST * SMALL_TURN_MOST, "a small turn lengthens by a thousandth at most");
     PROVE(square >= SMALL_TURN_LEAST * SMALL_TURN_LEAST, "and shortens by as much");
 }

@@ -22,6 +22,9 @@
  * that the root of the sum of their squares is at most so much; `has_length` enters such a fact, `length_of` asks for
  * one, and answers what the ranges give where there is none. Whoever enters one has to argue why.
  *
+ * Sizes together. Of some unknown sizes (a limb's lengths) only the sum is bounded. `with_shares` says of a number that
+ * it is at most so much for each of them, and so much more; sums and multiples keep that.
+ *
  * Branches. `each_way` runs what branches on numbers once for each way. Elsewhere an open comparison is a complaint.
  *
  * One number each. With `is_exact` set the same program runs on single numbers, that wrap as the machine's do. Then
@@ -75,6 +78,32 @@ inline bool is_within(range_t inner, range_t outer)
 
 enum class made_by_t { given, constant, cast, plus, less, times, left, right, magnitude, zeros, other };
 
+/* A number is another one times a factor, and off from that by so much, at most. */
+struct multiple_t {
+    std::size_t of;
+    long double factor, off;
+};
+
+/* A number is at most so much for each of some unknown sizes, and so much more. The sizes are at least zero and their sum
+ * is at most 1. */
+struct shares_t {
+    bool is_known = false;
+    std::array<long double, 3> by{};
+    long double more = 0.0L;
+
+    [[nodiscard]] long double most() const { return *std::max_element(by.begin(), by.end()) + more; }
+
+    [[nodiscard]] shares_t times(long double factor, long double cut = 0.0L) const
+    {
+        return {is_known, {by[0] * factor, by[1] * factor, by[2] * factor}, more * factor + cut};
+    }
+};
+
+inline shares_t sum_of(const shares_t &a, const shares_t &b)
+{
+    return {a.is_known && b.is_known, {a.by[0] + b.by[0], a.by[1] + b.by[1], a.by[2] + b.by[2]}, a.more + b.more};
+}
+
 /* A number that the program has made. */
 struct number_t {
     made_by_t made_by;
@@ -83,6 +112,10 @@ struct number_t {
     std::size_t from, with;  /* what it was made of */
     std::size_t size_as;     /* a number of the same magnitude, and whether of the other sign */
     bool is_minus;
+    std::size_t sign_as;     /* a number of the same sign (zero counts as positive), or of the other one */
+    bool is_other_sign;
+    multiple_t multiple[2];  /* a product is one of either factor */
+    shares_t shares;
     int right;               /* made_by right: bits; right of 64 unsigned bits that may be negative: whole below that */
     int whole_bits;          /* how many of its lower bits are the machine's */
     std::size_t zeros_of;    /* it is the leading zeros of that number, plus zeros_more */
@@ -192,7 +225,8 @@ public:
             }
         }
         const std::size_t id = numbers.size();
-        numbers.push_back({made_by, kind, range, from, with, id, false, 0, kind.bits, none, 0});
+        const multiple_t itself{id, 1.0L, 0.0L};
+        numbers.push_back({made_by, kind, range, from, with, id, false, id, false, {itself, itself}, {}, 0, kind.bits, none, 0});
         keys.push_back(key);
         return id;
     }
@@ -253,10 +287,72 @@ public:
         }
         numbers[made].size_as = numbers[id].size_as;
         numbers[made].is_minus = numbers[id].is_minus != is_minus;
+        numbers[made].sign_as = numbers[id].sign_as;
+        numbers[made].is_other_sign = numbers[id].is_other_sign != is_minus;
+        keep_multiples(made, id, 1.0L, 0.0L);
         if (!is_minus) {
             numbers[made].zeros_of = numbers[id].zeros_of;
             numbers[made].zeros_more = numbers[id].zeros_more;
         }
+    }
+
+    /* That `made` is `id` times a factor, and what is cut off. */
+    void keep_multiples(std::size_t made, std::size_t id, long double factor, long double cut)
+    {
+        for (int i = 0; i < 2 && numbers[made].made_by != made_by_t::other; i++) {
+            const multiple_t &m = numbers[id].multiple[i];
+            numbers[made].multiple[i] = {m.of, m.factor * factor, m.off * factor + cut};
+        }
+        if (numbers[made].made_by != made_by_t::other) {
+            numbers[made].shares = has_shares(id) ? numbers[id].shares.times(factor, cut) : shares_t{};
+        }
+    }
+
+    /* What is known of a number by shares; of one without any, its size. */
+    shares_t shares_of(std::size_t id) const
+    {
+        const range_t range = numbers[id].range;
+        const long double size = static_cast<long double>(std::max(range.most, -range.least));
+        return has_shares(id) ? numbers[id].shares : shares_t{true, {}, size};
+    }
+
+    /* Shares that come to much more than the number's size are no help. */
+    bool has_shares(std::size_t id) const
+    {
+        const range_t range = numbers[id].range;
+        const long double size = static_cast<long double>(std::max(range.most, -range.least));
+        return numbers[id].shares.is_known && numbers[id].shares.most() <= 1.1L * size;
+    }
+
+    shares_t shares_of_sum(std::size_t a, std::size_t b) const
+    {
+        const bool is_known = has_shares(a) || has_shares(b);
+        return is_known ? sum_of(shares_of(a), shares_of(b)) : shares_t{};
+    }
+
+    /* A sum of multiples of two parts of a vector: Cauchy's inequality. */
+    long double sum_most(std::size_t a, std::size_t b) const
+    {
+        long double most = 0x1p120L;
+        for (const multiple_t &m : numbers[a].multiple) {
+            for (const multiple_t &n : numbers[b].multiple) {
+                const auto fact = lengths.find({std::min(m.of, n.of), std::max(m.of, n.of)});
+                if (fact != lengths.end()) {
+                    const long double factors = std::sqrt(m.factor * m.factor + n.factor * n.factor);
+                    most = std::min(most, (fact->second * factors + m.off + n.off) * (1.0L + 0x1p-50L) + 1.0L);
+                }
+            }
+        }
+        return most;
+    }
+
+    range_t sum_range(std::size_t a, std::size_t b, range_t range) const
+    {
+        const shares_t shares = shares_of_sum(a, b);
+        const long double by_shares = shares.is_known ? shares.most() * (1.0L + 0x1p-50L) + 1.0L : 0x1p120L;
+        const long double most = is_exact ? 0x1p120L : std::min(sum_most(a, b), by_shares);
+        const wide_t whole = static_cast<wide_t>(std::min(most, 0x1p119L));
+        return most >= 0x1p119L ? range : range_t{std::max(range.least, -whole), std::min(range.most, whole)};
     }
 
     /* What a run that is not refused tells of a number, and so of those it was made of. */
@@ -333,6 +429,11 @@ public:
 };
 
 inline machine now;
+
+inline long double size_in(range_t range)
+{
+    return static_cast<long double>(std::max(range.most, -range.least));
+}
 
 /* --- words ---------------------------------------------------------------------------------------------------- */
 
@@ -412,7 +513,11 @@ auto operator+(const A &a, const B &b)
     using W = sum_t<A, B>;
     const W x(a), y(b);
     const range_t p = x.range(), q = y.range();
-    const std::size_t made = now.make(made_by_t::plus, W::kind, {p.least + q.least, p.most + q.most}, x.id, y.id);
+    const range_t range = now.sum_range(x.id, y.id, {p.least + q.least, p.most + q.most});
+    const std::size_t made = now.make(made_by_t::plus, W::kind, range, x.id, y.id);
+    if (now.numbers[made].made_by == made_by_t::plus) {
+        now.numbers[made].shares = now.shares_of_sum(x.id, y.id);
+    }
     if (q.least == 0 && q.most == 0) {
         now.keep_origin(made, x.id);
     } else if (q.least == q.most && now.numbers[x.id].zeros_of != none) {
@@ -429,7 +534,11 @@ auto operator-(const A &a, const B &b)
     using W = sum_t<A, B>;
     const W x(a), y(b);
     const range_t p = x.range(), q = y.range();
-    const std::size_t made = now.make(made_by_t::less, W::kind, {p.least - q.most, p.most - q.least}, x.id, y.id);
+    const range_t range = now.sum_range(x.id, y.id, {p.least - q.most, p.most - q.least});
+    const std::size_t made = now.make(made_by_t::less, W::kind, range, x.id, y.id);
+    if (now.numbers[made].made_by == made_by_t::less) {
+        now.numbers[made].shares = now.shares_of_sum(x.id, y.id);
+    }
     if (p.least == 0 && p.most == 0) {
         now.keep_origin(made, y.id, true);
     } else if (q.least == q.most && now.numbers[x.id].zeros_of != none) {
@@ -453,10 +562,9 @@ auto operator*(const A &a, const B &b)
     const range_t p = x.range(), q = y.range();
     const wide_t corner[] = {p.least * q.least, p.least * q.most, p.most * q.least, p.most * q.most};
     range_t range = {*std::min_element(corner, corner + 4), *std::max_element(corner, corner + 4)};
-    const number_t &m = now.numbers[x.id], &n = now.numbers[y.id];
-    if (m.size_as == n.size_as) { /* a square, or less than one */
-        range = m.is_minus == n.is_minus ? range_t{std::max(range.least, wide_t{0}), range.most}
-                                         : range_t{range.least, std::min(range.most, wide_t{0})};
+    const number_t m = now.numbers[x.id], n = now.numbers[y.id];
+    if (m.sign_as == n.sign_as && m.is_other_sign == n.is_other_sign) { /* a square, or about one */
+        range.least = std::max(range.least, wide_t{0});
     } else if (!now.is_exact) { /* of two parts of a vector: half its length's square at most */
         const auto fact = now.lengths.find({std::min(m.size_as, n.size_as), std::max(m.size_as, n.size_as)});
         if (fact != now.lengths.end() && fact->second < 0x1p50L) {
@@ -464,7 +572,16 @@ auto operator*(const A &a, const B &b)
             range = {std::max(range.least, -most), std::min(range.most, most)};
         }
     }
-    return W::of(now.make(made_by_t::times, W::kind, range, x.id, y.id));
+    const std::size_t made = now.make(made_by_t::times, W::kind, range, x.id, y.id);
+    const std::size_t of_x = m.size_as, of_y = n.size_as;
+    if (now.numbers[made].made_by == made_by_t::times) {
+        now.numbers[made].multiple[0] = {of_x, size_in(q), 0.0L};
+        now.numbers[made].multiple[1] = {of_y, size_in(p), 0.0L};
+        now.numbers[made].shares = now.has_shares(x.id)   ? m.shares.times(size_in(q))
+                                   : now.has_shares(y.id) ? n.shares.times(size_in(p))
+                                                          : shares_t{};
+    }
+    return W::of(made);
 }
 
 inline wide_t floored(wide_t number, int bits)
@@ -511,6 +628,12 @@ A operator>>(const A &a, const B &by)
     const bool is_one_way = few == many && is_same;
     const std::size_t made = now.make(is_one_way ? made_by_t::right : made_by_t::other, A::kind, range, a.id);
     now.numbers[made].right = few;
+    if (few == many && is_same) {
+        now.keep_multiples(made, a.id, 1.0L / static_cast<long double>(wide_t{1} << few), 1.0L);
+    }
+    if (is_same && A::kind.is_signed && !n.is_other_sign) {
+        now.numbers[made].sign_as = n.sign_as;
+    }
     now.numbers[made].whole_bits = whole;
     return A::of(made);
 }
@@ -534,7 +657,11 @@ A operator<<(const A &a, const B &by)
             range = {std::max(range.least, wide_t{1} << (top - 1)), std::min(range.most, (wide_t{1} << top) - 1)};
         }
     }
-    return A::of(now.make(made_by_t::left, A::kind, range, a.id));
+    const std::size_t made = now.make(made_by_t::left, A::kind, range, a.id);
+    if (bits.least == bits.most) {
+        now.keep_multiples(made, a.id, static_cast<long double>(few), 0.0L);
+    }
+    return A::of(made);
 }
 
 template <class A, class B>
@@ -746,7 +873,7 @@ template <a_word W> W within(const W &w, wide_t least, wide_t most)
 
 template <a_word W> long double size_of(const W &w)
 {
-    return static_cast<long double>(std::max(w.range().most, -w.range().least));
+    return size_in(w.range());
 }
 
 inline std::vector<std::size_t> lengths_key(const std::vector<i32> &parts)
@@ -766,9 +893,13 @@ inline long double length_of(const std::vector<i32> &parts)
     for (const i32 &part : parts) {
         square += size_of(part) * size_of(part);
     }
-    const long double of_ranges = std::sqrt(square) * (1.0L + 0x1p-50L);
+    long double most = std::sqrt(square) * (1.0L + 0x1p-50L);
+    for (std::size_t i = 0; i < parts.size() && parts.size() == 3; i++) { /* two of three, and the third */
+        const long double two = length_of({parts[(i + 1) % 3], parts[(i + 2) % 3]}), one = size_of(parts[i]);
+        most = std::min(most, std::sqrt(two * two + one * one) * (1.0L + 0x1p-50L));
+    }
     const auto fact = now.lengths.find(lengths_key(parts));
-    return fact == now.lengths.end() ? of_ranges : std::min(of_ranges, fact->second);
+    return fact == now.lengths.end() ? most : std::min(most, fact->second);
 }
 
 /* Enters that fact, and so bounds each part. */
@@ -783,6 +914,22 @@ inline void has_length(const std::vector<i32> &parts, long double most)
     for (const i32 &part : parts) {
         within(part, -whole, whole);
     }
+    if (parts.size() == 3) {
+        has_length({parts[0], parts[1]}, most);
+        has_length({parts[1], parts[2]}, most);
+        has_length({parts[2], parts[0]}, most);
+    }
+}
+
+/* Enters what is known of a number by shares, and so bounds it. */
+template <a_word W> W with_shares(const W &w, const shares_t &shares)
+{
+    if (!now.is_exact && shares.is_known) {
+        now.numbers[w.id].shares = shares;
+        const wide_t whole = static_cast<wide_t>(std::ceil(std::min(shares.most(), 0x1p100L)));
+        within(w, -whole, whole);
+    }
+    return w;
 }
 
 /* --- branches ------------------------------------------------------------------------------------------------- */
