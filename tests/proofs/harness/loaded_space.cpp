@@ -537,8 +537,8 @@ constexpr wide_t WORD_MOST = (wide_t{1} << 31) - 1;
     {                                                                                                                  \
         .length_q28 = GIVEN(0, PART_OF(28, 1.0) + 2, limb.link.length_q28),                                            \
         .twelfth_q28 = GIVEN(0, PART_OF(28, 1.0 / 12.0) + 2, limb.link.twelfth_q28),                                   \
-        .along_q30 = {GIVEN(-DIRECTION_MOST, DIRECTION_MOST, limb.link.along_q30.x),                                   \
-                      GIVEN(-DIRECTION_MOST, DIRECTION_MOST, limb.link.along_q30.z)},                                  \
+        .along_q30 = {GIVEN(-ALONG_MOST, ALONG_MOST, limb.link.along_q30.x),                                   \
+                      GIVEN(-ALONG_MOST, ALONG_MOST, limb.link.along_q30.z)},                                  \
         .tilt_q28 = {GIVEN(-TILT_MOST, TILT_MOST, limb.link.tilt_q28.x),                                               \
                      GIVEN(-TILT_MOST, TILT_MOST, limb.link.tilt_q28.z)},                                              \
         .bow_q28 = {GIVEN(-BOW_MOST, BOW_MOST, limb.link.bow_q28.x), GIVEN(-BOW_MOST, BOW_MOST, limb.link.bow_q28.z)}, \
@@ -560,6 +560,7 @@ constexpr wide_t WORD_MOST = (wide_t{1} << 31) - 1;
                                            sample == nullptr ? 20 : sample->limb.link.arm_shift)                       \
     }
 
+#define ALONG_MOST (PART_OF(30, 1.0) + 256)
 #define TWIST_MOST PART_OF(31, 0.8001)
 #define SPREAD_MOST PART_OF(31, 0.0834)
 #define TILT_MOST (PART_OF(28, 0.7072) + 2)
@@ -578,7 +579,7 @@ static void with_lengths(fixed_link3_t *link, std::size_t index)
     for (const int32_t part : {link->bow_q28.x, link->bow_q28.z}) {
         ranged::with_shares(part, length.times(0.2185L, 2.0L));
     }
-    has_length({link->along_q30.x, link->along_q30.z}, static_cast<long double>(DIRECTION_MOST));
+    has_length({link->along_q30.x, link->along_q30.z}, static_cast<long double>(ALONG_MOST));
     has_length({link->tilt_q28.x, link->tilt_q28.z}, static_cast<long double>(TILT_MOST));
     has_length({link->bow_q28.x, link->bow_q28.z}, static_cast<long double>(BOW_MOST));
 }
@@ -589,9 +590,45 @@ static void with_lengths(fixed_link3_t *link, std::size_t index)
 enum { PARTS = 16, SHARES = 8 };
 static int part, share;
 
+static wide_t force_most() { return PART_OF(30, 1.0) * (part + 1) / PARTS; }
+static wide_t weight_most() { return (PART_OF(30, 1.0) - PART_OF(30, 1.0) * part / PARTS) * 2 / 3 + 64; }
+
+static bool is_of_this_part(const sample_t &of)
+{
+    const auto &tip = of.in.tip_q30;
+    const auto &weights = of.in.weights;
+    const long double length = std::sqrt(1.0L * tip.x * tip.x + 1.0L * tip.y * tip.y + 1.0L * tip.z * tip.z);
+    const wide_t own = weight_most() * share / SHARES, own_most = weight_most() * (share + 1) / SHARES;
+    return length <= static_cast<long double>(force_most()) && weights.beyond_coxa_q30 <= weight_most() &&
+           weights.femur_q30 >= own && weights.femur_q30 <= own_most;
+}
+
 static uint32_t given_shift(const std::uint32_t *exact)
 {
     return ranged::any<uint32_t>(now.is_exact ? *exact : 0, now.is_exact ? *exact : 31);
+}
+
+/* Where rest, K and a step of the search end, what was answered there, and whether it is refused: of a sample. */
+struct stage_t {
+    std::size_t end;
+    bool is_refused;
+    std::vector<long> words;
+};
+static std::vector<stage_t> stages;
+static std::vector<long> told;
+
+template <class OBJECT> void words_of(const OBJECT &object)
+{
+    const int32_t *const words = reinterpret_cast<const int32_t *>(&object);
+    for (std::size_t i = 0; i < sizeof object / sizeof *words; i++) {
+        told.push_back(static_cast<long>(words[i].range().least));
+    }
+}
+
+static void end_stage(noted_t noted)
+{
+    stages.push_back({now.numbers.size(), (noted.range().least >> NOTED_BITS) != 0, told});
+    told.clear();
 }
 
 static void run_once()
@@ -606,8 +643,7 @@ static void run_once()
     limb.base_x_q31 = GIVEN(0, WORD_MOST, limb.base_x_q31);
     limb.base_z_q31 = GIVEN(0, WORD_MOST, limb.base_z_q31);
 
-    const wide_t one = PART_OF(30, 1.0), down = one + (one >> 10);
-    const wide_t force = one * (part + 1) / PARTS, weight = (one - one * part / PARTS) * 2 / 3 + 64;
+    const wide_t one = PART_OF(30, 1.0), down = one + (one >> 10), force = force_most(), weight = weight_most();
     const wide_t own = weight * share / SHARES, own_most = weight * (share + 1) / SHARES, beyond = weight - own + 512;
     fixed_inputs3_t in = {
         .tip_q30 = {GIVEN(-force, force, in.tip_q30.x), GIVEN(-force, force, in.tip_q30.y),
@@ -636,9 +672,12 @@ static void run_once()
     rest.hip_q26 = GIVEN(0, WORD_MOST, rest.hip_q26);
     rest.knee_q26 = GIVEN(0, WORD_MOST, rest.knee_q26);
 
+    stages = {};
     noted_t noted = 0u;
     rest.whole_q30 = fixed3_plus_q30(in.tip_q30, in.down_q30, in.weights.beyond_coxa_q30);
     (void)find_rest(&limb, &in, &rest, &noted);
+    words_of(rest.pose);
+    end_stage(noted);
 
     noted = 0u;
     fixed_freedoms_t free;
@@ -647,31 +686,200 @@ static void run_once()
     fixed_eliminate_limb(&limb, &rest, nullptr, &free, &noted);
     fixed_frames_of(&rest.turns, &frames);
     fixed_sum_limb(&limb, &rest, &free, &frames, &sum, &noted);
-    (void)moved(&limb, &rest, sum.tip_q28);
+    words_of(moved(&limb, &rest, sum.tip_q28));
+    end_stage(noted);
 
     noted = 0u;
     fixed_overload_t overload = {.times_q27 = GIVEN(0, WORD_MOST, times_q27), .mantissa_q31 = 1 << 30, .exponent = 1,
                                  .is_negative = false, .has_buckled = false, .is_refused = false};
     fixed_eliminate_limb(&limb, &rest, &overload, &free, &noted);
+    words_of(overload.mantissa_q31);
+    end_stage(noted);
 }
 
 } // namespace firmware
 
+/* --- samples --------------------------------------------------------------------------------------------------- */
+
+namespace samples {
+
+static std::uint32_t state = 20261126u;
+
+static float any(float least, float most)
+{
+    state = state * 1664525u + 1013904223u;
+    return least + (most - least) * (static_cast<float>(state >> 8) / 16777216.0f);
+}
+
+static float any_size(float least_log10, float most_log10)
+{
+    return std::pow(10.0f, any(least_log10, most_log10));
+}
+
+/* A turn too small to matter, or up to what a word holds. */
+static float any_turn(float most_log10)
+{
+    return any_size(any(0.0f, 1.0f) < 0.3f ? -6.0f : -1.5f, any(0.0f, 1.0f) < 0.5f ? -1.0f : most_log10);
+}
+
+static plain::brace_limb_t any_limb(float force_n, float *reach_mm)
+{
+    plain::brace_limb_t limb = {};
+    limb.coxa_mm = any(0.0f, 1.0f) < 0.2f ? any_size(-3.0f, 1.0f) : any(1.0f, 120.0f);
+    limb.femur_mm = any(1.0f, 250.0f);
+    limb.tibia_mm = any(1.0f, 250.0f);
+    *reach_mm = limb.coxa_mm + limb.femur_mm + limb.tibia_mm;
+    const float moment = *reach_mm * force_n;
+    const float lengths[] = {limb.coxa_mm, limb.femur_mm, limb.tibia_mm};
+    for (int i = 0; i < 3; i++) {
+        const float bends = lengths[i] * lengths[i] / (1.5f * moment);
+        limb.link[i] = {.axial_mm_per_n = any_size(-6.0f, -0.5f) * *reach_mm / force_n,
+                        .bending_mm_per_n = any_turn(0.7f) * bends,
+                        .tilt_rad = any(0.0f, 1.0f) < 0.5f ? 0.0f : any(-1.57f, 1.57f),
+                        .lateral_mm_per_n = any_turn(0.7f) * bends,
+                        .torsion_rad_per_n_mm = any_turn(1.0f) / moment,
+                        .moment_transfer_ratio = any(0.0f, 1.0f) < 0.4f ? 1.0f : any(0.0f, 1.0f)};
+        limb.joint[i].compliance_rad_per_n_mm = any_turn(0.7f) / moment;
+    }
+    limb.base = {any_size(-6.0f, -1.0f) * *reach_mm / force_n, any_size(-6.0f, -1.0f) * *reach_mm / force_n,
+                 any_turn(0.0f) / moment};
+    return limb;
+}
+
+/* A limb, a posture and a load as far as the inputs' checks let them through. returns whether they do */
+static bool any_sample(firmware::sample_t *sample)
+{
+    const float force_n = any_size(-1.0f, 3.0f);
+    float reach_mm;
+    const plain::brace_limb_t limb = any_limb(force_n, &reach_mm);
+    const float heavy = any(0.0f, 1.0f) < 0.5f ? 0.0f : any(0.0f, 0.5f) * force_n;
+    const plain::brace_gravity_t weights = {.femur_n = any(0.0f, heavy), .tibia_n = any(0.0f, heavy),
+                                            .knee_n = any(0.0f, heavy)};
+    const float size = any(0.0f, 1.0f) < 0.3f ? 1.0f : any_size(-3.0f, 0.0f);
+    const plain::brace_space_load_t load = {
+        .tip_n = {any(-1.0f, 1.0f) * size * force_n, any(-1.0f, 1.0f) * size * force_n,
+                  any(-1.0f, 1.0f) * size * force_n},
+        .down = {any(-1.0f, 1.0f), any(-1.0f, 1.0f), any(-1.0f, 1.0f)},
+        .yaw = {limb.joint[0].compliance_rad_per_n_mm, limb.joint[0].compliance_rad_per_n_mm},
+        .hip = {limb.joint[1].compliance_rad_per_n_mm, limb.joint[1].compliance_rad_per_n_mm},
+        .knee = {limb.joint[2].compliance_rad_per_n_mm, limb.joint[2].compliance_rad_per_n_mm}};
+    plain::brace_loaded_space_t loaded;
+    *sample = {};
+    plain::brace_loaded_space_collapse(&limb, &weights, &loaded);
+    plain::brace_loaded_space_fixed_collapse(&loaded, &sample->limb);
+    sample->times_q27 = static_cast<std::int32_t>(any_size(0.0f, 1.2f) * 0x1p27f);
+    return plain::inputs_of(&sample->limb, any(-3.0f, 3.0f), any(-3.0f, 3.0f), &load, &sample->in, &sample->rest) ==
+           plain::BRACE_OK;
+}
+
+/* What the firmware answers. */
+static std::vector<std::vector<long>> told_plainly(const firmware::sample_t &sample)
+{
+    std::vector<std::vector<long>> told(3);
+    const auto tell = [](std::vector<long> *words, const auto &object) {
+        const std::int32_t *const first = reinterpret_cast<const std::int32_t *>(&object);
+        words->insert(words->end(), first, first + sizeof object / sizeof *first);
+    };
+    plain::fixed_rest3_t rest = sample.rest;
+    plain::noted_t noted = 0u;
+    rest.whole_q30 =
+        plain::fixed3_plus_q30(sample.in.tip_q30, sample.in.down_q30, sample.in.weights.beyond_coxa_q30);
+    (void)plain::find_rest(&sample.limb, &sample.in, &rest, &noted);
+    tell(&told[0], rest.pose);
+    noted = 0u;
+    plain::fixed_freedoms_t free;
+    plain::fixed_frames_t frames;
+    plain::fixed_sum_t sum;
+    plain::fixed_eliminate_limb(&sample.limb, &rest, nullptr, &free, &noted);
+    plain::fixed_frames_of(&rest.turns, &frames);
+    plain::fixed_sum_limb(&sample.limb, &rest, &free, &frames, &sum, &noted);
+    tell(&told[1], plain::moved(&sample.limb, &rest, sum.tip_q28));
+    noted = 0u;
+    plain::fixed_overload_t overload = {.times_q27 = sample.times_q27, .mantissa_q31 = 1 << 30, .exponent = 1};
+    plain::fixed_eliminate_limb(&sample.limb, &rest, &overload, &free, &noted);
+    tell(&told[2], overload.mantissa_q31);
+    return told;
+}
+
+struct counts_t {
+    std::size_t samples, told[3];
+};
+
+/* Runs a sample on single numbers. returns what is wrong with it, if anything */
+static const char *trouble_of(const firmware::sample_t &sample, const std::map<ranged::key_t, ranged::range_t> &proven,
+                              counts_t *counts)
+{
+    firmware::sample = &sample;
+    ranged::run_exactly(firmware::run_once);
+    firmware::sample = nullptr;
+    const std::vector<std::vector<long>> plainly = told_plainly(sample);
+    counts->samples++;
+    std::size_t first = 0;
+    for (std::size_t i = 0; i < firmware::stages.size(); i++) {
+        const firmware::stage_t &stage = firmware::stages[i];
+        if (stage.is_refused) {
+            if (i == 0) {
+                return nullptr;
+            }
+        } else {
+            counts->told[i]++;
+            if (ranged::outside(proven, first, stage.end) != 0) {
+                return "a number outside its range";
+            }
+            if (stage.words != plainly[i]) {
+                return "not what the firmware answers";
+            }
+        }
+        first = stage.end;
+    }
+    return nullptr;
+}
+
+} // namespace samples
+
 int main(int, char **arguments)
 {
     using ranged::now;
+    constexpr std::size_t SAMPLES = 1500;
     now.noted_limit = 1 << NOTED_BITS;
-    std::size_t left = 0;
-    for (firmware::part = 0; firmware::part < firmware::PARTS && left == 0; firmware::part++) {
-        for (firmware::share = 0; firmware::share < firmware::SHARES && left == 0; firmware::share++) {
-            left = ranged::prove(firmware::run_once);
+    std::vector<firmware::sample_t> left_over;
+    while (left_over.size() < SAMPLES) {
+        firmware::sample_t sample;
+        if (samples::any_sample(&sample)) {
+            left_over.push_back(sample);
         }
     }
-    if (left != 0) {
-        std::printf("part %d, share %d: %zu places\n", firmware::part, firmware::share, left);
+    samples::counts_t counts = {};
+    for (firmware::part = 0; firmware::part < firmware::PARTS; firmware::part++) {
+        for (firmware::share = 0; firmware::share < firmware::SHARES; firmware::share++) {
+            const std::size_t left = ranged::prove(firmware::run_once);
+            if (left != 0) {
+                std::printf("part %d, share %d: %zu places\n", firmware::part, firmware::share, left);
+                for (std::size_t i = 0; i < std::min<std::size_t>(left, 8); i++) {
+                    ranged::tell(arguments[0], now.complaints[i].first, now.complaints[i].second);
+                }
+                return 1;
+            }
+            const auto proven = ranged::ranges();
+            std::vector<firmware::sample_t> others;
+            for (const firmware::sample_t &sample : left_over) {
+                if (!firmware::is_of_this_part(sample)) {
+                    others.push_back(sample);
+                } else if (const char *const trouble = samples::trouble_of(sample, proven, &counts)) {
+                    std::printf("sample %zu: %s\n", counts.samples, trouble);
+                    return 1;
+                }
+            }
+            left_over = others;
+        }
     }
-    for (std::size_t i = 0; i < std::min<std::size_t>(left, 8); i++) {
-        ranged::tell(arguments[0], now.complaints[i].first, now.complaints[i].second);
+    if (!left_over.empty() || counts.told[0] < SAMPLES / 4) {
+        std::printf("%zu samples are of no part, %zu were told\n", left_over.size(), counts.told[0]);
+        return 1;
     }
-    return left == 0 ? 0 : 1;
+    if (std::getenv("BRACE_PROOF_COUNTS") != nullptr) {
+        std::printf("%zu samples: rest of %zu, K of %zu, a step of the search of %zu\n", counts.samples, counts.told[0],
+                    counts.told[1], counts.told[2]);
+    }
+    return 0;
 }

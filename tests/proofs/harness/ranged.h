@@ -136,6 +136,7 @@ public:
     std::set<std::string> places;
     wide_t noted_limit = 0;
     bool is_exact = false;
+    std::vector<std::size_t> broken; /* single numbers that break what is known of them */
     /* Within each_way: */
     bool in_ways = false;
     int way = 0;
@@ -151,13 +152,14 @@ public:
         lengths.clear();
         complaints.clear();
         places.clear();
+        broken.clear();
         learned.clear();
+        way = 0;
         since = 0;
         first_of_way = 0;
         for (const kind_t kind : {kind_t{32, true}, {32, false}, {64, true}, {64, false}}) {
             make(made_by_t::constant, kind, {0, 0});
         }
-        way = 0;
         in_ways = false;
         refined.clear();
     }
@@ -166,6 +168,13 @@ public:
     static std::size_t zero_of(kind_t kind)
     {
         return (kind.bits == 64 ? 2u : 0u) + (kind.is_signed ? 0u : 1u);
+    }
+
+    void keep(std::size_t id, bool does)
+    {
+        if (!does) {
+            broken.push_back(id);
+        }
     }
 
     static std::string where()
@@ -861,11 +870,14 @@ template <a_word A> i32 leading_zeros_of(const A &number)
 
 /* --- facts that the harness enters ---------------------------------------------------------------------------- */
 
-/* What is known of a number from elsewhere: as an assumption, or as the promise of another proof. */
+/* What is known of a number from elsewhere: as an assumption, or as the promise of another proof. A single number has to
+ * keep it. */
 template <a_word W> W within(const W &w, wide_t least, wide_t most)
 {
-    if (!now.is_exact) {
-        range_t &range = now.numbers[w.id].range;
+    range_t &range = now.numbers[w.id].range;
+    if (now.is_exact) {
+        now.keep(w.id, range.least >= least && range.most <= most);
+    } else {
         range = {std::max(range.least, least), std::min(range.most, most)};
     }
     return w;
@@ -886,14 +898,19 @@ inline std::vector<std::size_t> lengths_key(const std::vector<i32> &parts)
     return key;
 }
 
-/* The root of the sum of the parts' squares, at most. */
-inline long double length_of(const std::vector<i32> &parts)
+inline long double length_of_ranges(const std::vector<i32> &parts)
 {
     long double square = 0.0L;
     for (const i32 &part : parts) {
         square += size_of(part) * size_of(part);
     }
-    long double most = std::sqrt(square) * (1.0L + 0x1p-50L);
+    return std::sqrt(square) * (1.0L + 0x1p-50L);
+}
+
+/* The root of the sum of the parts' squares, at most. */
+inline long double length_of(const std::vector<i32> &parts)
+{
+    long double most = length_of_ranges(parts);
     for (std::size_t i = 0; i < parts.size() && parts.size() == 3; i++) { /* two of three, and the third */
         const long double two = length_of({parts[(i + 1) % 3], parts[(i + 2) % 3]}), one = size_of(parts[i]);
         most = std::min(most, std::sqrt(two * two + one * one) * (1.0L + 0x1p-50L));
@@ -906,6 +923,9 @@ inline long double length_of(const std::vector<i32> &parts)
 inline void has_length(const std::vector<i32> &parts, long double most)
 {
     if (now.is_exact) {
+        for (const i32 &part : parts) {
+            now.keep(part.id, length_of_ranges(parts) <= most + 1.0L);
+        }
         return;
     }
     auto [fact, is_new] = now.lengths.emplace(lengths_key(parts), most);
@@ -924,7 +944,7 @@ inline void has_length(const std::vector<i32> &parts, long double most)
 /* Enters what is known of a number by shares, and so bounds it. */
 template <a_word W> W with_shares(const W &w, const shares_t &shares)
 {
-    if (!now.is_exact && shares.is_known) {
+    if (shares.is_known) {
         now.numbers[w.id].shares = shares;
         const wide_t whole = static_cast<wide_t>(std::ceil(std::min(shares.most(), 0x1p100L)));
         within(w, -whole, whole);
@@ -1056,15 +1076,27 @@ inline std::map<key_t, range_t> ranges()
     return all;
 }
 
-/* After an exact run: how many of its numbers lie outside the ranges. */
-inline std::size_t outside(const std::map<key_t, range_t> &proven)
+/* Runs the program on single numbers. */
+template <class RUN> void run_exactly(RUN run)
+{
+    now.is_exact = true;
+    now.begin();
+    run();
+    now.is_exact = false;
+}
+
+/* Then, of the numbers from `first` to before `end`: how many lie outside the proven ranges or break what is known. */
+inline std::size_t outside(const std::map<key_t, range_t> &proven, std::size_t first, std::size_t end)
 {
     std::size_t count = 0;
-    for (std::size_t id = 0; id < now.numbers.size(); id++) {
+    for (std::size_t id = first; id < end; id++) {
         const auto place = proven.find(now.keys[id]);
         if (place == proven.end() || !is_within(now.numbers[id].range, place->second)) {
             count++;
         }
+    }
+    for (const std::size_t id : now.broken) {
+        count += id >= first && id < end ? 1 : 0;
     }
     return count;
 }

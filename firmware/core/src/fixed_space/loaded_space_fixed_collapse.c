@@ -31,7 +31,8 @@ static int32_t turn_exponent_of(const brace_space_link_t *link, int32_t length_e
     if (is_too_short(link, length_exponent)) {
         return REFUSED_EXPONENT;
     }
-    const float turns = fmaxf(fmaxf(link->twist_rad_per_n_mm, link->sideways_rad_per_n_mm),
+    /* To the twist comes what bending spreads: by less than a quarter of the most that a word holds. */
+    const float turns = fmaxf(fmaxf(1.25f * link->twist_rad_per_n_mm, link->sideways_rad_per_n_mm),
                               fmaxf(link->bend_rad_per_n_mm, fmaxf(link->across_spread_per_n_mm,
                                                                    link->sideways_spread_per_n_mm)));
     const float springs = fmaxf(link->across_mm_per_n, link->sideways_mm_per_n);
@@ -63,7 +64,7 @@ static brace_space_fixed_link_t link_of(const brace_space_link_t *link, const br
         .across_spread_q31 = quantised((double)link->across_spread_per_n_mm, turns),
         .sideways_spread_q31 = quantised((double)link->sideways_spread_per_n_mm, turns),
         .stretch_q31 = quantised((double)stretch_of(link), 31 - length - fixed->spring_exponent),
-        .end_share_q30 = quantised((double)link->end_share, 30),
+        .end_share_q30 = larger(quantised((double)link->end_share, 30) - 1, 0), /* and a half more is below 1 */
         .stretch_end_share_q30 = quantised((double)link->stretch_end_share, 30),
         .own_share_q30 = quantised((double)link->own_share, 30),
         .curl_q30 = quantised((double)link->curl_per_mm, per_arm),
