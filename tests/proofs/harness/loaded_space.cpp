@@ -531,55 +531,52 @@ static const std::int32_t zero = 0;
 
 constexpr wide_t WORD_MOST = (wide_t{1} << 31) - 1;
 
-/* What the collapse's last look lets through. */
+/* What the collapse's last look lets through (fixed_space/kept.h). */
 #define ANY_LINK(link)                                                                                                 \
     fixed_link3_t                                                                                                      \
     {                                                                                                                  \
-        .length_q28 = GIVEN(0, PART_OF(28, 1.0) + 2, limb.link.length_q28),                                            \
-        .twelfth_q28 = GIVEN(0, PART_OF(28, 1.0 / 12.0) + 2, limb.link.twelfth_q28),                                   \
-        .along_q30 = {GIVEN(-ALONG_MOST, ALONG_MOST, limb.link.along_q30.x),                                   \
-                      GIVEN(-ALONG_MOST, ALONG_MOST, limb.link.along_q30.z)},                                  \
+        .length_q28 = GIVEN(0, LENGTHS_MOST_Q28, limb.link.length_q28),                                            \
+        .twelfth_q28 = GIVEN(0, LENGTHS_MOST_Q28 / 12 + 2, limb.link.twelfth_q28),                                   \
+        .along_q30 = {GIVEN(-ALONG_MOST_Q30, ALONG_MOST_Q30, limb.link.along_q30.x),                                   \
+                      GIVEN(-ALONG_MOST_Q30, ALONG_MOST_Q30, limb.link.along_q30.z)},                                  \
         .tilt_q28 = {GIVEN(-TILT_MOST, TILT_MOST, limb.link.tilt_q28.x),                                               \
                      GIVEN(-TILT_MOST, TILT_MOST, limb.link.tilt_q28.z)},                                              \
         .bow_q28 = {GIVEN(-BOW_MOST, BOW_MOST, limb.link.bow_q28.x), GIVEN(-BOW_MOST, BOW_MOST, limb.link.bow_q28.z)}, \
-        .twist_q31 = GIVEN(0, TWIST_MOST, limb.link.twist_q31),                                                         \
+        .twist_q31 = GIVEN(0, TWIST_MOST_Q31, limb.link.twist_q31),                                                         \
         .sideways_q31 = GIVEN(0, WORD_MOST, limb.link.sideways_q31),                                                   \
         .bend_q31 = GIVEN(0, WORD_MOST, limb.link.bend_q31),                                                           \
         .across_arm_q31 = GIVEN(0, WORD_MOST, limb.link.across_arm_q31),                                               \
         .sideways_arm_q31 = GIVEN(0, WORD_MOST, limb.link.sideways_arm_q31),                                           \
-        .across_spread_q31 = GIVEN(0, SPREAD_MOST, limb.link.across_spread_q31),                                         \
-        .sideways_spread_q31 = GIVEN(0, SPREAD_MOST, limb.link.sideways_spread_q31),                                     \
+        .across_spread_q31 = GIVEN(0, SPREAD_MOST_Q31, limb.link.across_spread_q31),                                         \
+        .sideways_spread_q31 = GIVEN(0, SPREAD_MOST_Q31, limb.link.sideways_spread_q31),                                     \
         .stretch_q31 = GIVEN(0, WORD_MOST, limb.link.stretch_q31),                                                     \
-        .end_share_q30 = GIVEN(0, (1 << 29) - 1, limb.link.end_share_q30),                                                   \
+        .end_share_q30 = GIVEN(0, SHARE_MOST_Q30, limb.link.end_share_q30),                                                   \
         .stretch_end_share_q30 = GIVEN(-(1 << 29), 1 << 29, limb.link.stretch_end_share_q30),                          \
         .own_share_q30 = GIVEN(0, 1 << 29, limb.link.own_share_q30),                                                   \
         .curl_q30 = GIVEN(0, 1 << 30, limb.link.curl_q30),                                                             \
-        .shortens_q30 = GIVEN(0, PART_OF(30, 0.6) + 4, limb.link.shortens_q30),                                                     \
+        .shortens_q30 = GIVEN(0, SHORTENS_MOST_Q30, limb.link.shortens_q30),                                                     \
         .weight_q31 = GIVEN(0, WORD_MOST, limb.link.weight_q31),                                                       \
         .arm_shift = ranged::any<uint32_t>(sample == nullptr ? 0 : sample->limb.link.arm_shift,                        \
-                                           sample == nullptr ? 20 : sample->limb.link.arm_shift)                       \
+                                           sample == nullptr ? ARM_SHIFT_MOST : sample->limb.link.arm_shift)                       \
     }
 
-#define ALONG_MOST (PART_OF(30, 1.0) + 256)
-#define TWIST_MOST PART_OF(31, 0.8001)
-#define SPREAD_MOST PART_OF(31, 0.0834)
-#define TILT_MOST (PART_OF(28, 0.7072) + 2)
-#define BOW_MOST (PART_OF(28, 0.2185) + 2)
+constexpr wide_t TILT_MOST = wide_t{LENGTHS_MOST_Q28} * TILT_MOST_Q30 / (1 << 30) + 2;
+constexpr wide_t BOW_MOST = wide_t{LENGTHS_MOST_Q28} * BOW_MOST_Q30 / (1 << 30) + 2;
 
-/* What grows with the link's length, and how; the sum of all lengths is one unit, and two for their rounding. */
+/* What grows with the link's length, and how; the sum of all lengths is one unit. */
 static void with_lengths(fixed_link3_t *link, std::size_t index)
 {
     ranged::shares_t length = {.is_known = true};
-    length.by[index] = 0x1p28L + 2.0L;
+    length.by[index] = LENGTHS_MOST_Q28;
     ranged::with_shares(link->length_q28, length);
     ranged::with_shares(link->twelfth_q28, length.times(1.0L / 12.0L, 2.0L));
     for (const int32_t part : {link->tilt_q28.x, link->tilt_q28.z}) {
-        ranged::with_shares(part, length.times(0.7072L, 2.0L));
+        ranged::with_shares(part, length.times(TILT_MOST_Q30 / ONE_Q30, 2.0L));
     }
     for (const int32_t part : {link->bow_q28.x, link->bow_q28.z}) {
-        ranged::with_shares(part, length.times(0.2185L, 2.0L));
+        ranged::with_shares(part, length.times(BOW_MOST_Q30 / ONE_Q30, 2.0L));
     }
-    has_length({link->along_q30.x, link->along_q30.z}, static_cast<long double>(ALONG_MOST));
+    has_length({link->along_q30.x, link->along_q30.z}, static_cast<long double>(ALONG_MOST_Q30));
     has_length({link->tilt_q28.x, link->tilt_q28.z}, static_cast<long double>(TILT_MOST));
     has_length({link->bow_q28.x, link->bow_q28.z}, static_cast<long double>(BOW_MOST));
 }
@@ -587,18 +584,20 @@ static void with_lengths(fixed_link3_t *link, std::size_t index)
 /* The unit of force is above the components' sum and one and a half times all weights. So the range of the force at the
  * tip is cut into parts, and for each the weights are at most what the least force of the part leaves them. The femur's
  * weight and that beyond it are all of it; so that weight is cut into shares. */
-enum { PARTS = 16, SHARES = 8 };
+constexpr int SHARES[] = {9, 7, 5, 3, 2, 2, 2, 2}, PARTS = 8; /* the more weight, the more shares */
 static int part, share;
 
 static wide_t force_most() { return PART_OF(30, 1.0) * (part + 1) / PARTS; }
-static wide_t weight_most() { return (PART_OF(30, 1.0) - PART_OF(30, 1.0) * part / PARTS) * 2 / 3 + 64; }
+static wide_t weight_most() { return (PART_OF(30, 1.0) - PART_OF(30, 1.0) * part / PARTS) * 2 / 3 + 4096; }
+
+static wide_t own_weight_most() { return weight_most() * (share + 1) / SHARES[part] + WEIGHTS_APART_Q31; }
 
 static bool is_of_this_part(const sample_t &of)
 {
     const auto &tip = of.in.tip_q30;
     const auto &weights = of.in.weights;
     const long double length = std::sqrt(1.0L * tip.x * tip.x + 1.0L * tip.y * tip.y + 1.0L * tip.z * tip.z);
-    const wide_t own = weight_most() * share / SHARES, own_most = weight_most() * (share + 1) / SHARES;
+    const wide_t own = weight_most() * share / SHARES[part], own_most = own_weight_most();
     return length <= static_cast<long double>(force_most()) && weights.beyond_coxa_q30 <= weight_most() &&
            weights.femur_q30 >= own && weights.femur_q30 <= own_most;
 }
@@ -644,14 +643,14 @@ static void run_once()
     limb.base_z_q31 = GIVEN(0, WORD_MOST, limb.base_z_q31);
 
     const wide_t one = PART_OF(30, 1.0), down = one + (one >> 10), force = force_most(), weight = weight_most();
-    const wide_t own = weight * share / SHARES, own_most = weight * (share + 1) / SHARES, beyond = weight - own + 512;
+    const wide_t own = weight * share / SHARES[part], own_most = own_weight_most(), beyond = weight - own + WEIGHTS_APART_Q31;
     fixed_inputs3_t in = {
         .tip_q30 = {GIVEN(-force, force, in.tip_q30.x), GIVEN(-force, force, in.tip_q30.y),
                     GIVEN(-force, force, in.tip_q30.z)},
         .down_q30 = {GIVEN(-down, down, in.down_q30.x), GIVEN(-down, down, in.down_q30.y),
                      GIVEN(-down, down, in.down_q30.z)},
         .weights = {GIVEN(0, weight, in.weights.beyond_coxa_q30), GIVEN(0, beyond, in.weights.beyond_femur_q30),
-                    GIVEN(own, own_most, in.weights.femur_q30), GIVEN(0, beyond, in.weights.tibia_q30)},
+                    GIVEN(own, own_most, in.weights.femur_q30), GIVEN(0, beyond + WEIGHTS_APART_Q31, in.weights.tibia_q30)},
         .yields = {.base_q26 = GIVEN(0, WORD_MOST, in.yields.base_q26),
                    .yaw_q26 = GIVEN(0, WORD_MOST, in.yields.yaw_q26),
                    .hip_q26 = GIVEN(0, WORD_MOST, in.yields.hip_q26),
@@ -840,7 +839,7 @@ static const char *trouble_of(const firmware::sample_t &sample, const std::map<r
 int main(int, char **arguments)
 {
     using ranged::now;
-    constexpr std::size_t SAMPLES = 1500;
+    constexpr std::size_t SAMPLES = 300;
     now.noted_limit = 1 << NOTED_BITS;
     std::vector<firmware::sample_t> left_over;
     while (left_over.size() < SAMPLES) {
@@ -851,7 +850,7 @@ int main(int, char **arguments)
     }
     samples::counts_t counts = {};
     for (firmware::part = 0; firmware::part < firmware::PARTS; firmware::part++) {
-        for (firmware::share = 0; firmware::share < firmware::SHARES; firmware::share++) {
+        for (firmware::share = 0; firmware::share < firmware::SHARES[firmware::part]; firmware::share++) {
             const std::size_t left = ranged::prove(firmware::run_once);
             if (left != 0) {
                 std::printf("part %d, share %d: %zu places\n", firmware::part, firmware::share, left);

@@ -2,6 +2,7 @@
 #include <stdbool.h>
 
 #include "brace/loaded_space_fixed.h"
+#include "fixed_space/kept.h"
 #include "loaded/fixed_quantise.h"
 
 static brace_fixed_vec_t vector_of(brace_vec_t v, int32_t exponent)
@@ -9,7 +10,6 @@ static brace_fixed_vec_t vector_of(brace_vec_t v, int32_t exponent)
     return (brace_fixed_vec_t){quantised((double)v.x, exponent), quantised((double)v.z, exponent)};
 }
 
-#define ARM_SHIFT_MOST 20
 #define REFUSED_EXPONENT 100 /* of compliances that no word holds, whatever the load */
 
 /* The arm of the springs at a link's end, as a part of the unit of length: so short that they curl the link's own turns
@@ -17,12 +17,12 @@ static brace_fixed_vec_t vector_of(brace_vec_t v, int32_t exponent)
 static int32_t arm_shift_of(const brace_space_link_t *link, int32_t length_exponent)
 {
     const int32_t curl = exponent_above(link->curl_per_mm) + length_exponent;
-    return curl > ARM_SHIFT_MOST ? ARM_SHIFT_MOST : larger(curl, 0);
+    return curl > (int32_t)ARM_SHIFT_MOST ? (int32_t)ARM_SHIFT_MOST : larger(curl, 0);
 }
 
 static bool is_too_short(const brace_space_link_t *link, int32_t length_exponent)
 {
-    return exponent_above(link->curl_per_mm) + length_exponent > ARM_SHIFT_MOST;
+    return exponent_above(link->curl_per_mm) + length_exponent > (int32_t)ARM_SHIFT_MOST;
 }
 
 /* Exponents of a link's compliances for an angle, in 1/N, their turn times the unit of length. */
@@ -95,4 +95,7 @@ void brace_loaded_space_fixed_collapse(const brace_loaded_space_t *loaded, brace
     fixed->base_rotation_q31 = quantised((double)loaded->base_rotation_rad_per_n_mm,
                                          31 + length - fixed->turn_exponent);
     fixed->weight_q8 = (uint32_t)(384.0f * loaded->beyond_coxa_n);
+    if (!is_space_kept(fixed)) {
+        *fixed = (brace_loaded_space_fixed_t){.turn_exponent = REFUSED_EXPONENT};
+    }
 }
