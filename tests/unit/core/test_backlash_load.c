@@ -6,6 +6,7 @@
 #include "brace/backlash.h"
 #include "brace/ranges.h"
 #include "close.h"
+#include "noise.h"
 
 enum { TICK_US = 1000 };
 #define STEP_RAD 2e-5
@@ -50,6 +51,28 @@ static void observe(double motor_rad, double torque_n_mm)
     now_us += TICK_US;
     const brace_backlash_sample_t sample = sample_of(motor_rad, torque_n_mm);
     backlash_load_observe(&joint, &sample);
+}
+
+/* The slow mean of a load that stays is as quiet as its gain says, and what is known of it narrows to that. A load that
+ * changes starts it anew from the fast one. */
+static void the_slow_mean_is_the_quiet_one(void)
+{
+    const double gain = 1.0 / 81.0, sigma = NOISE_N_MM * sqrt(gain / (2.0 - gain));
+    double squares = 0.0;
+    noise_state = 5u;
+    begin(0.0, 1000.0);
+    for (int i = 0; i < 4000; i++) {
+        observe(0.0, 1000.0 + NOISE_N_MM * noise_normal());
+        const double off = (double)joint.slow_n_mm - 1000.0;
+        squares += i >= 1000 ? off * off / 3000.0 : 0.0;
+    }
+    TEST_ASSERT_DOUBLE_WITHIN(0.4 * sigma, sigma, sqrt(squares)); /* of some forty independent ones */
+    ASSERT_CLOSE(sigma, joint.slow_spread_n_mm, 1e-3 * sigma);
+    for (int i = 0; i < 12; i++) {
+        observe(0.0, 3000.0);
+    }
+    ASSERT_CLOSE(joint.fast_n_mm, joint.slow_n_mm, 4.0 * sigma);
+    TEST_ASSERT_TRUE((double)joint.slow_spread_n_mm > 2.0 * sigma);
 }
 
 /* What has not been seen to move has no direction, whatever was there before. */
@@ -247,6 +270,8 @@ static void a_short_stop_leaves_the_direction_sure(void)
 static void where_the_link_may_be_in_its_gap(void)
 {
     const double half = 0.005;
+    ASSERT_CLOSE(-half, joint.play_low_rad, 1e-9); /* before anything is seen, anywhere */
+    ASSERT_CLOSE(half, joint.play_high_rad, 1e-9);
     double low = -half, high = half, motor_rad = 0.3;
     begin(motor_rad, 0.0);
     joint.play_low_rad = (float)low, joint.play_high_rad = (float)high;
@@ -333,6 +358,29 @@ static brace_backlash_out_t tick_at(double motor_rad, double torque_n_mm)
 }
 
 /* The link's place in its gap stays known in every state but FAULT. After FAULT the link may be anywhere. */
+/* Ticks until a take-up of a motor that meets nothing is given up for its time. */
+static int ticks_of_takeup(uint32_t time_max_us)
+{
+    int count = 0;
+    setUp();
+    joint.params.takeup.time_max_us = time_max_us;
+    (void)tick_at(0.0, 0.0);
+    TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_takeup_request(&joint, 1));
+    while (tick_at(0.0, 0.0).takeup == BRACE_TAKEUP_RUNNING) {
+        count++;
+    }
+    TEST_ASSERT_EQUAL_INT(BRACE_TAKEUP_E_TIME, tick_at(0.0, 0.0).takeup);
+    return count;
+}
+
+static void a_takeup_has_its_time_to_the_microsecond(void)
+{
+    const int count = ticks_of_takeup(50u * TICK_US);
+    TEST_ASSERT_EQUAL_INT(count, ticks_of_takeup(49u * TICK_US + 1u));
+    TEST_ASSERT_EQUAL_INT(count + 1, ticks_of_takeup(50u * TICK_US + 1u));
+    TEST_ASSERT_INT_WITHIN(1, 50, count);
+}
+
 static void only_a_fault_forgets_where_the_link_is(void)
 {
     int states = 0, last = -1;
@@ -384,6 +432,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(a_first_sample_is_the_load_and_proves_nothing);
+    RUN_TEST(the_slow_mean_is_the_quiet_one);
     RUN_TEST(a_start_has_no_direction);
     RUN_TEST(friction_is_known_while_the_motor_turns);
     RUN_TEST(a_motor_stands_after_eight_ticks);
@@ -395,6 +444,7 @@ int main(void)
     RUN_TEST(where_the_link_may_be_in_its_gap);
     RUN_TEST(a_takeup_needs_more_torque_than_friction_hides);
     RUN_TEST(every_parameter_has_its_bounds);
+    RUN_TEST(a_takeup_has_its_time_to_the_microsecond);
     RUN_TEST(only_a_fault_forgets_where_the_link_is);
     RUN_TEST(acceleration_widens_the_doubt);
     return UNITY_END();
