@@ -81,6 +81,8 @@ using ranged::length_of;
 using ranged::now;
 using ranged::wide_t;
 
+constexpr wide_t WORD_MOST = (wide_t{1} << 31) - 1;
+
 static long exact_of(uint32_t word)
 {
     return static_cast<long>(ranged::machine::wrapped(word.range().least, word.kind).least);
@@ -113,20 +115,27 @@ static int64_t sum3(int32_t a, int32_t b, int32_t c, int32_t d, int32_t e, int32
 #undef fixed_direction
 #undef inverse_q27
 
-static int64_t by_lengths(int64_t sum, long double most)
+static int64_t by_lengths(int64_t sum, long double most, std::size_t complaints)
 {
+    if (now.complaint_count != complaints) {
+        return sum;
+    }
     const wide_t whole = static_cast<wide_t>(std::min(most, 0x1p100L)) + 1;
     return ranged::within(sum, -whole, whole);
 }
 
 static int64_t sum2(int32_t a, int32_t b, int32_t c, int32_t d)
 {
-    return by_lengths(text_sum2(a, b, c, d), length_of({a, c}) * length_of({b, d}));
+    const std::size_t before = now.complaint_count;
+    const int64_t sum = text_sum2(a, b, c, d);
+    return by_lengths(sum, length_of({a, c}) * length_of({b, d}), before);
 }
 
 static int64_t sum3(int32_t a, int32_t b, int32_t c, int32_t d, int32_t e, int32_t f)
 {
-    return by_lengths(text_sum3(a, b, c, d, e, f), length_of({a, c, e}) * length_of({b, d, f}));
+    const std::size_t before = now.complaint_count;
+    const int64_t sum = text_sum3(a, b, c, d, e, f);
+    return by_lengths(sum, length_of({a, c, e}) * length_of({b, d, f}), before);
 }
 
 static fixed_vec_t fixed_direction(uint32_t angle_turn)
@@ -145,6 +154,9 @@ static int32_t inverse_q27(int32_t pivot_q27)
     const ranged::range_t pivot = pivot_q27.range();
     PROVE(pivot.least >= least, "a pivot that is inverted is at least the least one");
     const std::int32_t exact = now.is_exact ? plain::inverse_q27(static_cast<std::int32_t>(pivot.least)) : 0;
+    if (pivot.least < least) {
+        return given(-WORD_MOST - 1, WORD_MOST, &exact);
+    }
     return given(one / std::max(pivot.most, least) - 4, (one + (one >> 29)) / std::max(pivot.least, least), &exact);
 }
 
@@ -159,7 +171,9 @@ static uint32_t over_q61(uint32_t leading)
     const ranged::range_t range = now.settled(leading.id);
     PROVE(range.least >= wide_t{1} << 31, "a number that is inverted has its highest bit set");
     const std::uint32_t exact = now.is_exact ? plain::over_q61(static_cast<std::uint32_t>(range.least)) : 0;
-    return ranged::any<uint32_t>(now.is_exact ? exact : (wide_t{1} << 29) - 8, now.is_exact ? exact : one >> 31);
+    const bool is_sound = range.least >= wide_t{1} << 31;
+    const wide_t lowest = is_sound ? (wide_t{1} << 29) - 8 : 0, highest = is_sound ? one >> 31 : 2 * WORD_MOST + 1;
+    return ranged::any<uint32_t>(now.is_exact ? exact : lowest, now.is_exact ? exact : highest);
 }
 
 /* --- vectors keep their length --------------------------------------------------------------------------------- */
@@ -215,7 +229,7 @@ static long double length3(fixed3_t v)
 /* A fact about a vector, unless a number on the way has left its word: then the vector may be anything. */
 static fixed3_t with_length(fixed3_t v, long double most, std::size_t complaints)
 {
-    if (now.complaints.size() == complaints) {
+    if (now.complaint_count == complaints) {
         has_length({v.x, v.y, v.z}, most);
     }
     return v;
@@ -223,40 +237,40 @@ static fixed3_t with_length(fixed3_t v, long double most, std::size_t complaints
 
 static fixed3_t fixed3_plus(fixed3_t a, fixed3_t b)
 {
-    const std::size_t before = now.complaints.size();
+    const std::size_t before = now.complaint_count;
     return with_length(text_plus(a, b), length3(a) + length3(b), before);
 }
 
 static fixed3_t fixed3_halved(fixed3_t a, uint32_t bits)
 {
-    const std::size_t before = now.complaints.size();
+    const std::size_t before = now.complaint_count;
     const long double least = static_cast<long double>(bits.range().least);
     return with_length(text_halved(a, bits), length3(a) / exp2l(least) + ROOT_OF_3, before);
 }
 
 static fixed3_t fixed3_doubled(fixed3_t a, uint32_t bits)
 {
-    const std::size_t before = now.complaints.size();
+    const std::size_t before = now.complaint_count;
     return with_length(text_doubled(a, bits), length3(a) * exp2l(static_cast<long double>(bits.range().most)), before);
 }
 
 static fixed3_t fixed3_scaled_q30(fixed3_t a, int32_t by)
 {
-    const std::size_t before = now.complaints.size();
+    const std::size_t before = now.complaint_count;
     const long double most = length3(a) * (ranged::size_of(by) / ONE_Q30) + ROOT_OF_3 * COARSE;
     return with_length(text_scaled_q30(a, by), most, before);
 }
 
 static fixed3_t fixed3_plus_q30(fixed3_t a, fixed3_t b, int32_t by)
 {
-    const std::size_t before = now.complaints.size();
+    const std::size_t before = now.complaint_count;
     const long double more = length3(b) * (ranged::size_of(by) / ONE_Q30) + ROOT_OF_3 * COARSE;
     return with_length(text_plus_q30(a, b, by), length3(a) + more, before);
 }
 
 static fixed3_t fixed3_cross(fixed3_t a, fixed3_t b, int bits)
 {
-    const std::size_t before = now.complaints.size();
+    const std::size_t before = now.complaint_count;
     const long double most = length3(a) * (length3(b) / exp2l(bits)) + ROOT_OF_3 * exp2l(32 - bits);
     return with_length(text_cross(a, b, bits), most, before);
 }
@@ -269,10 +283,10 @@ static fixed_vec_t fixed_back(fixed_vec_t turn)
 /* A small turn (loaded_turns) of an angle within that proof's range. */
 static fixed_vec_t fixed_small_turn_of(int32_t angle_q29)
 {
-    const std::size_t before = now.complaints.size();
+    const std::size_t before = now.complaint_count;
     const fixed_vec_t turn = text_small_turn_of(angle_q29);
     PROVE(ranged::size_of(angle_q29) <= SMALL_ANGLE_MOST, "a small turn is small");
-    if (now.complaints.size() == before) {
+    if (now.complaint_count == before) {
         has_length({turn.x, turn.z}, SMALL_TURN_MOST);
         ranged::within(turn.x, 0, SMALL_TURN_MOST);
         ranged::within(turn.z, -SMALL_SINE_MOST, SMALL_SINE_MOST);
@@ -290,12 +304,12 @@ static long double factor_of(fixed_vec_t by)
  * is cut off: two times less than 4 units. */
 template <class TURN> fixed3_t turned(fixed3_t v, fixed_vec_t by, int32_t fixed3_t::*p, int32_t fixed3_t::*q, TURN turn)
 {
-    const std::size_t before = now.complaints.size();
+    const std::size_t before = now.complaint_count;
     const long double factor = factor_of(by), cut = ROOT_OF_2 * COARSE;
     has_length({v.*p, v.*q}, length3(v));
     const long double pair = length_of({v.*p, v.*q}) * factor + cut, whole = length3(v) * factor + cut;
     const fixed3_t result = turn(v, by);
-    if (now.complaints.size() == before) {
+    if (now.complaint_count == before) {
         has_length({result.*p, result.*q}, pair);
         has_length({result.x, result.y, result.z}, whole);
     }
@@ -321,7 +335,7 @@ static fixed3_t fixed_about_z(fixed3_t v, fixed_vec_t by)
 template <class TURN>
 void axes_turned(fixed_axes_t *axes, fixed_vec_t by, fixed3_t fixed_axes_t::*p, fixed3_t fixed_axes_t::*q, TURN turn)
 {
-    const std::size_t before = now.complaints.size();
+    const std::size_t before = now.complaint_count;
     const long double factor = factor_of(by), cut = ROOT_OF_2 * COARSE;
     int32_t fixed3_t::*const part[3] = {&fixed3_t::x, &fixed3_t::y, &fixed3_t::z};
     long double pair[3], whole[3];
@@ -332,7 +346,7 @@ void axes_turned(fixed_axes_t *axes, fixed_vec_t by, fixed3_t fixed_axes_t::*p, 
         whole[i] = length_of({axes->x.*part[i], axes->y.*part[i], axes->z.*part[i]}) * factor + cut;
     }
     turn(axes, by);
-    if (now.complaints.size() == before) {
+    if (now.complaint_count == before) {
         for (int i = 0; i < 3; i++) {
             has_length({axes->*p.*part[i], axes->*q.*part[i]}, pair[i]);
             has_length({axes->x.*part[i], axes->y.*part[i], axes->z.*part[i]}, whole[i]);
@@ -373,9 +387,9 @@ static ranged::shares_t shares_of_length(fixed3_t v)
 /* Each part is a sum of products of two threes of numbers: Cauchy's inequality. */
 static fixed3_t fixed_axes_times(const fixed_axes_t *e, fixed3_t v)
 {
-    const std::size_t before = now.complaints.size();
+    const std::size_t before = now.complaint_count;
     const fixed3_t result = text_axes_times(e, v);
-    if (now.complaints.size() == before) {
+    if (now.complaint_count == before) {
         int32_t fixed3_t::*const part[3] = {&fixed3_t::x, &fixed3_t::y, &fixed3_t::z};
         const ranged::shares_t shares = shares_of_length(v);
         for (auto p : part) {
@@ -400,7 +414,7 @@ template <class TURN>
 void sym3_turned(fixed_sym3_t *m, fixed_vec_t by, int32_t fixed_sym3_t::*aa, int32_t fixed_sym3_t::*ab,
                  int32_t fixed_sym3_t::*bb, int32_t fixed_sym3_t::*ar, int32_t fixed_sym3_t::*br, TURN turn)
 {
-    const std::size_t before = now.complaints.size();
+    const std::size_t before = now.complaint_count;
     const long double factor = factor_of(by), square = factor * factor;
     const long double twice = std::sqrt(1.0L + 4.0L * square * (square - 1.0L)) + 12.0L / ONE_Q30;
     const long double cut = 12.0L;
@@ -408,7 +422,7 @@ void sym3_turned(fixed_sym3_t *m, fixed_vec_t by, int32_t fixed_sym3_t::*aa, int
     const long double pair = length_of({m->*ar, m->*br}) * factor + ROOT_OF_2 * COARSE;
     const long double whole = length_of_sym3(*m) * std::max(factor, twice) + 24.0L;
     turn(m, by);
-    if (now.complaints.size() == before) {
+    if (now.complaint_count == before) {
         has_length({m->*aa, m->*ab, m->*ab, m->*bb}, block);
         has_length({m->*ar, m->*br}, pair);
         has_length({m->xx, m->xy, m->xy, m->xz, m->xz, m->yy, m->yz, m->yz, m->zz}, whole);
@@ -458,9 +472,9 @@ int32_t any_overload_softened(int32_t yields_q14, int32_t entry_q24, OVERLOAD *o
 template <class LINK, class REST, class BENT, class NOTED>
 void any_bend_link(const LINK *link, const REST *rest, fixed3_t turn, int32_t twists_q27, BENT *bent, NOTED *noted)
 {
-    const std::size_t before = now.complaints.size();
+    const std::size_t before = now.complaint_count;
     text_bend_link(link, rest, turn, twists_q27, bent, noted);
-    if (now.complaints.size() == before) {
+    if (now.complaint_count == before) {
         const long double share = ranged::size_of(link->end_share_q30) / ONE_Q30;
         const long double turned_y = share * (ranged::size_of(turn.y) / 0x1p29L) + 8.0L / ONE_Q30;
         const long double turned_z = share * (ranged::size_of(turn.z) / 0x1p29L) + 8.0L / ONE_Q30;
@@ -481,6 +495,9 @@ static int32_t any_over_second_step(int32_t second_by_first, uint32_t first2)
     const std::int32_t exact =
         now.is_exact ? (plain::over_second_step)(by, static_cast<std::uint32_t>(exact_of(first2))) : 0;
     PROVE(ranged::size_of(second_by_first) <= 0x1p30L, "steps' products are within their proof's range");
+    if (ranged::size_of(second_by_first) > 0x1p30L) {
+        return given(-WORD_MOST - 1, WORD_MOST, &exact);
+    }
     return given(PART_OF(29, 0.5), PART_OF(29, 2.001), &exact);
 }
 
@@ -528,8 +545,6 @@ struct sample_t {
 static const sample_t *sample;
 static const std::int32_t zero = 0;
 #define GIVEN(least, most, place) given(least, most, sample == nullptr ? &zero : &sample->place)
-
-constexpr wide_t WORD_MOST = (wide_t{1} << 31) - 1;
 
 /* What the collapse's last look lets through (fixed_space/kept.h). */
 #define ANY_LINK(link)                                                                                                 \

@@ -114,6 +114,7 @@ struct number_t {
     bool is_minus;
     std::size_t sign_as;     /* a number of the same sign (zero counts as positive), or of the other one */
     bool is_other_sign;
+    std::size_t top_as;      /* a number with the same highest bit */
     multiple_t multiple[2];  /* a product is one of either factor */
     shares_t shares;
     int right;               /* made_by right: bits; right of 64 unsigned bits that may be negative: whole below that */
@@ -134,6 +135,7 @@ public:
     std::map<std::vector<std::size_t>, long double> lengths;
     std::vector<std::pair<std::string, std::string>> complaints; /* place, and the first that was found there */
     std::set<std::string> places;
+    std::size_t complaint_count = 0;
     wide_t noted_limit = 0;
     bool is_exact = false;
     std::vector<std::size_t> broken; /* single numbers that break what is known of them */
@@ -195,6 +197,7 @@ public:
         if (is_exact) {
             return;
         }
+        complaint_count++;
         const std::string place = where();
         if (places.insert(place).second) {
             complaints.emplace_back(place, what);
@@ -235,7 +238,7 @@ public:
         }
         const std::size_t id = numbers.size();
         const multiple_t itself{id, 1.0L, 0.0L};
-        numbers.push_back({made_by, kind, range, from, with, id, false, id, false, {itself, itself}, {}, 0, kind.bits, none, 0});
+        numbers.push_back({made_by, kind, range, from, with, id, false, id, false, id, {itself, itself}, {}, 0, kind.bits, none, 0});
         keys.push_back(key);
         return id;
     }
@@ -300,6 +303,7 @@ public:
         numbers[made].is_other_sign = numbers[id].is_other_sign != is_minus;
         keep_multiples(made, id, 1.0L, 0.0L);
         if (!is_minus) {
+            numbers[made].top_as = numbers[id].top_as;
             numbers[made].zeros_of = numbers[id].zeros_of;
             numbers[made].zeros_more = numbers[id].zeros_more;
         }
@@ -427,6 +431,7 @@ public:
     {
         if (!is_sure && !in_ways) {
             complain("a comparison that is open");
+            first_of_way = numbers.size(); /* what follows tells nothing of what is before: it is one way of two */
         } else if (!is_sure) {
             const std::size_t at = decided.size();
             answer = at < to_decide.size() ? to_decide[at] : false;
@@ -609,7 +614,7 @@ template <class B> range_t bits_of_shift(const B &by, int limit)
     }
     if (range.least < 0 || range.most >= limit) {
         now.complain("a shift out of range: " + machine::text_of(range));
-        range = {std::clamp<wide_t>(range.least, 0, limit - 1), std::clamp<wide_t>(range.most, 0, limit - 1)};
+        range = {0, limit - 1};
     }
     return range;
 }
@@ -661,7 +666,7 @@ A operator<<(const A &a, const B &by)
     if constexpr (a_word<B>) { /* by its own leading zeros */
         const number_t &n = now.numbers[by.id];
         if (A::kind.bits == 32 && n.zeros_of != none && !now.is_exact && p.least > 0 && n.zeros_more <= 0 &&
-            now.numbers[n.zeros_of].size_as == now.numbers[a.id].size_as) {
+            now.numbers[n.zeros_of].top_as == now.numbers[a.id].top_as) {
             const int top = A::kind.bits + n.zeros_more;
             range = {std::max(range.least, wide_t{1} << (top - 1)), std::min(range.most, (wide_t{1} << top) - 1)};
         }
@@ -680,10 +685,10 @@ auto operator/(const A &a, const B &b)
     using W = sum_t<A, B>;
     const W x(a), y(b);
     const range_t p = W::kind.is_signed ? x.range() : now.settled(x.id);
-    range_t q = W::kind.is_signed ? y.range() : now.settled(y.id);
+    const range_t q = W::kind.is_signed ? y.range() : now.settled(y.id);
     if (q.least <= 0) {
         now.complain("a divisor that may not be positive: " + machine::text_of(q));
-        q = {1, std::max(q.most, wide_t{1})};
+        return W::of(now.make(made_by_t::other, W::kind, all_of(W::kind)));
     }
     const wide_t corner[] = {p.least / q.least, p.least / q.most, p.most / q.least, p.most / q.most};
     return W::of(now.make(made_by_t::other, W::kind,
@@ -734,8 +739,7 @@ auto operator|(const A &a, const B &b)
     }
     const std::size_t made = now.make(made_by_t::other, W::kind, range, x.id, y.id);
     if (q.least == 1 && q.most == 1 && p.least > 0) { /* `| 1u` leaves leading zeros as they are */
-        now.numbers[made].size_as = now.numbers[x.id].size_as;
-        now.numbers[made].is_minus = now.numbers[x.id].is_minus;
+        now.numbers[made].top_as = now.numbers[x.id].top_as;
     }
     return W::of(made);
 }
@@ -856,10 +860,10 @@ bool operator!=(const A &a, const B &b)
 template <a_word A> i32 leading_zeros_of(const A &number)
 {
     const u32 word(number);
-    range_t range = now.settled(word.id);
+    const range_t range = now.settled(word.id);
     if (range.least <= 0) {
         now.complain("leading zeros of what may be zero: " + machine::text_of(range));
-        range = {1, std::max(range.most, wide_t{1})};
+        return i32::of(now.make(made_by_t::other, i32::kind, all_of(i32::kind)));
     }
     const int least = __builtin_clz(static_cast<unsigned>(range.most));
     const int most = __builtin_clz(static_cast<unsigned>(range.least));

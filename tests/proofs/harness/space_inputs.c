@@ -21,11 +21,6 @@ static void is_collapsed(const brace_loaded_space_fixed_t *limb)
     ASSUME(limb->femur.weight_q31 >= 0 && limb->tibia.weight_q31 >= 0 && is_weight_kept(limb));
 }
 
-static int64_t size_of_word(int32_t number)
-{
-    return number < 0 ? -(int64_t)number : number;
-}
-
 static void inputs(void)
 {
     brace_loaded_space_fixed_t limb;
@@ -44,10 +39,10 @@ static void inputs(void)
     PROVE(rest.turn_shift <= 31u && rest.spring_shift <= 31u && yields->turn_shift == rest.turn_shift, "shifts");
     PROVE(is_in(in.down_q30.x, DOWN_MOST_Q30) && is_in(in.down_q30.y, DOWN_MOST_Q30) &&
               is_in(in.down_q30.z, DOWN_MOST_Q30), "the weight's direction");
-    const int64_t force = size_of_word(in.tip_q30.x) + size_of_word(in.tip_q30.y) + size_of_word(in.tip_q30.z);
+    PROVE(is_in(in.tip_q30.x, 1 << 30) && is_in(in.tip_q30.y, 1 << 30) && is_in(in.tip_q30.z, 1 << 30),
+          "the force is below its unit");
     PROVE(in.weights.beyond_coxa_q30 >= 0 && in.weights.beyond_femur_q30 >= 0 && in.weights.femur_q30 >= 0 &&
               in.weights.tibia_q30 >= 0, "weights pull");
-    PROVE(2 * force + 3 * (int64_t)in.weights.beyond_coxa_q30 <= (1LL << 31) + 8192, "the loads are below their unit");
     PROVE(is_in(rest.force_exponent, 60), "the unit of force is a float's");
 }
 
