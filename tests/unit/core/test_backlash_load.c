@@ -104,6 +104,8 @@ static void a_first_sample_is_the_load_and_proves_nothing(void)
     ASSERT_CLOSE(1500.0, joint.slow_n_mm, 0.0);
     ASSERT_CLOSE(1500.0, joint.torque_n_mm, 0.0);
     TEST_ASSERT_TRUE(backlash_load_off_n_mm(&joint) > 8000.0f); /* as wide as any torque */
+    TEST_ASSERT_EQUAL_UINT32(0, joint.positive_us);
+    TEST_ASSERT_EQUAL_UINT32(0, joint.negative_us);
     TEST_ASSERT_EQUAL_INT(0, backlash_load_proven(&joint));
     const brace_backlash_sample_t sample = sample_of(0.3, 1500.0);
     TEST_ASSERT_EQUAL_INT(0, backlash_load_told(&joint, &sample, 0.7f));
@@ -389,6 +391,8 @@ static void only_a_fault_forgets_where_the_link_is(void)
         motor_rad += i < 200 ? 1e-4 : 0.0;
         const brace_backlash_out_t out = tick_at(motor_rad, i < 400 ? 2500.0 : 2500.0 - 12.0 * (i - 400));
         TEST_ASSERT_NOT_EQUAL(BRACE_BACKLASH_FAULT, out.state);
+        ASSERT_CLOSE(-0.5 * (double)(joint.play_high_rad + joint.play_low_rad), out.offset_rad, 1e-8);
+        ASSERT_CLOSE(0.5 * (double)(joint.play_high_rad - joint.play_low_rad), out.offset_off_rad, 1e-8);
         states += (int)out.state != last ? 1 : 0;
         last = (int)out.state;
         if (i > 110) { /* the motor has gone through the gap of 10 mrad, so the link lies at its end */

@@ -2,6 +2,7 @@
  * long. Frames of process data go out where nobody is answered. */
 #include <stdio.h>
 
+#include "brace/can_frames.h"
 #include "can_bench.h"
 #include "modbus_master.h"
 #include "wire/wire.h"
@@ -9,17 +10,23 @@
 
 enum { LINE_SILENT_TICKS = 2, DATA_WAIT_MOST_TICKS = 16 };
 
-static void start(uint32_t data_hz)
+static void start_at(uint32_t stiffness_hz, uint32_t posture_hz, uint32_t load_hz)
 {
     brace_parameters_t p = bench_parameters();
     p.controller.modbus_address = UNIT;
-    p.controller.stiffness_hz = p.controller.posture_hz = data_hz;
-    p.controller.load_hz = 0;
+    p.controller.stiffness_hz = stiffness_hz;
+    p.controller.posture_hz = posture_hz;
+    p.controller.load_hz = load_hz;
     p.controller.heartbeat_hz = 1;
     bench_start(&p);
     const uint8_t opens[] = {'O', '\r'};
     TEST_ASSERT_EQUAL(2, brace_fake_bytes_arrive(&fake, BRACE_SERIAL_SLCAN, opens, 2));
     ticks(50);
+}
+
+static void start(uint32_t data_hz)
+{
+    start_at(data_hz, data_hz, 0);
 }
 
 void setUp(void)
@@ -200,6 +207,54 @@ static void test_process_data_count(void)
     TEST_ASSERT_INT_WITHIN(4, 2 * 200 / 10, snapshots);
 }
 
+/* In a second each frame leaves as often as its rate says, whatever the others' rates are. */
+static void test_each_frame_at_its_rate(void)
+{
+    enum { STIFFNESS_HZ = 10, POSTURE_HZ = 20, LOAD_HZ = 40, IDS = 0x800 }; /* the first frame is not the most frequent */
+    static const struct {
+        uint32_t id;
+        int hz;
+    } frames[] = {
+#define stiffness_hz STIFFNESS_HZ
+#define posture_hz POSTURE_HZ
+#define load_hz LOAD_HZ
+#define ROW(ID, name, rate) {ID, rate},
+        BRACE_CAN_PROCESS(ROW)
+#undef ROW
+#undef load_hz
+#undef posture_hz
+#undef stiffness_hz
+    };
+    static uint32_t count[IDS];
+    int with_each[3] = {0};
+    memset(count, 0, sizeof count);
+    start_at(STIFFNESS_HZ, POSTURE_HZ, LOAD_HZ);
+    empty_the_ports();
+    for (int i = 0; i < 1000; i++) {
+        brace_can_frame_t frame;
+        ticks(1);
+        while (brace_fake_frame_take(&fake, &frame)) {
+            TEST_ASSERT_LESS_THAN(IDS, frame.id);
+            count[frame.id]++;
+        }
+        empty_the_ports();
+    }
+    for (uint32_t i = 0; i < sizeof frames / sizeof *frames; i++) {
+        const int is = (int)count[frames[i].id + NODE];
+        int wanted = 0; /* the parts of a message have one identifier */
+        for (uint32_t part = 0; part < sizeof frames / sizeof *frames; part++) {
+            wanted += frames[part].id == frames[i].id ? frames[part].hz : 0;
+        }
+        if (frames[i].id == (uint32_t)BRACE_CAN_ID_SPACE || frames[i].id == (uint32_t)BRACE_CAN_ID_LOAD_ACROSS) {
+            TEST_ASSERT_EQUAL(0, is); /* of limbs with a coxa joint */
+        } else {
+            TEST_ASSERT_INT_WITHIN(wanted / frames[i].hz, wanted, is);
+            with_each[frames[i].hz == STIFFNESS_HZ ? 0 : frames[i].hz == POSTURE_HZ ? 1 : 2]++;
+        }
+    }
+    TEST_ASSERT_TRUE(with_each[0] > 0 && with_each[1] > 0 && with_each[2] > 0);
+}
+
 /* Their periods are worked out anew for another set, at one port in a tick. */
 static void test_another_set_counts_once_at_each_port(void)
 {
@@ -231,6 +286,7 @@ int main(void)
     RUN_TEST(test_what_all_ports_do_adds_up);
     RUN_TEST(test_an_answer_that_is_late);
     RUN_TEST(test_process_data_count);
+    RUN_TEST(test_each_frame_at_its_rate);
     RUN_TEST(test_another_set_counts_once_at_each_port);
     RUN_TEST(test_answers_go_first_for_a_while);
     return UNITY_END();
