@@ -546,33 +546,33 @@ static const sample_t *sample;
 static const std::int32_t zero = 0;
 #define GIVEN(least, most, place) given(least, most, sample == nullptr ? &zero : &sample->place)
 
-/* What the collapse's last look lets through (fixed_space/kept.h). */
+/* What the collapse's last look lets through (fixed_space/space_kept.h). */
 #define ANY_LINK(link)                                                                                                 \
     fixed_link3_t                                                                                                      \
     {                                                                                                                  \
-        .length_q28 = GIVEN(0, LENGTHS_MOST_Q28, limb.link.length_q28),                                            \
-        .twelfth_q28 = GIVEN(0, LENGTHS_MOST_Q28 / 12 + 2, limb.link.twelfth_q28),                                   \
+        .length_q28 = GIVEN(0, LENGTHS_MOST_Q28, limb.link.length_q28),                                                \
+        .twelfth_q28 = GIVEN(0, LENGTHS_MOST_Q28 / 12 + 2, limb.link.twelfth_q28),                                     \
         .along_q30 = {GIVEN(-ALONG_MOST_Q30, ALONG_MOST_Q30, limb.link.along_q30.x),                                   \
                       GIVEN(-ALONG_MOST_Q30, ALONG_MOST_Q30, limb.link.along_q30.z)},                                  \
         .tilt_q28 = {GIVEN(-TILT_MOST, TILT_MOST, limb.link.tilt_q28.x),                                               \
                      GIVEN(-TILT_MOST, TILT_MOST, limb.link.tilt_q28.z)},                                              \
         .bow_q28 = {GIVEN(-BOW_MOST, BOW_MOST, limb.link.bow_q28.x), GIVEN(-BOW_MOST, BOW_MOST, limb.link.bow_q28.z)}, \
-        .twist_q31 = GIVEN(0, TWIST_MOST_Q31, limb.link.twist_q31),                                                         \
+        .twist_q31 = GIVEN(0, TWIST_MOST_Q31, limb.link.twist_q31),                                                    \
         .sideways_q31 = GIVEN(0, WORD_MOST, limb.link.sideways_q31),                                                   \
         .bend_q31 = GIVEN(0, WORD_MOST, limb.link.bend_q31),                                                           \
         .across_arm_q31 = GIVEN(0, WORD_MOST, limb.link.across_arm_q31),                                               \
         .sideways_arm_q31 = GIVEN(0, WORD_MOST, limb.link.sideways_arm_q31),                                           \
-        .across_spread_q31 = GIVEN(0, SPREAD_MOST_Q31, limb.link.across_spread_q31),                                         \
-        .sideways_spread_q31 = GIVEN(0, SPREAD_MOST_Q31, limb.link.sideways_spread_q31),                                     \
+        .across_spread_q31 = GIVEN(0, SPREAD_MOST_Q31, limb.link.across_spread_q31),                                   \
+        .sideways_spread_q31 = GIVEN(0, SPREAD_MOST_Q31, limb.link.sideways_spread_q31),                               \
         .stretch_q31 = GIVEN(0, WORD_MOST, limb.link.stretch_q31),                                                     \
-        .end_share_q30 = GIVEN(0, SHARE_MOST_Q30, limb.link.end_share_q30),                                                   \
+        .end_share_q30 = GIVEN(0, SHARE_MOST_Q30, limb.link.end_share_q30),                                            \
         .stretch_end_share_q30 = GIVEN(-(1 << 29), 1 << 29, limb.link.stretch_end_share_q30),                          \
         .own_share_q30 = GIVEN(0, 1 << 29, limb.link.own_share_q30),                                                   \
         .curl_q30 = GIVEN(0, 1 << 30, limb.link.curl_q30),                                                             \
-        .shortens_q30 = GIVEN(0, SHORTENS_MOST_Q30, limb.link.shortens_q30),                                                     \
+        .shortens_q30 = GIVEN(0, SHORTENS_MOST_Q30, limb.link.shortens_q30),                                           \
         .weight_q31 = GIVEN(0, WORD_MOST, limb.link.weight_q31),                                                       \
         .arm_shift = ranged::any<uint32_t>(sample == nullptr ? 0 : sample->limb.link.arm_shift,                        \
-                                           sample == nullptr ? ARM_SHIFT_MOST : sample->limb.link.arm_shift)                       \
+                                           sample == nullptr ? ARM_SHIFT_MOST : sample->limb.link.arm_shift)           \
     }
 
 constexpr wide_t TILT_MOST = wide_t{LENGTHS_MOST_Q28} * TILT_MOST_Q30 / (1 << 30) + 2;
@@ -658,14 +658,16 @@ static void run_once()
     limb.base_z_q31 = GIVEN(0, WORD_MOST, limb.base_z_q31);
 
     const wide_t one = PART_OF(30, 1.0), down = one + (one >> 10), force = force_most(), weight = weight_most();
-    const wide_t own = weight * share / SHARES[part], own_most = own_weight_most(), beyond = weight - own + WEIGHTS_APART_Q31;
+    const wide_t own = weight * share / SHARES[part], own_most = own_weight_most();
+    const wide_t beyond = weight - own + WEIGHTS_APART_Q31;
     fixed_inputs3_t in = {
         .tip_q30 = {GIVEN(-force, force, in.tip_q30.x), GIVEN(-force, force, in.tip_q30.y),
                     GIVEN(-force, force, in.tip_q30.z)},
         .down_q30 = {GIVEN(-down, down, in.down_q30.x), GIVEN(-down, down, in.down_q30.y),
                      GIVEN(-down, down, in.down_q30.z)},
         .weights = {GIVEN(0, weight, in.weights.beyond_coxa_q30), GIVEN(0, beyond, in.weights.beyond_femur_q30),
-                    GIVEN(own, own_most, in.weights.femur_q30), GIVEN(0, beyond + WEIGHTS_APART_Q31, in.weights.tibia_q30)},
+                    GIVEN(own, own_most, in.weights.femur_q30),
+                    GIVEN(0, beyond + WEIGHTS_APART_Q31, in.weights.tibia_q30)},
         .yields = {.base_q26 = GIVEN(0, WORD_MOST, in.yields.base_q26),
                    .yaw_q26 = GIVEN(0, WORD_MOST, in.yields.yaw_q26),
                    .hip_q26 = GIVEN(0, WORD_MOST, in.yields.hip_q26),

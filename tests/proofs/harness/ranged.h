@@ -84,8 +84,8 @@ struct multiple_t {
     long double factor, off;
 };
 
-/* A number is at most so much for each of some unknown sizes, and so much more. The sizes are at least zero and their sum
- * is at most 1. */
+/* A number is at most so much for each of some unknown sizes, and so much more. The sizes are at least zero and their
+ * sum is at most 1. */
 struct shares_t {
     bool is_known = false;
     std::array<long double, 3> by{};
@@ -238,7 +238,8 @@ public:
         }
         const std::size_t id = numbers.size();
         const multiple_t itself{id, 1.0L, 0.0L};
-        numbers.push_back({made_by, kind, range, from, with, id, false, id, false, id, {itself, itself}, {}, 0, kind.bits, none, 0});
+        numbers.push_back({made_by, kind, range, from, with, id, false, id, false, id, {itself, itself}, {}, 0,
+                           kind.bits, none, 0});
         keys.push_back(key);
         return id;
     }
@@ -874,8 +875,8 @@ template <a_word A> i32 leading_zeros_of(const A &number)
 
 /* --- facts that the harness enters ---------------------------------------------------------------------------- */
 
-/* What is known of a number from elsewhere: as an assumption, or as the promise of another proof. A single number has to
- * keep it. */
+/* What is known of a number from elsewhere: as an assumption, or as the promise of another proof. A single number has
+ * to keep it. */
 template <a_word W> W within(const W &w, wide_t least, wide_t most)
 {
     range_t &range = now.numbers[w.id].range;
@@ -1089,7 +1090,7 @@ template <class RUN> void run_exactly(RUN run)
     now.is_exact = false;
 }
 
-/* Then, of the numbers from `first` to before `end`: how many lie outside the proven ranges or break what is known. */
+/* Then, of the numbers from `first` to before `end`: how many are outside the proven ranges or break what is known. */
 inline std::size_t outside(const std::map<key_t, range_t> &proven, std::size_t first, std::size_t end)
 {
     std::size_t count = 0;

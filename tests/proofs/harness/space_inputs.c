@@ -2,7 +2,7 @@
  * the second step to the rest is prolonged, from any products of steps. */
 #include "proof.h"
 #include "loaded_sizes.h"
-#include "fixed_space/kept.h"
+#include "fixed_space/space_kept.h"
 #include "fixed_space/loaded_space_fixed.c"
 
 #include "fixed/fixed_table.c"

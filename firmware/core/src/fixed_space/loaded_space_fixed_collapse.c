@@ -2,7 +2,7 @@
 #include <stdbool.h>
 
 #include "brace/loaded_space_fixed.h"
-#include "fixed_space/kept.h"
+#include "fixed_space/space_kept.h"
 #include "loaded/fixed_quantise.h"
 
 static brace_fixed_vec_t vector_of(brace_vec_t v, int32_t exponent)

@@ -1,7 +1,7 @@
 /* What a collapsed limb keeps so that no number of K under a load in space leaves its word. The collapse looks for it
  * last, in integers; the proof stands on it (tests/proofs/harness/loaded_space.cpp). */
-#ifndef BRACE_CORE_FIXED_SPACE_KEPT_H
-#define BRACE_CORE_FIXED_SPACE_KEPT_H
+#ifndef BRACE_CORE_FIXED_SPACE_SPACE_KEPT_H
+#define BRACE_CORE_FIXED_SPACE_SPACE_KEPT_H
 
 #include <stdbool.h>
 #include <stdint.h>
