@@ -461,6 +461,22 @@ static void test_K_that_no_limb_has_is_refused(void)
     }
 }
 
+/* Eigenvalues 4.12 times the largest entry apart, which no K has that a limb has: refused before a word has to hold
+ * them. The sanitized build would see the shift by a negative number. */
+static void test_eigenvalues_far_apart_are_refused(void)
+{
+    const float e = 0x1.fffffep-1f;
+    static const int negative[3][3] = {{-1, 1, 1}, {1, -1, 1}, {1, 1, -1}};
+    for (int i = 0; i < 3; i++) {
+        const brace_k3_t k = {e * (float)negative[i][0], e, e, e * (float)negative[i][1], e, e * (float)negative[i][2]};
+        brace_stiffness_spatial_t s;
+        memset(&s, 0x5a, sizeof s);
+        const brace_stiffness_spatial_t untouched = s;
+        TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, brace_loaded_space_fixed_turn(0.0f, &k, &s));
+        TEST_ASSERT_EQUAL_MEMORY(&untouched, &s, sizeof s);
+    }
+}
+
 static void test_slender_K_says_so(void)
 {
     const brace_k3_t slender = {1.0f, 0.0f, 0.0f, 1.0f, 0.0f, 3e-5f};
@@ -690,6 +706,7 @@ int main(void)
     RUN_TEST(test_each_input_has_its_range);
     RUN_TEST(test_limbs_that_do_not_yield_are_refused);
     RUN_TEST(test_K_that_no_limb_has_is_refused);
+    RUN_TEST(test_eigenvalues_far_apart_are_refused);
     RUN_TEST(test_slender_K_says_so);
     RUN_TEST(test_any_input);
     RUN_TEST(test_soft_limbs_near_their_buckling);
