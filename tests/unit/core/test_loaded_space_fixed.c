@@ -370,8 +370,8 @@ static void test_what_is_refused(void)
     TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, brace_loaded_space_fixed_in_plane(&none, &plane));
 }
 
-/* The collapse refuses a limb, whatever its load, of which a word is beyond what the proof of this path takes: here what
- * no links have, one at a time. */
+/* The collapse refuses a limb, whatever its load, of which a word is beyond what the proof of this path takes: here
+ * what no links have, one at a time. */
 static void test_what_no_link_has_is_refused_by_the_collapse(void)
 {
     brace_space_result_t result;
