@@ -94,6 +94,11 @@ def _code(text: str) -> str:
     return f"{fence}{' '.join(text.split())}{fence}".replace("|", "\\|")
 
 
+def _start(text: str) -> str:
+    """The first lines of what a harness says, in one: what there is, and where it begins."""
+    return "; ".join(text.splitlines()[:3]).replace("|", "\\|")
+
+
 COLUMNS = "| claim | functions | for | stands on | properties | seconds | verdict | run at |"
 
 
@@ -135,6 +140,6 @@ def page(
             lines += [line for line in kept_rows(earlier, name) if not line.startswith("| **")]
             continue
         for change, twin in outcome.twins:
-            said = twin.failures[0] if twin.failures else f"**not found** {twin.trouble}"
+            said = _start(twin.failures[0]) if twin.failures else f"**not found** {twin.trouble}"
             lines.append(f"| {outcome.name} | {_code(change)} | {said} |")
     return "\n".join(lines) + "\n"
