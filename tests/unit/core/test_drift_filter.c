@@ -342,6 +342,47 @@ static void test_what_is_known_wanders(void)
     }
 }
 
+/* Learning ends with the first reading behind its end that is compared with another. */
+static void test_learning_has_an_end(void)
+{
+    for (uint32_t left = 1; left <= 2u; left++) { /* the first reading of a run has none before it */
+        setUp();
+        learned_met = 0;
+        drift.steps = BRACE_DRIFT_LEARN_MOST - left;
+        run(0, 0.0f);
+        TEST_ASSERT_EQUAL(1, learned_met);
+        TEST_ASSERT_EQUAL(BRACE_DRIFT_WATCHING, drift.state);
+    }
+}
+
+/* The likeliest cause, how much of its link's or joint's stiffness is lost by what the readings say, and how sure that
+ * is; the evidence is the largest of all. */
+static void test_a_report_is_of_the_likeliest_cause(void)
+{
+    const double share[CAUSES] = {1.0, (double)drift_compliances(&believed).tibia_share, 1.0};
+    for (int cause = 0; cause < CAUSES; cause++) {
+        brace_drift_report_t told;
+        for (int c = 0; c < CAUSES; c++) {
+            drift.evidence[c] = c == cause ? 30.0f : 15.0f;
+            drift.score[c] = c == cause ? 90.0f : 4.0f;
+            drift.information[c] = 100.0f + 10.0f * (float)c;
+            drift.since[c] = (uint16_t)(7 + c);
+        }
+        for (int unexplained = 0; unexplained < 2; unexplained++) {
+            drift.evidence[CAUSES] = unexplained != 0 ? 40.0f : 1.0f;
+            TEST_ASSERT_EQUAL(BRACE_OK, brace_drift_report(&drift, &believed, &told));
+            TEST_ASSERT_EQUAL(cause, told.cause);
+            TEST_ASSERT_EQUAL_HEX32(1u << cause, told.could_be);
+            TEST_ASSERT_EQUAL_FLOAT(unexplained != 0 ? 40.0f : 30.0f, told.evidence);
+            TEST_ASSERT_EQUAL_UINT32(7 + cause, told.since_steps);
+            const double information = 100.0 + 10.0 * cause, size = 90.0 / information;
+            TEST_ASSERT_DOUBLE_WITHIN(1e-5, size / (share[cause] + size), told.loss_ratio);
+            TEST_ASSERT_DOUBLE_WITHIN(1e-5 / share[cause], 1.0 / sqrt(information) / share[cause],
+                                      told.loss_sigma_ratio);
+        }
+    }
+}
+
 /* What a number of a setup or of a reading may be: from `least` to `most`, both taken. */
 typedef struct {
     size_t at;
@@ -404,6 +445,8 @@ static void test_each_number_of_a_reading_has_its_bounds(void)
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(test_learning_has_an_end);
+    RUN_TEST(test_a_report_is_of_the_likeliest_cause);
     RUN_TEST(test_each_number_of_a_setup_has_its_bounds);
     RUN_TEST(test_each_number_of_a_reading_has_its_bounds);
     RUN_TEST(test_it_learns_and_watches_as_the_filter_does);
