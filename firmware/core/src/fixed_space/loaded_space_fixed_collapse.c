@@ -10,7 +10,6 @@ static brace_fixed_vec_t vector_of(brace_vec_t v, int32_t exponent)
 }
 
 #define ARM_SHIFT_MOST 20
-#define REFUSED_EXPONENT 100 /* of compliances that no word holds, whatever the load */
 
 /* The arm of the springs at a link's end, as a part of the unit of length: so short that they curl the link's own turns
  * by no more than one for each radian. */

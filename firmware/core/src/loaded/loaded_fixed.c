@@ -15,7 +15,7 @@
 #define REACH_HIGH_Q24 (31 << 24) /* BRACE_REACH_RAD2 */
 #define DOWN_MOST_Q30 ((1 << 30) + (1 << 20))
 #define INFINITE_BITS 0x7f800000u
-#define LEAST_TRACE_Q54 (1u << 20)
+#define LEAST_TRACE_Q54 (1 << 20)
 #define LEAST_DET_HIGH 4u         /* 3e-8 of the squared mean */
 #define SLENDER_Q32 85899u        /* BRACE_SLENDER of chain/tensor.h, 2e-5 */
 
@@ -143,33 +143,46 @@ INLINE fixed_link_t link_seen(const brace_loaded_fixed_link_t *link, const fixed
 
 /* --- C and K -------------------------------------------------------------------------------------------------- */
 
-/* C, entry by entry, as whole sums of products. */
+/* C, entry by entry, as whole sums of products. Those of one entry of the diagonal are not negative; entries wrap until
+ * they are looked at. */
 typedef struct {
-    int64_t xx, xz, zz;
+    uint64_t xx, xz, zz;
 } fixed_tensor_t;
 
-/* c (q54) += by v v', v a lever. */
+INLINE uint64_t product_of(int32_t a, int32_t b)
+{
+    return (uint64_t)((int64_t)a * b);
+}
+
+/* c (q54) += by v v', v a lever, by at least 0. */
 INLINE void add_scaled(fixed_tensor_t *c, fixed_vec_t v, int32_t by)
 {
     const fixed_vec_t product_q26 = fixed_scaled(v, by, 31);
-    c->xx += (int64_t)product_q26.x * v.x;
-    c->xz += (int64_t)product_q26.x * v.z;
-    c->zz += (int64_t)product_q26.z * v.z;
+    c->xx += product_of(product_q26.x, v.x);
+    c->xz += product_of(product_q26.x, v.z);
+    c->zz += product_of(product_q26.z, v.z);
 }
 
 /* c (q60) += v v', v a spring's vector. */
 INLINE void add_spring(fixed_tensor_t *c, fixed_vec_t v)
 {
-    c->xx += (int64_t)v.x * v.x;
-    c->xz += (int64_t)v.x * v.z;
-    c->zz += (int64_t)v.z * v.z;
+    c->xx += product_of(v.x, v.x);
+    c->xz += product_of(v.x, v.z);
+    c->zz += product_of(v.z, v.z);
+}
+
+/* Notes as lost an entry of the diagonal, q54, that reaches 256. Three of add_scaled's are below 3 256, whatever v and
+ * `by`, so that two of these and springs do not wrap beyond it. */
+INLINE void look_at(const fixed_tensor_t *c, lost_t *lost)
+{
+    *lost |= (uint32_t)(c->xx >> 32) >> 6 | (uint32_t)(c->zz >> 32) >> 6;
 }
 
 /* Levers (q28) less others times ratios (q27). */
 INLINE fixed_vec_t less_scaled(fixed_vec_t v, fixed_vec_t a, int32_t by, fixed_vec_t b, int32_t to, lost_t *lost)
 {
-    return (fixed_vec_t){wrapped_less(v.x, kept(sum2(a.x, by, b.x, to), 27, ROOM_LEVER, lost)),
-                         wrapped_less(v.z, kept(sum2(a.z, by, b.z, to), 27, ROOM_LEVER, lost))};
+    return (fixed_vec_t){kept(sum3(v.x, ONE_Q27, a.x, -by, b.x, -to), 27, ROOM_LEVER_LESS, lost),
+                         kept(sum3(v.z, ONE_Q27, a.z, -by, b.z, -to), 27, ROOM_LEVER_LESS, lost)};
 }
 
 /* As add_link of loaded.c. */
@@ -190,12 +203,12 @@ INLINE fixed_vec_t add_link(fixed_tensor_t *c, fixed_tensor_t *springs, const fi
 static brace_status_t stiffness_of(const fixed_tensor_t *c, uint32_t theta1_turn, int32_t exponent,
                                    brace_stiffness_t *stiffness)
 {
-    const uint64_t trace_as_is = (uint64_t)c->xx + (uint64_t)c->zz;
-    if (trace_as_is < LEAST_TRACE_Q54) {
+    const uint64_t trace_as_is = c->xx + c->zz;
+    if ((int64_t)trace_as_is < LEAST_TRACE_Q54) { /* 512 and more are negative */
         return BRACE_E_SINGULAR;
     }
     const uint32_t zeros = (uint32_t)__builtin_clzll(trace_as_is) - 1u;
-    const uint64_t xx = (uint64_t)c->xx << zeros, zz = (uint64_t)c->zz << zeros, xz = (uint64_t)c->xz << zeros;
+    const uint64_t xx = c->xx << zeros, zz = c->zz << zeros, xz = c->xz << zeros;
     /* det C, q60 of the unit of xx's high word: high and low words, so that the small difference of large products is
      * right to the last place */
     const int32_t xz_high = (int32_t)(uint32_t)(xz >> 32);
@@ -296,18 +309,21 @@ brace_status_t brace_loaded_fixed_stiffness(const brace_loaded_fixed_t *fixed, f
     add_scaled(&c, by_knee, kept((int64_t)in.knee * p.per_knee, 27, ROOM_COMPLIANCE, &lost));
     const fixed_vec_t beyond = {kept((int64_t)by_knee.x * p.per_knee, 27, ROOM_LEVER, &lost),
                                 kept((int64_t)by_knee.z * p.per_knee, 27, ROOM_LEVER, &lost)};
+    look_at(&c, &lost);
     if (lost >= LOST) {
         return BRACE_E_SINGULAR;
     }
     const fixed_vec_t by_hip = add_link(&c, &springs, &femur_rest, &p.femur, beyond, &lost);
     add_scaled(&c, by_hip, kept((int64_t)in.hip * p.per_hip, 27, ROOM_COMPLIANCE, &lost));
+    look_at(&c, &lost);
     if (lost >= LOST) {
         return BRACE_E_SINGULAR;
     }
     add_spring(&springs, fixed_turned_back(root_of(fixed->base_root_q31, &in), femur));
-    const int64_t even_q54 =
-        (int64_t)((fixed->base_q31 >> in.spring_shift) + limb.femur.end_q30 + limb.tibia.end_q30) << 24;
-    c.xx += (springs.xx >> 6) + even_q54, c.zz += (springs.zz >> 6) + even_q54, c.xz += springs.xz >> 6;
+    const uint64_t even_q54 =
+        (uint64_t)((fixed->base_q31 >> in.spring_shift) + limb.femur.end_q30 + limb.tibia.end_q30) << 24;
+    c.xx += (springs.xx >> 6) + even_q54, c.zz += (springs.zz >> 6) + even_q54;
+    c.xz += (uint64_t)((int64_t)springs.xz >> 6);
     const brace_status_t status =
         stiffness_of(&c, theta1_turn, in.force_exponent - fixed->length_exponent, &result->stiffness);
     if (status != BRACE_OK) {
