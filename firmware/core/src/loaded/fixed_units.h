@@ -8,14 +8,17 @@
 #include "brace/loaded_fixed.h"
 #include "fixed/fixed_word.h"
 
-/* Lengths of vectors, with what rounding adds, that of floats too. */
-#define UNIT_BEAM_MOST_Q28 ((1LL << 28) + 16)
-#define UNIT_TO_BEAM_MOST_Q28 ((int64_t)(1.41421357 * 0x1p28) + 16) /* a link tilted by a quarter turn */
+/* Lengths, and what rounding adds to that of a vector, that of floats too. A link tilted by a quarter turn is the root
+ * of two times as far from its beam as it is long. */
+#define UNIT_REACH_MOST_Q28 ((1LL << 28) + 16)
+#define UNIT_OFF_Q28 64
+#define UNIT_ROOT_OF_TWO_Q15 46341LL
 #define UNIT_ROOT_MOST_Q31 ((1LL << 31) + 1024)
 #define UNIT_WEIGHTS_OFF_Q31 256
 #define UNIT_WEIGHT_MOST_Q8 (3u << 29)
 
 /* Exponents: of a float's, and such that K and what moves are floats. */
+#define UNIT_LENGTH_EXPONENT_LEAST 1
 #define UNIT_LENGTH_EXPONENT_MOST 20
 #define UNIT_WEIGHT_EXPONENT_MOST 22
 #define UNIT_EXPONENT_MOST 90
@@ -39,8 +42,9 @@ static inline bool unit_are_roots(const brace_fixed_vec_t roots_q31[2])
 
 static inline bool unit_is_link(const brace_loaded_fixed_link_t *link)
 {
-    return unit_holds(link->length_q28, 0, UNIT_BEAM_MOST_Q28) && unit_is_shorter(link->beam_q28, UNIT_BEAM_MOST_Q28) &&
-           unit_is_shorter(link->to_beam_q28, UNIT_TO_BEAM_MOST_Q28) && unit_are_roots(link->root_root_q31) &&
+    const int64_t length_q28 = link->length_q28, to_beam_q28 = (length_q28 * UNIT_ROOT_OF_TWO_Q15) >> 15;
+    return length_q28 >= 0 && unit_is_shorter(link->beam_q28, length_q28 + UNIT_OFF_Q28) &&
+           unit_is_shorter(link->to_beam_q28, to_beam_q28 + UNIT_OFF_Q28) && unit_are_roots(link->root_root_q31) &&
            unit_are_roots(link->end_root_q31) && link->bend_q31 >= 0 && link->end_q31 >= 0;
 }
 
@@ -58,7 +62,7 @@ static inline bool unit_are_weights(const brace_loaded_fixed_t *fixed)
 
 static inline bool unit_are_exponents(const brace_loaded_fixed_t *fixed)
 {
-    return unit_holds(fixed->length_exponent, -UNIT_LENGTH_EXPONENT_MOST, UNIT_LENGTH_EXPONENT_MOST) &&
+    return unit_holds(fixed->length_exponent, UNIT_LENGTH_EXPONENT_LEAST, UNIT_LENGTH_EXPONENT_MOST) &&
            unit_holds(fixed->bend_exponent, UNIT_EXPONENT_LEAST, UNIT_EXPONENT_MOST) &&
            unit_holds(fixed->spring_exponent, UNIT_EXPONENT_LEAST, UNIT_EXPONENT_MOST) &&
            unit_holds(fixed->weight_exponent, UNIT_EXPONENT_LEAST, UNIT_WEIGHT_EXPONENT_MOST);
@@ -67,7 +71,8 @@ static inline bool unit_are_exponents(const brace_loaded_fixed_t *fixed)
 static inline bool is_within_units(const brace_loaded_fixed_t *fixed)
 {
     return unit_are_exponents(fixed) && unit_are_weights(fixed) && unit_is_link(&fixed->femur) &&
-           unit_is_link(&fixed->tibia) && fixed->base_q31 >= 0 && fixed->base_rotation_q31 >= 0 &&
+           unit_is_link(&fixed->tibia) &&
+           (int64_t)fixed->femur.length_q28 + fixed->tibia.length_q28 <= UNIT_REACH_MOST_Q28 && fixed->base_q31 >= 0 && fixed->base_rotation_q31 >= 0 &&
            unit_are_roots(fixed->base_root_q31);
 }
 

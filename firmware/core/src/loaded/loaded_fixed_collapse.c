@@ -66,6 +66,6 @@ void brace_loaded_fixed_collapse(const brace_loaded_t *loaded, brace_loaded_fixe
                                          31 + fixed->length_exponent - fixed->bend_exponent);
     fixed->weight_q8 = (uint32_t)quantised(384.0 * (double)loaded->weight_n, 0);
     if (!is_within_units(fixed)) {
-        fixed->bend_exponent = REFUSED_EXPONENT;
+        *fixed = (brace_loaded_fixed_t){.bend_exponent = REFUSED_EXPONENT};
     }
 }
