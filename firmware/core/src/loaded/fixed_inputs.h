@@ -106,8 +106,7 @@ INLINE brace_status_t inputs_of(const brace_loaded_fixed_t *limb, float theta1_r
 
 INLINE fixed_vec_t root_of(const fixed_vec_t roots_q31[2], const fixed_inputs_t *in)
 {
-    const fixed_vec_t *root = &roots_q31[in->parity];
-    return (fixed_vec_t){root->x >> in->root_shift, root->z >> in->root_shift};
+    return fixed_right(roots_q31[in->parity], in->root_shift);
 }
 
 INLINE fixed_link_t link_seen(const brace_loaded_fixed_link_t *link, const fixed_inputs_t *in,

@@ -116,6 +116,11 @@ INLINE fixed_vec_t fixed_quarter(fixed_vec_t v)
     return (fixed_vec_t){-v.z, v.x};
 }
 
+INLINE fixed_vec_t fixed_right(fixed_vec_t v, uint32_t bits)
+{
+    return (fixed_vec_t){v.x >> bits, v.z >> bits};
+}
+
 /* v times a number, its product shifted. */
 INLINE fixed_vec_t fixed_scaled(fixed_vec_t v, int32_t by, int bits)
 {
