@@ -9,10 +9,13 @@
 #define LEAST_EXPONENT (-100)   /* stands for zero: no other number's exponent is as small */
 #define REFUSED_EXPONENT 100    /* of compliances that no word holds, whatever the load */
 
-/* The least exponent whose power of two is above a magnitude. What is no number has none. */
+/* The least exponent whose power of two is above a magnitude. What is no number is refused. */
 static inline int32_t exponent_above(float value)
 {
-    if (!(fabsf(value) > 1e-30f && fabsf(value) <= FLT_MAX)) {
+    if (!(fabsf(value) <= FLT_MAX)) {
+        return REFUSED_EXPONENT;
+    }
+    if (!(fabsf(value) > 1e-30f)) {
         return LEAST_EXPONENT;
     }
     int exponent;

@@ -21,7 +21,7 @@
 #define UNIT_LENGTH_EXPONENT_LEAST 1
 #define UNIT_LENGTH_EXPONENT_MOST 20
 #define UNIT_WEIGHT_EXPONENT_MOST 22
-#define UNIT_EXPONENT_MOST 90
+#define UNIT_EXPONENT_MOST 60
 #define UNIT_EXPONENT_LEAST (-200)
 
 static inline bool unit_holds(int32_t number, int64_t least, int64_t most)
@@ -32,7 +32,7 @@ static inline bool unit_holds(int32_t number, int64_t least, int64_t most)
 static inline bool unit_is_shorter(brace_fixed_vec_t v, int64_t most)
 {
     const uint64_t square = (uint64_t)((int64_t)v.x * v.x) + (uint64_t)((int64_t)v.z * v.z);
-    return square <= (uint64_t)(most * most);
+    return square <= (uint64_t)most * (uint64_t)most;
 }
 
 static inline bool unit_are_roots(const brace_fixed_vec_t roots_q31[2])
