@@ -344,6 +344,24 @@ static void test_a_command_does_not_count_twice_or_under_a_stolen_seal(void)
     accepted_command(data);
 }
 
+/* Also what only asks takes the seal away when it comes between seal and command. */
+static void test_a_seal_is_of_the_frame_behind_it(void)
+{
+    uint8_t data[8], sealing[8], asking[8];
+    begin(WITH_SESSION);
+    make_take_up(BRACE_FEMUR, data);
+    seal(data, sealing);
+    brace_can_pack_read_entry_request(&(brace_can_read_entry_request_t){data[1] ^ 1u, 0}, asking);
+    const state_t before = state_now();
+    says(sealing);
+    says(asking);
+    says(data);
+    ticks(4);
+    nothing_came_of_it(&before, WITH_SESSION, "a question between a seal and its command", refusals_told());
+    make_take_up(BRACE_FEMUR, data);
+    accepted_command(data);
+}
+
 /* --------------------------------------------------------------------------------- signs of life -- */
 
 static void test_a_dead_operator_is_not_kept_alive(void)
@@ -590,6 +608,7 @@ int main(void)
     RUN_TEST(test_a_broadcast_moves_nothing);
     RUN_TEST(test_a_recorded_block_does_not_replay);
     RUN_TEST(test_a_command_does_not_count_twice_or_under_a_stolen_seal);
+    RUN_TEST(test_a_seal_is_of_the_frame_behind_it);
     RUN_TEST(test_a_dead_operator_is_not_kept_alive);
     RUN_TEST(test_a_session_is_not_taken_over_after_its_time);
     RUN_TEST(test_two_masters_with_the_key_take_turns);

@@ -15,6 +15,14 @@ CONFIDENT = 0.8  # an outsider named with more than this is confidently misnamed
 VISIBLE_GAP_N = 0.05  # a gap on unseen configurations below this is not scored
 STRONG, WEAK = 11.5, 6.5  # s: "12" is from STRONG on, "8" between the two
 OF_THE_RIG = ("rig_rotation", "rig_compliance")  # of a class that the answers, which know no rigs, cannot list
+# Outsiders that the tool knows by a name of their own: a class with that name in it names them.
+OWN_NAMES = {
+    "rig_turned": "rig_rotation",
+    "rig_yields": "rig_compliance",
+    "knee_offset": "knee_offset",
+    "bowed_tibia": "bowed_link",
+    "off_centre_play": "off_centre_play",
+}
 # What a trouble of the instruments may be told as, in a data fault: words of its sentence. A tip that is clamped
 # elsewhere in each run and a zero that wanders both give forces at rest that differ from run to run.
 TOLD_AS_TROUBLE = {
@@ -79,13 +87,16 @@ def judge(truth: dict[str, Any], found: dict[str, Any]) -> Judged:
     elif kind in ("disguised", "outside"):
         j.left = float(truth.get("left_by_catalogue", math.inf))
         told = _told_as_trouble(j.truth[0].split("@")[0], found)
+        named = set(said) | group
+        own = OWN_NAMES.get(j.truth[0].split("@")[0], "")
+        seen = any(label.split("@")[0] == own for label in named)
         j.flags["unknown"] = verdict == "unknown" or (verdict == "data_fault" and told)
         sure = verdict == "effect" and any(e.get("confidence", 1.0) > CONFIDENT for e in effects)
-        j.flags["misnamed"] = sure or (verdict == "data_fault" and not told)
+        j.flags["misnamed"] = (sure and not seen) or (verdict == "data_fault" and not told)
+        j.flags["seen_through"] = j.flags["unknown"] or seen
         if kind == "disguised":
             alike = set(truth["alike"])
-            named = set(said) | group
-            j.flags["seen_through"] = verdict == "unknown" or (alike <= named and set(said) <= alike | group)
+            j.flags["seen_through"] |= alike <= named and set(said) <= alike | group
     elif kind == "single":
         name, whole = truth["effects"][0]["name"], j.cls | set(real)
         j.flags["exact"] = first is not None and names[0] == name

@@ -102,6 +102,24 @@ def test_disguised() -> None:
     assert not judge(real, said("none")).flags["seen_through"]
 
 
+def test_outsiders_by_their_own_names() -> None:
+    """A class that holds the name of what is hidden names it, whatever stands beside it; another name is as wrong as
+    ever."""
+    real = {
+        **truth("disguised", "rig_turned@outside"),
+        "alike": ["sensor_rotation@sensor"],
+    }
+    own = judge(real, said("effect", "rig_rotation@rig", "gravity@gravity", confidence=0.9)).flags
+    assert own["seen_through"] and not own["misnamed"] and not own["unknown"]
+    other = judge(real, said("effect", "rig_compliance@rig", confidence=0.9)).flags
+    assert other["misnamed"] and not other["seen_through"]
+    played = judge(
+        truth("outside", "off_centre_play@outside"),
+        said("ambiguous", "off_centre_play@joint.tibia"),
+    ).flags
+    assert played["seen_through"] and not played["misnamed"]
+
+
 def test_promises_beside_what_they_brought() -> None:
     """Cases are counted in bins of the promise. A case without a played experiment or a promise does not count."""
     rows = [

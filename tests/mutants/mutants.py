@@ -24,6 +24,7 @@ from collections import Counter, defaultdict
 from collections.abc import Iterable
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import bench
 import generate
@@ -48,12 +49,18 @@ class Outcome:
     by: str = ""
 
 
-def suites_by_line() -> dict[tuple[str, int], list[str]]:
-    """Line of the firmware: the suites that run it, from ./dev coverage."""
+def read_counts() -> dict[str, dict[str, list[list[Any]]]]:
+    """What ./dev coverage has counted of each suite."""
     if not COUNTS.is_file():
         raise bench.BuildError("build/coverage/counts.json is missing; run ./dev coverage first")
+    counts: dict[str, dict[str, list[list[Any]]]] = json.loads(COUNTS.read_text())
+    return counts
+
+
+def suites_by_line() -> dict[tuple[str, int], list[str]]:
+    """Line of the firmware: the suites that run it."""
     found = defaultdict(list)
-    for suite, one in json.loads(COUNTS.read_text()).items():
+    for suite, one in read_counts().items():
         for file, line, count in one["lines"]:
             if count:
                 found[file, line].append(suite)
@@ -73,6 +80,7 @@ class Judge:
         self.bench = bench.Bench()
         self.suites = {suite.name: suite for suite in self.bench.build()}
         self.by_line = suites_by_line()
+        self.uncounted = sorted(self.suites.keys() - read_counts().keys())
         self.by_file: dict[str, set[str]] = defaultdict(set)
         for (file, _), names in self.by_line.items():
             self.by_file[file].update(names)
@@ -142,9 +150,11 @@ class Judge:
         return replace(suite, program=program)
 
     def _suites_of(self, mutant: generate.Mutant) -> Iterable[str]:
-        """Those that run its line; those that run its file, where that has changed since the lines were counted."""
+        """Those that run its line; those that run its file, where that has changed since the lines were counted; and
+        those that nobody has counted."""
         is_counted = (bench.ROOT / mutant.file).stat().st_mtime < COUNTS.stat().st_mtime
-        return self.by_line[mutant.file, mutant.line] if is_counted else self.by_file[mutant.file]
+        known = self.by_line[mutant.file, mutant.line] if is_counted else self.by_file[mutant.file]
+        return [*known, *self.uncounted]
 
     def judge(self, mutant: generate.Mutant) -> Outcome:
         """One mutant."""

@@ -1,4 +1,5 @@
-"""Claims about so few inputs that a processor goes through all: the harness, compiled for this machine and run."""
+"""Harnesses that are compiled for this machine and run: claims about so few inputs that a processor goes through all,
+in C, and claims about ranges of numbers, in C++ (harness/ranged.h)."""
 
 from __future__ import annotations
 
@@ -11,13 +12,29 @@ import time
 
 import cbmc
 
-COMPILER = os.environ.get("CC", "cc")
+# By the harness's suffix. Of ranges, places are told by the addresses of calls, so that calls stay as they are. The
+# firmware's C is not all C++: -fpermissive.
+C = (os.environ.get("CC", "cc"), "-std=gnu11")
+CXX = (os.environ.get("CXX", "c++"), "-std=gnu++20", "-fpermissive", "-w")
+PREPROCESSED = {".c": ".i", ".cpp": ".ii"}
+COMPILERS = {".c": C, ".i": C, ".cpp": CXX, ".ii": CXX}
+OPTIONS = {
+    ".i": ("-O2", "-fno-math-errno"),
+    ".ii": ("-O1", "-g", "-no-pie", "-fno-inline", "-fno-optimize-sibling-calls"),
+}
+
+
+def source_of(name: str) -> pathlib.Path:
+    """A proof's harness."""
+    harness = cbmc.ROOT / "tests" / "proofs" / "harness"
+    return next(path for suffix in PREPROCESSED if (path := harness / f"{name}{suffix}").is_file())
 
 
 def preprocess(source: pathlib.Path, into: pathlib.Path) -> pathlib.Path:
     """The harness as this machine's compiler sees it, in folder `into`."""
-    out = into / source.with_suffix(".i").name
-    _compile(["-E", *(f"-I{folder}" for folder in cbmc.INCLUDES), str(source.relative_to(cbmc.ROOT))], out)
+    out = into / source.with_suffix(PREPROCESSED[source.suffix]).name
+    include = [f"-I{folder}" for folder in cbmc.INCLUDES]
+    _compile([*COMPILERS[source.suffix], "-E", *include, str(source.relative_to(cbmc.ROOT))], out)
     return out
 
 
@@ -25,7 +42,7 @@ def check(file: pathlib.Path, seconds_most: float) -> cbmc.Verdict:
     """Run it: it says what does not hold, and where, and nothing if all holds."""
     begun = time.monotonic()
     program = file.with_suffix("")
-    _compile(["-O2", "-fno-math-errno", str(file), "-lm"], program)
+    _compile([*COMPILERS[file.suffix], *OPTIONS[file.suffix], str(file), "-lm"], program)
     try:
         done = subprocess.run(
             [str(program)], capture_output=True, text=True, timeout=seconds_most, check=False
@@ -40,7 +57,7 @@ def check(file: pathlib.Path, seconds_most: float) -> cbmc.Verdict:
 
 
 def _compile(arguments: list[str], out: pathlib.Path) -> None:
-    command = [COMPILER, "-std=gnu11", *arguments, "-o", str(out)]
+    command = [*arguments, "-o", str(out)]
     done = subprocess.run(command, cwd=cbmc.ROOT, capture_output=True, text=True, check=False)
     if done.returncode != 0:
         raise cbmc.ToolError(f"{shlex.join(command)}\n{done.stderr.strip()}")

@@ -51,7 +51,7 @@ class Proof:
     unwind: int
     unwindset: dict[str, int]
     conversions: bool
-    counted: bool  # gone through on this machine, input by input, instead of by CBMC
+    counted: bool  # run on this machine, input by input or with ranges of numbers, instead of by CBMC
     options: tuple[str, ...]
     broken: tuple[Broken, ...]
 
@@ -90,7 +90,7 @@ def program(proof: Proof, into: pathlib.Path) -> cbmc.Program:
     shutil.rmtree(into, ignore_errors=True)
     into.mkdir(parents=True)
     if proof.counted:
-        return cbmc.Program((counted.preprocess(HERE / "harness" / f"{proof.name}.c", into),), proof.unwind)
+        return cbmc.Program((counted.preprocess(counted.source_of(proof.name), into),), proof.unwind)
     sources = [HERE / "harness" / f"{proof.name}.c", *(cbmc.ROOT / source for source in proof.sources)]
     files = tuple(cbmc.preprocess(COMPILER, source, into) for source in sources)
     return cbmc.Program(files, proof.unwind, proof.unwindset, proof.conversions, proof.options)

@@ -161,13 +161,13 @@ brace_status_t brace_app_uncertainty(brace_app_t *app, brace_stiffness_sigma_t *
             continue; /* the coxa joint, where its force counts in no K */
         }
         brace_stiffness_t other;
-        if (k_if_off(controller, i, load_off_n_mm(controller, i), &other) != BRACE_OK) {
+        if (k_if_off(controller, i, load_off_n_mm(controller, i), &other) == BRACE_OK) {
+            count_span(sigma, k, &other);
+        } else {
             const float unknown = __builtin_inff();
             *sigma = (brace_stiffness_sigma_t){unknown, unknown, unknown, unknown, unknown, BRACE_UNKNOWN_AXIS_RAD,
                                                sigma->flags | (uint32_t)BRACE_FLAG_SATURATED};
-            return BRACE_OK;
         }
-        count_span(sigma, k, &other);
     }
     return BRACE_OK;
 }

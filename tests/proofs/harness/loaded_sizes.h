@@ -3,13 +3,14 @@
 #ifndef BRACE_PROOF_LOADED_SIZES_H
 #define BRACE_PROOF_LOADED_SIZES_H
 
-#define PART_OF(format, number) ((int64_t)((number) * (double)(1LL << (format))))
+#define PART_OF(format, number) ((long long)((number) * (double)(1LL << (format))))
 
 /* Turns (loaded_turns). */
 #define DIRECTION_MOST ((1LL << 30) + 2)
+#define DIRECTION_PART_MOST ((1LL << 30) - 64)
 #define SMALL_TURN_LEAST PART_OF(30, 0.999)
 #define SMALL_TURN_MOST PART_OF(30, 1.001)
-#define SMALL_ANGLE_MOST ((int32_t)PART_OF(29, 1.045))
+#define SMALL_ANGLE_MOST ((int)PART_OF(29, 1.045))
 
 /* Angles of a shape on the way, and at points of it (loaded_points). */
 #define ROOT_ANGLE_MOST PART_OF(29, 2.0)

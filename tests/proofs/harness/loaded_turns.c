@@ -12,7 +12,10 @@ static uint64_t square_of(fixed_vec_t v)
 
 static void directions_turn(uint32_t angle_turn)
 {
-    PROVE(square_of(fixed_direction(angle_turn)) <= DIRECTION_MOST * DIRECTION_MOST, "a direction lengthens nothing");
+    const fixed_vec_t by = fixed_direction(angle_turn);
+    PROVE(square_of(by) <= DIRECTION_MOST * DIRECTION_MOST, "a direction lengthens nothing");
+    PROVE(by.x <= DIRECTION_PART_MOST && by.x >= -DIRECTION_PART_MOST, "twice its part's square fits its word");
+    PROVE(by.z <= DIRECTION_PART_MOST && by.z >= -DIRECTION_PART_MOST, "and so does the other's");
 }
 
 static void small_turns(int32_t angle_q29)

@@ -319,7 +319,9 @@ def test_an_effect_of_the_catalogue_is_not_outside_it(
 def test_the_odds_of_an_outsider_lower_the_confidence(tmp_path: Path, believed: LimbModel) -> None:
     """By just their share; a lead of nothing is even odds."""
     assert Outside(0.0, "").probability == 0.5
-    assert not Outside(0.0, "").likely
+    assert not Outside(0.0, "").likely and not Outside(2.0, "", against_names=True).likely
+    assert Outside(2.5, "", against_names=True).likely, "a name that is wrong more than nine times of ten is taken back"
+    assert not Outside(5.5, "").likely, "a sound limb is called faulty at 400 to 1 only"
     record = load_record(recorded(tmp_path, believed.with_values({"joint.tibia.gap_rad": 2e-3}), 24))
     variants = all_variants(setting_of(record, believed))
     found = search_pass(record, trust_of(believed, turns=True), variants, lambda share, doing: None)

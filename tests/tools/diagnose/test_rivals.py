@@ -15,11 +15,11 @@ import pytest
 from conftest import Outcome
 from handmade import loading_record
 
-from brace.dataset import load_dataset
+from brace.dataset import Dataset, load_dataset
 from brace.diagnose.diagnosis import Diagnosis
-from brace.diagnose.loading.fit import Fit
+from brace.diagnose.loading.fit import Fit, fit
 from brace.diagnose.loading import rivals
-from brace.diagnose.loading.rivals import TURNS, _implausible, _wider
+from brace.diagnose.loading.rivals import TURNS, _fitted, _implausible, _wider
 from brace.diagnose.loading.space import space_of, trust_of
 from brace.diagnose.options import Options
 from brace.diagnose.run import diagnose
@@ -166,6 +166,52 @@ def test_a_knee_beside_the_line_gives_the_same_k(tmp_path: Path, limb: Path) -> 
     assert found.model.number("joint.tibia.zero_offset_rad") == pytest.approx(angle, abs=0.01)
 
 
+def hinged_forces(limb: LimbModel, record: Dataset, gap_rad: float, centre_rad: float) -> np.ndarray:
+    """Of two rigid links on joints that yield, in closed form: where the tip stands tells how far each joint is bent;
+    the knee's spring begins beyond its play. 2 x rows [N]"""
+    femur_mm, tibia_mm = (
+        limb.number("geometry.femur_mm"),
+        limb.number("geometry.tibia_mm"),
+    )
+    yields = [limb.number(f"joint.{joint}.compliance_rad_per_n_mm") for joint in ("femur", "tibia")]
+    femur_rad, knee_rad = record["theta1_rad"], record["theta2_rad"]
+    tip = femur_mm * np.exp(1j * femur_rad) + tibia_mm * np.exp(1j * (femur_rad - knee_rad))
+    tip = tip + record["dx_mm"] + 1j * record["dz_mm"]
+    inner = np.arccos((np.abs(tip) ** 2 - femur_mm**2 - tibia_mm**2) / (2.0 * femur_mm * tibia_mm))
+    hip_bent = np.angle(tip / (femur_mm + tibia_mm * np.exp(-1j * inner))) - femur_rad
+    knee_bent = knee_rad - inner - centre_rad
+    beyond = np.sign(knee_bent) * np.maximum(0.0, np.abs(knee_bent) - 0.5 * gap_rad)
+    torques = np.array([hip_bent / yields[0], beyond / yields[1]])
+    tibia = tibia_mm * np.exp(1j * (femur_rad + hip_bent - inner))
+    levers = np.array([[-tip.imag, tip.real], [-tibia.imag, tibia.real]])
+    return np.asarray(np.linalg.solve(levers.transpose(2, 0, 1), torques.T[:, :, None])[:, :, 0].T)
+
+
+def test_play_that_lies_to_one_side_is_no_weight(tmp_path: Path, limb: Path) -> None:
+    """What the catalogue has for it is play, with a bias or a weight that nobody hung on the limb."""
+    stiff = {f"link.{link}.{way}_mm_per_n": 1e-6 for link in ("femur", "tibia") for way in ("axial", "bending")}
+    soft = {
+        "joint.femur.compliance_rad_per_n_mm": 6e-5,
+        "joint.tibia.compliance_rad_per_n_mm": 8e-5,
+    }
+    believed = load_limb(limb).with_values(stiff | soft)
+    (tmp_path / "limb.toml").write_text(believed.to_toml([]))
+    data = load_dataset(loading_record(tmp_path / "record", tmp_path / "limb.toml", values={}))
+    forces = hinged_forces(believed, data, 4e-3, 1.6e-3) + 0.1 * np.random.default_rng(4).standard_normal(
+        (2, data.rows)
+    )
+    record = load_record(replace(data, columns={**data.columns, "fx_n": forces[0], "fz_n": forces[1]}))
+    trust = trust_of(believed, turns=True)
+    (cause,) = (one for one in RIVAL_CAUSES if one.label == "off_centre_play@joint.tibia")
+    named = [one for one in all_variants(setting_of(record, believed)) if one.label in cause.looks_like[0]]
+    space = space_of(trust, list({one.label: one for one in named}.values()))
+    chosen = fit(record, space, space.mean + 1e-3 * (space.mean == 0.0), final=False)
+    off_centre = _fitted(record, trust, chosen, cause, cause.ways[0], cause.looks_like[0])
+    assert off_centre is not None and off_centre.cost < 1.1 * record.readings < chosen.cost
+    assert off_centre.x[-2:] == pytest.approx([4e-3, 1.6e-3], rel=0.15)
+    assert off_centre.model[number_index()["joint.tibia.gap_rad"]] == off_centre.x[-2]
+
+
 def compliance_with_a_knee_beside(knee_beside_mm: float, moment_transfer: float, theta1_rad: float) -> np.ndarray:
     """Of the limb below, term by term: two joints, two stretched links, a bent tibia, and a femur whose end moves and
     turns as a uniform beam's does under force and moment, as far as it is a beam."""
@@ -201,7 +247,7 @@ def test_a_knee_beside_the_line_is_played_as_it_yields(moment_transfer: float, m
         "base.x_mm_per_n": 0.0, "base.z_mm_per_n": 0.0, "base.rotation_rad_per_n_mm": 0.0,
     }  # fmt: skip
     index, models = number_index(), model_numbers(load_limb(limb).with_values(numbers))[None].copy()
-    TURNS["knee_offset"](models, np.array([[20.0]]))
+    TURNS["knee_offset@joint.tibia"](models, np.array([[20.0]]))
     turned = ("geometry.femur_mm", "link.femur.tilt_rad")
     beside = planar_limb(load_limb(limb).with_values(numbers | {key: float(models[0, index[key]]) for key in turned}))
     shift_rad = float(models[0, index["joint.femur.zero_offset_rad"]])
@@ -252,13 +298,13 @@ def test_a_cause_stands_for_as_many_effects_as_is_likeliest(monkeypatch: pytest.
 def test_every_rival_turns_the_numbers_of_the_limb(limb: Path) -> None:
     """Rows and turns belong together, and a size of nothing changes nothing."""
     numbers = model_numbers(load_limb(limb))
-    assert set(TURNS) == {cause.name for cause in RIVAL_CAUSES}
+    assert set(TURNS) == {cause.label for cause in RIVAL_CAUSES}
     for cause in RIVAL_CAUSES:
         for way in cause.ways:
             models = numbers[None].copy()
-            TURNS[cause.name](models, np.zeros((1, len(way))))
+            TURNS[cause.label](models, np.zeros((1, len(way))))
             np.testing.assert_allclose(models[0], numbers, rtol=0, atol=1e-12)
-            TURNS[cause.name](models, np.full((1, len(way)), 0.5 * way[0].high))
+            TURNS[cause.label](models, np.full((1, len(way)), 0.5 * way[0].high))
             assert np.nanmax(np.abs(np.where(np.isfinite(numbers), models[0] - numbers, 0.0))) > 1e-3
 
 

@@ -194,6 +194,11 @@ static void expect_no_load(void)
     TEST_ASSERT_FALSE(now()->load.is_counted);
     TEST_ASSERT_TRUE(isnan(now()->load.force_x_n) && isnan(now()->load.moved_z_mm));
     TEST_ASSERT_TRUE(isnan(now()->load.buckling_factor));
+    brace_pose_t unbent; /* a load of before bends nothing any more */
+    const float theta1_rad = now()->theta_rad[BRACE_FEMUR], theta2_rad = now()->theta_rad[BRACE_TIBIA];
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_kinematics_forward(&parameters.limb, theta1_rad, theta2_rad, &unbent));
+    ASSERT_CLOSE(unbent.tip.x_mm, now()->tip_mm.x_mm, 1e-4);
+    ASSERT_CLOSE(unbent.tip.z_mm, now()->tip_mm.z_mm, 1e-4);
 }
 
 /* Near the straight knee the joints tell no force. */

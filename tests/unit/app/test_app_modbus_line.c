@@ -105,20 +105,26 @@ static void test_everybody_obeys_and_nobody_answers(void)
     TEST_ASSERT_NOT_EQUAL(BRACE_MODE_CONFIGURATION, app.controller.mode.now);
 }
 
-/* However slow the ticks are, the port has always more of an answer than the line carries until the next one: a gap of
- * one and a half characters would tear the frame. */
-static void test_an_answer_leaves_without_a_gap(void)
+/* A unit on a line of so many bits a second. */
+static void is_asked_for_sixty_values(uint32_t baud, uint32_t tick_us)
 {
-    enum { SLOW_TICK_US = 5000, BAUD = 115200, BITS = 11, WHOLE = 1 + 2 + 4 * 60 + 2 };
     brace_parameters_t p = bench_parameters();
     p.controller.modbus_address = UNIT;
-    p.controller.modbus_baud = BAUD;
-    p.controller.tick_us = SLOW_TICK_US;
+    p.controller.modbus_baud = baud;
+    p.controller.tick_us = tick_us;
     bench_start(&p);
     uint8_t ask[8] = {UNIT, 4, 0, 0, 0, 120};
     const uint32_t crc = crc_by_bits(ask, 6);
     ask[6] = (uint8_t)crc, ask[7] = (uint8_t)(crc >> 8);
     line_says(ask, sizeof ask);
+}
+
+/* However slow the ticks are, the port has always more of an answer than the line carries until the next one: a gap of
+ * one and a half characters would tear the frame. */
+static void test_an_answer_leaves_without_a_gap(void)
+{
+    enum { SLOW_TICK_US = 5000, BAUD = 115200, BITS = 11, WHOLE = 1 + 2 + 4 * 60 + 2 };
+    is_asked_for_sixty_values(BAUD, SLOW_TICK_US);
     const double a_tick = (double)SLOW_TICK_US * 1e-6 * BAUD / BITS;
     uint32_t in_port = 0;
     double on_line = 0.0;
@@ -137,15 +143,7 @@ static void test_an_answer_leaves_without_a_gap(void)
 static void test_a_tick_makes_no_more_of_an_answer_ready_than_it_needs(void)
 {
     enum { BAUD = 9600, BITS = 11, TICK_US = 1000 };
-    brace_parameters_t p = bench_parameters();
-    p.controller.modbus_address = UNIT;
-    p.controller.modbus_baud = BAUD;
-    p.controller.tick_us = TICK_US;
-    bench_start(&p);
-    uint8_t ask[8] = {UNIT, 4, 0, 0, 0, 120};
-    const uint32_t crc = crc_by_bits(ask, 6);
-    ask[6] = (uint8_t)crc, ask[7] = (uint8_t)(crc >> 8);
-    line_says(ask, sizeof ask);
+    is_asked_for_sixty_values(BAUD, TICK_US);
     uint32_t came = 0;
     for (int i = 0; i < 60 && came == 0u; i++) {
         uint8_t sink[300];

@@ -133,15 +133,20 @@ static void test_a_warm_joint_yields_more_wherever_it_is_asked(void)
     assert_told(&answer, &k);
 }
 
+static question_inputs_t inputs_of_job(void)
+{
+    return (question_inputs_t){.model = &app.controller.model,
+                               .parameters = brace_app_parameters(&app),
+                               .origin = BRACE_PARAMETERS_SLOT_A,
+                               .joints = &app.controller.joints,
+                               .down = app.controller.gravity.down};
+}
+
 /* Somebody gives up while its K is half worked out: the next one gets the K of its own question. */
 static void test_what_was_given_up_is_nobody_else_s(void)
 {
     question_job_t *job = &app.controller.question;
-    const question_inputs_t inputs = {.model = &app.controller.model,
-                                      .parameters = brace_app_parameters(&app),
-                                      .origin = BRACE_PARAMETERS_SLOT_A,
-                                      .joints = &app.controller.joints,
-                                      .down = app.controller.gravity.down};
+    const question_inputs_t inputs = inputs_of_job();
     const brace_k_question_t first = {.where = BRACE_K_AT_POSTURE, .theta_rad = {0.0f, 0.3f, 0.9f}};
     const brace_k_question_t second = {
         .where = BRACE_K_AT_POSTURE, .theta_rad = {0.0f, 0.8f, 1.2f}, .tip_force = {2.0f, 5.0f}};
@@ -166,11 +171,7 @@ static void test_what_was_given_up_is_nobody_else_s(void)
 static void test_what_was_in_work_is_forgotten_with_the_rest(void)
 {
     question_job_t *job = &app.controller.question;
-    const question_inputs_t inputs = {.model = &app.controller.model,
-                                      .parameters = brace_app_parameters(&app),
-                                      .origin = BRACE_PARAMETERS_SLOT_A,
-                                      .joints = &app.controller.joints,
-                                      .down = app.controller.gravity.down};
+    const question_inputs_t inputs = inputs_of_job();
     const brace_k_question_t first = {.where = BRACE_K_AT_POSTURE, .theta_rad = {0.0f, 0.3f, 0.9f}};
     const brace_k_question_t second = {.where = BRACE_K_AT_POSTURE, .theta_rad = {0.0f, 0.8f, 1.2f}};
     brace_k_answer_t answer;
@@ -193,11 +194,7 @@ static void test_what_was_in_work_is_forgotten_with_the_rest(void)
 static void test_an_answer_goes_to_its_asker_alone(void)
 {
     question_job_t *job = &app.controller.question;
-    const question_inputs_t inputs = {.model = &app.controller.model,
-                                      .parameters = brace_app_parameters(&app),
-                                      .origin = BRACE_PARAMETERS_SLOT_A,
-                                      .joints = &app.controller.joints,
-                                      .down = app.controller.gravity.down};
+    const question_inputs_t inputs = inputs_of_job();
     const brace_k_question_t one = {.where = BRACE_K_AT_POSTURE, .theta_rad = {0.0f, 0.3f, 0.9f}};
     const brace_k_question_t two = {.where = BRACE_K_AT_POSTURE, .theta_rad = {0.0f, 0.8f, 1.2f}};
     brace_k_answer_t answer;
@@ -294,6 +291,21 @@ static void asked_over_modbus(asks_t asks)
         ASSERT_CLOSE(k.displacement.z_mm, float_at(&told, 7), 1e-3);
         TEST_ASSERT_EQUAL_FLOAT(k.buckling_factor, float_at(&told, 8));
     }
+}
+
+/* No K is an answer, too: its registers say so, and the question stands. */
+static void test_a_force_that_folds_the_limb_has_no_K_over_Modbus(void)
+{
+    const float folds[] = {-300.0f, 0.0f, 1.0f, 1.4f};
+    uint8_t pdu[64];
+    asked_over_modbus(line_asks);
+    TEST_ASSERT_EQUAL(5, line_asks(UNIT, pdu, write_of(ASKED_POSTURE_FORCE, folds, 4, -1, pdu)).count);
+    const reply_t told = read_asks(4, LOADED, 20), asked = read_asks(3, ASKED_POSTURE_FORCE, 2);
+    for (uint32_t i = 0; i < 9u; i++) {
+        TEST_ASSERT_TRUE(isnan(float_at(&told, i)));
+    }
+    TEST_ASSERT_EQUAL_HEX32(UINT32_MAX, value_at(&told, 9));
+    TEST_ASSERT_EQUAL_FLOAT(-300.0f, float_at(&asked, 0));
 }
 
 static void test_K_under_a_force_over_the_line_and_over_TCP(void)
@@ -560,6 +572,7 @@ int main(void)
     RUN_TEST(test_a_warm_joint_yields_more_wherever_it_is_asked);
     RUN_TEST(test_without_parameters_the_answer_is_uncalibrated);
     RUN_TEST(test_a_force_that_folds_the_limb_or_is_none_is_refused);
+    RUN_TEST(test_a_force_that_folds_the_limb_has_no_K_over_Modbus);
     RUN_TEST(test_K_under_a_force_over_the_line_and_over_TCP);
     RUN_TEST(test_four_ports_that_ask_at_once_are_answered_within_nine_ticks);
     RUN_TEST(test_other_requests_are_answered_in_the_tick_that_finds_them);

@@ -60,9 +60,14 @@ static void test_a_drift_names_what_to_look_at(void)
 
 static void test_a_run_that_ends_behind_a_reading_waits_for_it(void)
 {
+    job.drift.run_count = 3;
     job.has_reading = true;
     drift_job_end_run(&job);
     TEST_ASSERT_TRUE(job.run_ends);
+    TEST_ASSERT_EQUAL(3, job.drift.run_count);
+    job.has_reading = false;
+    drift_job_end_run(&job);
+    TEST_ASSERT_EQUAL(0, job.drift.run_count);
 }
 
 /* What a limb's journal said of another set is forgotten with it: else the first record of the new one would wait for

@@ -6,6 +6,7 @@
 #include "brace/backlash.h"
 #include "brace/ranges.h"
 #include "close.h"
+#include "noise.h"
 
 enum { TICK_US = 1000 };
 #define STEP_RAD 2e-5
@@ -52,6 +53,28 @@ static void observe(double motor_rad, double torque_n_mm)
     backlash_load_observe(&joint, &sample);
 }
 
+/* The slow mean of a load that stays is as quiet as its gain says, and what is known of it narrows to that. A load that
+ * changes starts it anew from the fast one. */
+static void the_slow_mean_is_the_quiet_one(void)
+{
+    const double gain = 1.0 / 81.0, sigma = NOISE_N_MM * sqrt(gain / (2.0 - gain));
+    double squares = 0.0;
+    noise_state = 5u;
+    begin(0.0, 1000.0);
+    for (int i = 0; i < 4000; i++) {
+        observe(0.0, 1000.0 + NOISE_N_MM * noise_normal());
+        const double off = (double)joint.slow_n_mm - 1000.0;
+        squares += i >= 1000 ? off * off / 3000.0 : 0.0;
+    }
+    TEST_ASSERT_DOUBLE_WITHIN(0.4 * sigma, sigma, sqrt(squares)); /* of some forty independent ones */
+    ASSERT_CLOSE(sigma, joint.slow_spread_n_mm, 1e-3 * sigma);
+    for (int i = 0; i < 12; i++) {
+        observe(0.0, 3000.0);
+    }
+    ASSERT_CLOSE(joint.fast_n_mm, joint.slow_n_mm, 4.0 * sigma);
+    TEST_ASSERT_TRUE((double)joint.slow_spread_n_mm > 2.0 * sigma);
+}
+
 /* What has not been seen to move has no direction, whatever was there before. */
 static void a_start_has_no_direction(void)
 {
@@ -81,6 +104,8 @@ static void a_first_sample_is_the_load_and_proves_nothing(void)
     ASSERT_CLOSE(1500.0, joint.slow_n_mm, 0.0);
     ASSERT_CLOSE(1500.0, joint.torque_n_mm, 0.0);
     TEST_ASSERT_TRUE(backlash_load_off_n_mm(&joint) > 8000.0f); /* as wide as any torque */
+    TEST_ASSERT_EQUAL_UINT32(0, joint.positive_us);
+    TEST_ASSERT_EQUAL_UINT32(0, joint.negative_us);
     TEST_ASSERT_EQUAL_INT(0, backlash_load_proven(&joint));
     const brace_backlash_sample_t sample = sample_of(0.3, 1500.0);
     TEST_ASSERT_EQUAL_INT(0, backlash_load_told(&joint, &sample, 0.7f));
@@ -247,6 +272,8 @@ static void a_short_stop_leaves_the_direction_sure(void)
 static void where_the_link_may_be_in_its_gap(void)
 {
     const double half = 0.005;
+    ASSERT_CLOSE(-half, joint.play_low_rad, 1e-9); /* before anything is seen, anywhere */
+    ASSERT_CLOSE(half, joint.play_high_rad, 1e-9);
     double low = -half, high = half, motor_rad = 0.3;
     begin(motor_rad, 0.0);
     joint.play_low_rad = (float)low, joint.play_high_rad = (float)high;
@@ -333,6 +360,29 @@ static brace_backlash_out_t tick_at(double motor_rad, double torque_n_mm)
 }
 
 /* The link's place in its gap stays known in every state but FAULT. After FAULT the link may be anywhere. */
+/* Ticks until a take-up of a motor that meets nothing is given up for its time. */
+static int ticks_of_takeup(uint32_t time_max_us)
+{
+    int count = 0;
+    setUp();
+    joint.params.takeup.time_max_us = time_max_us;
+    (void)tick_at(0.0, 0.0);
+    TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_takeup_request(&joint, 1));
+    while (tick_at(0.0, 0.0).takeup == BRACE_TAKEUP_RUNNING) {
+        count++;
+    }
+    TEST_ASSERT_EQUAL_INT(BRACE_TAKEUP_E_TIME, tick_at(0.0, 0.0).takeup);
+    return count;
+}
+
+static void a_takeup_has_its_time_to_the_microsecond(void)
+{
+    const int count = ticks_of_takeup(50u * TICK_US);
+    TEST_ASSERT_EQUAL_INT(count, ticks_of_takeup(49u * TICK_US + 1u));
+    TEST_ASSERT_EQUAL_INT(count + 1, ticks_of_takeup(50u * TICK_US + 1u));
+    TEST_ASSERT_INT_WITHIN(1, 50, count);
+}
+
 static void only_a_fault_forgets_where_the_link_is(void)
 {
     int states = 0, last = -1;
@@ -341,6 +391,8 @@ static void only_a_fault_forgets_where_the_link_is(void)
         motor_rad += i < 200 ? 1e-4 : 0.0;
         const brace_backlash_out_t out = tick_at(motor_rad, i < 400 ? 2500.0 : 2500.0 - 12.0 * (i - 400));
         TEST_ASSERT_NOT_EQUAL(BRACE_BACKLASH_FAULT, out.state);
+        ASSERT_CLOSE(-0.5 * (double)(joint.play_high_rad + joint.play_low_rad), out.offset_rad, 1e-8);
+        ASSERT_CLOSE(0.5 * (double)(joint.play_high_rad - joint.play_low_rad), out.offset_off_rad, 1e-8);
         states += (int)out.state != last ? 1 : 0;
         last = (int)out.state;
         if (i > 110) { /* the motor has gone through the gap of 10 mrad, so the link lies at its end */
@@ -384,6 +436,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(a_first_sample_is_the_load_and_proves_nothing);
+    RUN_TEST(the_slow_mean_is_the_quiet_one);
     RUN_TEST(a_start_has_no_direction);
     RUN_TEST(friction_is_known_while_the_motor_turns);
     RUN_TEST(a_motor_stands_after_eight_ticks);
@@ -395,6 +448,7 @@ int main(void)
     RUN_TEST(where_the_link_may_be_in_its_gap);
     RUN_TEST(a_takeup_needs_more_torque_than_friction_hides);
     RUN_TEST(every_parameter_has_its_bounds);
+    RUN_TEST(a_takeup_has_its_time_to_the_microsecond);
     RUN_TEST(only_a_fault_forgets_where_the_link_is);
     RUN_TEST(acceleration_widens_the_doubt);
     return UNITY_END();

@@ -97,6 +97,18 @@ static void test_the_force_shifts_as_the_limb_s_own_K_does(void)
 }
 
 /* Warm joints are softer, both by the same rate; the estimate is how far that rate is off. */
+/* What the knee and the tibia yield across the tibia is the tibia's by its share; all of it, where none of it is. */
+static void test_the_tibia_s_share(void)
+{
+    be(SAMPLE_PAPER, 0.0f, 0.0f);
+    const drift_compliances_t whole = drift_compliances(&limb);
+    TEST_ASSERT_FLOAT_WITHIN(1e-6f * whole.shank_mm_per_n, limb.link[BRACE_TIBIA].bending_mm_per_n,
+                             whole.tibia_share * whole.shank_mm_per_n);
+    limb.link[BRACE_TIBIA].bending_mm_per_n = 0.0f;
+    TEST_ASSERT_EQUAL_FLOAT(1.0f, drift_compliances(&limb).tibia_share);
+    TEST_ASSERT_TRUE(drift_compliances(&limb).shank_mm_per_n > 0.0f);
+}
+
 static void test_warmth_softens_both_joints(void)
 {
     const float per_degc = 0.01f;
@@ -132,6 +144,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_the_force_shifts_as_the_limb_s_own_K_does);
+    RUN_TEST(test_the_tibia_s_share);
     RUN_TEST(test_warmth_softens_both_joints);
     return UNITY_END();
 }

@@ -5,36 +5,12 @@
 
 #pragma GCC diagnostic ignored "-Wunused-function" /* this suite does not call all functions of the headers */
 #include "fixed_space/invert.h"
+#include "fixed_words.h"
 #include "unity.h"
 
 void setUp(void) {}
 
 void tearDown(void) {}
-
-/* An emulated board has to show that its arithmetic agrees; a host plays ten times as many. */
-#ifdef __arm__
-enum { TIMES = 1 };
-#else
-enum { TIMES = 10 };
-#endif
-
-static uint32_t state = 7u;
-
-static double any(double least, double most)
-{
-    state = state * 1664525u + 1013904223u;
-    return least + (most - least) * ((double)(state >> 8) / 16777216.0);
-}
-
-static int32_t word(double number, int format)
-{
-    return (int32_t)floor(ldexp(number, format));
-}
-
-static double number(int32_t word_, int format)
-{
-    return ldexp((double)word_, -format);
-}
 
 /* --- in space: rows, levers, turns ---------------------------------------------------------------------------- */
 

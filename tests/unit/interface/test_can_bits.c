@@ -51,10 +51,33 @@ static void test_a_number_without_a_sign(void)
     }
 }
 
+/* Whole numbers have all codes of their bits: what is beyond becomes the end on its own side. */
+static void test_whole_numbers(void)
+{
+    static const struct {
+        int32_t value;
+        uint32_t code, limited;
+    } row[] = {{0, 0, 0},       {127, 0x7f, 0},        {128, 0x7f, 1},        {INT32_MAX, 0x7f, 1},
+               {-1, 0xff, 0},   {-128, 0x80, 0},       {-129, 0x80, 1},       {INT32_MIN, 0x80, 1}},
+      natural[] = {{0, 0, 0}, {255, 0xff, 0}, {256, 0xff, 1}, {INT32_MAX, 0xff, 1}};
+    for (uint32_t i = 0; i < sizeof row / sizeof row[0]; i++) {
+        limited = 0;
+        TEST_ASSERT_TRUE(brace_bits_whole(row[i].value, 24, 8, &limited) == (uint64_t)row[i].code << 24);
+        TEST_ASSERT_EQUAL_UINT32(row[i].limited, limited);
+    }
+    for (uint32_t i = 0; i < sizeof natural / sizeof natural[0]; i++) {
+        limited = 0;
+        TEST_ASSERT_TRUE(brace_bits_number((uint32_t)natural[i].value, 40, 8, &limited) ==
+                         (uint64_t)natural[i].code << 40);
+        TEST_ASSERT_EQUAL_UINT32(natural[i].limited, limited);
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_a_number_with_a_sign);
     RUN_TEST(test_a_number_without_a_sign);
+    RUN_TEST(test_whole_numbers);
     return UNITY_END();
 }

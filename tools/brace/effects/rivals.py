@@ -10,13 +10,14 @@ from dataclasses import dataclass
 ROTATION, CROSSTALK = "sensor_rotation@sensor", "sensor_crosstalk@sensor"
 FEMUR_ZERO, KNEE_ZERO = "joint_zero_offset@joint.femur", "joint_zero_offset@joint.tibia"
 LENGTHS = "link_length_error@geometry"
+BIAS, WEIGHT = "sensor_bias@sensor", "gravity@gravity"
 BASE = "base_compliance@base"
 FEMUR_LINK, TIBIA_LINK = "link_compliance_error@link.femur", "link_compliance_error@link.tibia"
 
 
 @dataclass(frozen=True)
 class Size:
-    """A number of a rival: its key in diagnosis.json (not one of limb.toml), its unit, how far a fit may turn it."""
+    """A number of a rival: its key in diagnosis.json (seldom one of limb.toml), its unit, how far a fit may turn it."""
 
     key: str
     unit: str
@@ -60,6 +61,27 @@ _YIELDS = Size("rig.mm_per_n", "mm/N", 0.0, 10.0)
 _TURNED = Size("rig.rotation_rad", "rad", -0.4, 0.4)
 _BESIDE = Size("geometry.knee_beside_femur_mm", "mm", -60.0, 60.0)
 _BOW = Size("geometry.tibia_bow_mm", "mm", -120.0, 120.0)
+
+
+def _off_centre_play(joint: str) -> RivalCause:
+    play = f"backlash@joint.{joint}"
+    return RivalCause(
+        "off_centre_play",
+        f"joint.{joint}",
+        words="play that lies to one side at rest",
+        meaning="the joint has play, and where nothing moves the tip it stands nearer to one side of it",
+        looks_like=(frozenset({play, BIAS}), frozenset({play, WEIGHT})),
+        ways=(
+            (
+                Size(f"joint.{joint}.gap_rad", "rad", 0.0, 0.5),
+                Size(f"joint.{joint}.gap_centre_rad", "rad", -0.25, 0.25),
+            ),
+        ),
+        in_limb=True,
+        same_because="a force that is there before the tip moves carries the play to one side as well",
+        would_tell="push the unloaded tip to and fro by hand and read how far the joint is free on either side",
+    )
+
 
 RIVAL_CAUSES: tuple[RivalCause, ...] = (
     RivalCause(
@@ -120,6 +142,8 @@ RIVAL_CAUSES: tuple[RivalCause, ...] = (
         same_because="a bow turns the directions in which the tibia yields, and the tip shows nothing else of it",
         would_tell="lay a straight edge along the tibia",
     ),
+    _off_centre_play("femur"),
+    _off_centre_play("tibia"),
 )
 
 _SAME_READINGS = "the readings change by the same amounts at nearly the same rows"

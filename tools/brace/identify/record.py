@@ -128,8 +128,8 @@ class Record:
             return self
         return self._played_from(replace(self.dataset, small_displacements=True))
 
-    def moved_by(self, x_mm: float, z_mm: float) -> Record:
-        """The same readings at displacements that are all larger by so much."""
+    def moved_by(self, x_mm: float | np.ndarray, z_mm: float | np.ndarray) -> Record:
+        """The same readings at displacements that are larger by so much, all alike or row by row."""
         columns = dict(self.dataset.columns)
         columns |= {"dx_mm": columns["dx_mm"] + x_mm, "dz_mm": columns["dz_mm"] + z_mm}
         return self._played_from(replace(self.dataset, columns=columns))

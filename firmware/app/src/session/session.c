@@ -55,7 +55,6 @@ static void open_for(session_t *session, brace_who_t who)
     session->is_open = true;
     session->has_hung_up = false;
     session->owner = who;
-    session->counter = session->silent_us = 0;
 }
 
 /* -------------------------------------------------------------------------------------------- seals -- */

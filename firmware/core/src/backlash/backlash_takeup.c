@@ -53,7 +53,6 @@ static void enter(brace_backlash_t *joint, const transition_t *row)
         joint->takeup_us = 0;
         joint->let_go = false;
     }
-    joint->verify_rad = joint->motor_rad;
     /* the slow mean has seen nothing but the verified load, or was started anew on it */
     joint->preload_n_mm = row->to == BRACE_TAKEUP_HOLD ? joint->slow_n_mm : 0.0f;
 }
@@ -75,8 +74,8 @@ static void move_command(brace_backlash_t *joint)
 uint32_t backlash_takeup_advance(brace_backlash_t *joint, uint32_t facts, int proven)
 {
     const transition_t *row = NULL;
-    if (joint->phase == BRACE_TAKEUP_VERIFY && joint->phase_us < joint->params.takeup.verify_us / SETTLES_PART) {
-        joint->verify_rad = joint->motor_rad;
+    if (joint->phase_us < joint->params.takeup.verify_us / SETTLES_PART) {
+        joint->verify_rad = joint->motor_rad; /* VERIFY alone asks how far the motor has moved since */
     }
     if (joint->phase != BRACE_TAKEUP_IDLE || joint->requested) {
         row = transition_find(&takeup_phases[joint->phase], facts | gathered(joint, proven), joint->phase_us);

@@ -71,6 +71,20 @@ static void test_a_takeup_goes_as_far_as_gap_and_spring(void)
     }
 }
 
+/* Whatever it was before: nothing is known of a joint that is not there. */
+static void test_a_joint_that_is_not_fitted_has_no_flank(void)
+{
+    configure();
+    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
+        joints.joint[i].fitted = false;
+        flank.joint[i].out.valid = true;
+    }
+    tick();
+    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
+        TEST_ASSERT_FALSE(flank.joint[i].out.valid);
+    }
+}
+
 /* Every joint's machine has its own joint's and drive's numbers. */
 static void test_a_machine_has_its_joint_s_numbers(void)
 {
@@ -224,6 +238,7 @@ static void test_an_old_sample_proves_nothing(void)
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(test_a_joint_that_is_not_fitted_has_no_flank);
     RUN_TEST(test_a_takeup_goes_as_far_as_gap_and_spring);
     RUN_TEST(test_a_machine_has_its_joint_s_numbers);
     RUN_TEST(test_what_has_play_and_is_watched);

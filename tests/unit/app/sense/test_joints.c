@@ -177,6 +177,16 @@ static void test_what_is_sound_is_no_absurd_link_angle(void)
     }
 }
 
+/* An answer of three numbers is written into three places. */
+static void test_three_joints_have_three_numbers(void)
+{
+    float around[BRACE_LINK_COUNT + 2] = {7.0f, 0.0f, 0.0f, 0.0f, 7.0f};
+    joints_link_angles(&joints, around + 1);
+    joints_temperatures(&joints, around + 1);
+    TEST_ASSERT_EQUAL_FLOAT(7.0f, around[0]);
+    TEST_ASSERT_EQUAL_FLOAT(7.0f, around[BRACE_LINK_COUNT + 1]);
+}
+
 static void test_absurd_samples_are_counted_and_grow_old(void)
 {
     static const float motor_rad[] = {101.0f, NAN, 1.0f, 1.0f, 1.0f};
@@ -246,6 +256,7 @@ int main(void)
     RUN_TEST(test_an_angle_that_no_joint_could_have_reached_is_refused_once);
     RUN_TEST(test_link_angles_are_watched_too);
     RUN_TEST(test_what_is_sound_is_no_absurd_link_angle);
+    RUN_TEST(test_three_joints_have_three_numbers);
     RUN_TEST(test_absurd_samples_are_counted_and_grow_old);
     RUN_TEST(test_a_drive_that_refuses_or_has_nothing_newer);
     RUN_TEST(test_temperatures_stand_in_for_one_another);

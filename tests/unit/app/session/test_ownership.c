@@ -41,6 +41,38 @@ static void lives(brace_who_t who)
     TEST_ASSERT_EQUAL(BRACE_OK, session_life(&ownership.session, who, NULL));
 }
 
+/* How long an owner that lives may be silent: by what goes on, and on which board. */
+static void test_the_patience_with_an_owner(void)
+{
+    static const struct {
+        brace_setting_t setting;
+        bool moves, runs, configures;
+        uint32_t limit_us;
+    } row[] = {{BRACE_SETTING_BENCH, true, true, false, SESSION_LIFE_US},
+               {BRACE_SETTING_BENCH, false, true, false, SESSION_LIFE_US},
+               {BRACE_SETTING_BENCH, true, false, false, SESSION_LIFE_US},
+               {BRACE_SETTING_BENCH, false, false, false, 0},
+               {BRACE_SETTING_BENCH, false, false, true, 0},
+               {BRACE_SETTING_GUARDED, true, true, false, SESSION_LIFE_US},
+               {BRACE_SETTING_GUARDED, true, false, true, SESSION_LIFE_US},
+               {BRACE_SETTING_GUARDED, false, true, false, SESSION_IDLE_US},
+               {BRACE_SETTING_GUARDED, false, false, false, SESSION_IDLE_US},
+               {BRACE_SETTING_GUARDED, false, true, true, SESSION_CLOSED_US},
+               {BRACE_SETTING_GUARDED, false, false, true, SESSION_CLOSED_US}};
+    for (uint32_t i = 0; i < sizeof row / sizeof *row; i++) {
+        setUp();
+        ownership.session.setting = row[i].setting;
+        ownership.session.is_open = ownership.session.is_alive = true;
+        ownership_inputs_t inputs = {.moves = row[i].moves, .runs = row[i].runs, .configures = row[i].configures,
+                                     .since_us = row[i].limit_us};
+        (void)ownership_step(&ownership, &inputs);
+        TEST_ASSERT_TRUE(ownership.session.is_open);
+        inputs.since_us = 1;
+        (void)ownership_step(&ownership, &inputs);
+        TEST_ASSERT_FALSE(ownership.session.is_open);
+    }
+}
+
 static void test_on_a_bench_it_waits_for_life_and_is_forgotten_without(void)
 {
     asks(we);
@@ -149,6 +181,7 @@ static void test_one_master_writes_until_it_has_gone(void)
     TEST_ASSERT_EQUAL(BRACE_OK, ownership_may_write(&ownership, others, true));
     (void)ownership_step(&ownership, &rests); /* CONFIGURATION has ended */
     TEST_ASSERT_EQUAL(BRACE_OK, ownership_may_write(&ownership, we, false));
+    TEST_ASSERT_EQUAL(BRACE_REFUSED_OWNED, ownership_may_write(&ownership, they, true));
 }
 
 static void test_storing_is_no_silence(void)
@@ -268,6 +301,7 @@ static void test_every_silence_is_held_as_long(void)
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(test_the_patience_with_an_owner);
     RUN_TEST(test_on_a_bench_it_waits_for_life_and_is_forgotten_without);
     RUN_TEST(test_the_first_sign_of_life_sets_it_going);
     RUN_TEST(test_a_silent_owner_is_held_counted_and_let_go_as_told);

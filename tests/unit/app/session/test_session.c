@@ -129,6 +129,7 @@ static void test_who_lives_on_may_begin_the_next_thing_on_a_bench(void)
     TEST_ASSERT_EQUAL(BRACE_OK, life(we, 0));
     TEST_ASSERT_TRUE(session_tick(&session, 1000, 0));
     TEST_ASSERT_FALSE(session.has_heard);
+    TEST_ASSERT_EQUAL_UINT32(0, session.counter);
     TEST_ASSERT_EQUAL(BRACE_REFUSED_STRANGER, command(we, 1));
 }
 
@@ -187,6 +188,7 @@ static void test_silence_ends_a_session_and_its_seals(void)
     TEST_ASSERT_TRUE(session_tick(&session, 1, SESSION_LIFE_US));
     TEST_ASSERT_FALSE(session.is_open);
     TEST_ASSERT_FALSE(session.has_challenge);
+    TEST_ASSERT_EQUAL_UINT32(0, session.silent_us);
     TEST_ASSERT_EQUAL(BRACE_REFUSED_STRANGER, session_life(&session, we, &again));
     session_challenge(&session, 54321);
     TEST_ASSERT_TRUE(challenge != session.challenge);

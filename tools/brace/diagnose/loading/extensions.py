@@ -29,7 +29,8 @@ from brace.native.plant_batch import number_index
 
 PRIOR_OUTSIDE = 0.05  # of anything outside the catalogue, against nothing missing: a tenth of what is in it
 SAME_COSINE = 0.95  # from which a change is an effect of the catalogue by another name
-MUST_LEAD = 6.0  # nats, 400 to 1, to take back what is named; below that, the odds only lower the confidence
+MUST_LEAD = 6.0  # nats, 400 to 1, to be told where nothing is missing
+TAKES_BACK = 2.2  # nats, 9 to 1, to take back what would be named; below that, the odds only lower the confidence
 PROBE_SIGMAS = 3.0  # of the whole record: how far a number is turned to see what it does
 HIDDEN = 0.02  # share of a change that must stay when all that the hypothesis turns is taken out
 LEAST_RANGE_DEGC = 0.1
@@ -39,14 +40,18 @@ OWN_LOAD = ("joint.femur", "joint.tibia", "sensor")  # parts that know their own
 
 @dataclass(frozen=True)
 class Outside:
-    """`lead` of everything outside the catalogue over the best of it, nats; `words` for what it most looks like."""
+    """`lead` of everything outside the catalogue over the best of it, nats; `words` for what it most looks like;
+    `against_names`: whether that best has effects."""
 
     lead: float
     words: str
+    against_names: bool = False
 
     @property
     def likely(self) -> bool:
-        return self.lead > MUST_LEAD
+        """Likely enough for the verdict unknown. A name that is wrong nine times of ten helps nobody; a sound limb that
+        is called faulty costs trust, so that nothing missing stands longer."""
+        return self.lead > (TAKES_BACK if self.against_names else MUST_LEAD)
 
     @property
     def probability(self) -> float:
@@ -72,7 +77,7 @@ def outside(record: Record, sets: Sequence[LabelSet], variants: Sequence[Variant
     top = float(scores.max())
     whole = top + float(np.log(np.sum(np.exp(scores - top))))
     against = score(best.best.fit, base, record.readings, record.noise_freedom) - float(np.log(best.posterior))
-    return Outside(whole - against, found[int(np.argmax(scores))][1])
+    return Outside(whole - against, found[int(np.argmax(scores))][1], against_names=bool(best.labels))
 
 
 def _score(record: Record, fitted: Fit, base: Fit, gain: float) -> float:

@@ -17,7 +17,7 @@ from brace.diagnose.loading.choose import WORTH_SAYING, LabelSet
 from brace.diagnose.loading.evidence import score
 from brace.diagnose.loading.fit import Fit, fit
 from brace.diagnose.loading.troubles.likeliest import Trouble
-from brace.identify.record import Record
+from brace.identify.record import Record, levers
 from brace.diagnose.loading.space import Space, Trust, space_of
 from brace.effects import Freedom, Variant
 from brace.effects.catalogue import NUMBER_BY_KEY
@@ -32,6 +32,7 @@ GAUGE_ON_RIG = (
     "put a dial gauge on the rig beside the tip's clamp: it moves with a rig that yields and stands still where a link "
     "does"
 )
+ENCODERS = {"femur": "enc1_rad", "tibia": "enc2_rad"}
 RARE_SIGMAS = 3.0  # of the prior on a size: so far out lies the ratio that the catalogue calls `plausible_times`
 BEAM_TURNS = 1.8  # a beam moves a point beside its end by 1.5 turns of the line to it (a force), by 2 (a moment)
 BOWED_ALONG = 0.6  # a bow of c yields along the link by 8/5 (c/L)^2 of its bending, its turned ellipsoid by (c/L)^2
@@ -71,6 +72,8 @@ class RivalSpace(Space):
     def residuals(self, record: Record, points: np.ndarray) -> np.ndarray:
         """A base that yields gives way under the limb's weight as well, a rig that yields does not: what the weight
         does to the base is added to the displacements. A gauge on the base reads the base's share of what yields."""
+        if self.turn in _PLAYS:
+            return self._with_play_off_centre(record, points)
         gauged, sinks_less = self.gauged(record), self.sinks_less_than_a_base(record)
         if not gauged and not sinks_less:
             return super().residuals(record, points)
@@ -82,6 +85,22 @@ class RivalSpace(Space):
             moved = record.moved_by(*((model[_base()] - limb[_base()]) * _down_n(limb)))
             played = moved.player.play_numbers(model[None])
             found[place] = moved.left_by(_of_base(moved, model[None], limb[None], played) if gauged else played)[0]
+        return found
+
+    def _with_play_off_centre(self, record: Record, points: np.ndarray) -> np.ndarray:
+        """A joint whose play's centre lies off its rest reads as one in the middle of its play whose tip is displaced
+        back by as much, with an encoder that stands turned by it."""
+        joint = _PLAYS[self.turn]
+        index, data, models = number_index(), record.dataset, self.models(points)
+        found = np.empty((len(points), record.measured.size))
+        for place, (model, centre_rad) in enumerate(zip(models, points[:, -1])):
+            femur_mm, tibia_mm = (float(model[index[f"geometry.{link}_mm"]]) for link in ("femur", "tibia"))
+            lever_mm = levers(femur_mm, tibia_mm, data["theta1_rad"], data["theta2_rad"])[joint]
+            moved = record.moved_by(*(-centre_rad * lever_mm))
+            played = moved.player.play_numbers(model[None])
+            if ENCODERS[joint] in record.channels:
+                played[0, record.channels.index(ENCODERS[joint])] += centre_rad
+            found[place] = moved.left_by(played)[0]
         return found
 
 
@@ -264,7 +283,7 @@ def _fitted(
     if cause.name == "bowed_link" and "link.tibia.tilt_rad" not in own:
         return None  # a bow shows as a tilt
     rest = [variant for variant in chosen.space.variants if variant.label not in disputed]
-    if TURNED_KEYS[cause.name] & {key for variant in rest for key in variant.keys}:
+    if TURNED_KEYS[cause.label] & {key for variant in rest for key in variant.keys}:
         return None  # what is fitted besides would make up for any of its sizes
     plain = space_of(trust, rest)
     space = RivalSpace(
@@ -278,7 +297,7 @@ def _fitted(
         plain.own + len(way),
         plain.stepwise,
         (*plain.variants, Variant(cause.name, cause.where, tuple(Freedom(s.key, s.low, s.high) for s in way))),
-        turn=TURNS[cause.name],
+        turn=TURNS[cause.label],
     )
     of_disputed = {key for variant in chosen.space.variants if variant.label in disputed for key in variant.keys}
     known = {key: value for key, value in zip(chosen.space.keys, chosen.x) if key not in of_disputed}
@@ -295,6 +314,8 @@ def _start(cause: RivalCause, way: Sequence[Size], chosen: Fit) -> list[float]:
     if cause.name == "rig_compliance":
         base = [max(float(model[index[f"base.{axis}_mm_per_n"]]), 1e-3) for axis in "xz"]
         return [sum(base) / 2.0] if len(way) == 1 else base
+    if cause.name == "off_centre_play":
+        return [float(model[index[f"{cause.where}.gap_rad"]]), 0.0]
     if cause.name == "knee_offset":
         return [float(model[index["geometry.femur_mm"]] * np.tan(model[index["joint.femur.zero_offset_rad"]]))]
     return [float(model[index["geometry.tibia_mm"]] * np.tan(model[index["link.tibia.tilt_rad"]]))]
@@ -363,17 +384,30 @@ def _tibia_bowed(models: np.ndarray, sizes: np.ndarray) -> None:
     models[:, index["link.tibia.axial_mm_per_n"]] += BOWED_ALONG * turned**2 * bending
 
 
+def _femur_plays(models: np.ndarray, sizes: np.ndarray) -> None:
+    models[:, number_index()["joint.femur.gap_rad"]] = sizes[:, 0]
+
+
+def _tibia_plays(models: np.ndarray, sizes: np.ndarray) -> None:
+    models[:, number_index()["joint.tibia.gap_rad"]] = sizes[:, 0]
+
+
+_PLAYS: dict[Turn, str] = {_femur_plays: "femur", _tibia_plays: "tibia"}
 TURNED_KEYS: dict[str, frozenset[str]] = {
-    "rig_compliance": frozenset({"base.x_mm_per_n", "base.z_mm_per_n"}),
-    "rig_rotation": frozenset({"joint.femur.zero_offset_rad", "sensor.rotation_rad"}),
-    "knee_offset": frozenset(
+    "rig_compliance@rig": frozenset({"base.x_mm_per_n", "base.z_mm_per_n"}),
+    "rig_rotation@rig": frozenset({"joint.femur.zero_offset_rad", "sensor.rotation_rad"}),
+    "knee_offset@joint.tibia": frozenset(
         {"geometry.femur_mm", "joint.femur.zero_offset_rad", "joint.tibia.zero_offset_rad", "link.femur.tilt_rad"}
     ),
-    "bowed_link": frozenset({"link.tibia.tilt_rad", "link.tibia.axial_mm_per_n"}),
+    "bowed_link@link.tibia": frozenset({"link.tibia.tilt_rad", "link.tibia.axial_mm_per_n"}),
+    "off_centre_play@joint.femur": frozenset({"joint.femur.gap_rad"}),
+    "off_centre_play@joint.tibia": frozenset({"joint.tibia.gap_rad"}),
 }
 TURNS: dict[str, Turn] = {
-    "rig_compliance": _rig_yields,
-    "rig_rotation": _rig_turned,
-    "knee_offset": _knee_beside,
-    "bowed_link": _tibia_bowed,
+    "rig_compliance@rig": _rig_yields,
+    "rig_rotation@rig": _rig_turned,
+    "knee_offset@joint.tibia": _knee_beside,
+    "bowed_link@link.tibia": _tibia_bowed,
+    "off_centre_play@joint.femur": _femur_plays,
+    "off_centre_play@joint.tibia": _tibia_plays,
 }

@@ -63,7 +63,6 @@ bool question_job_is_coming(question_job_t *job, brace_asker_t asker)
 
 void question_job_forget(question_job_t *job)
 {
-    drop(job);
     memset(job->slot, 0, sizeof job->slot);
 }
 

@@ -107,8 +107,10 @@ static void test_a_start_goes_on_from_the_record_and_knows_it(void)
     job.drift.state = BRACE_DRIFT_WATCHING;
     job.drift.steps = 5000;
     job.drift.evidence[1] = 7.0f;
+    job.drift.run_count = 9;
     TEST_ASSERT_TRUE(is_kept());
     start(false);
+    TEST_ASSERT_EQUAL(0, job.drift.run_count); /* the sensors were off meanwhile: its readings belong to no run */
     TEST_ASSERT_EQUAL(BRACE_DRIFT_WATCHING, job.drift.state);
     TEST_ASSERT_EQUAL(5000, job.drift.steps);
     TEST_ASSERT_EQUAL_FLOAT(7.0f, job.drift.evidence[1]);
@@ -147,6 +149,24 @@ static void test_each_set_has_its_own_records(void)
     p.limb.femur_mm = 190.0f;
     bench_start(&p);
     TEST_ASSERT_TRUE(identity != app.controller.drift.journal.identity);
+}
+
+static float widest_after(float dx_mm, float dz_mm)
+{
+    const brace_drift_reading_t reading = {.theta1_rad = 1.0f, .theta2_rad = 1.4f, .dx_mm = dx_mm, .dz_mm = dz_mm};
+    drift_job_take(&job, &reading, &now()->stiffness.engaged, false);
+    work(4);
+    return job.widest.dx_mm + job.widest.dz_mm;
+}
+
+/* What readings at a posture can show is told of the one displaced furthest, along whichever axis. */
+static void test_the_widest_reading_of_a_posture(void)
+{
+    TEST_ASSERT_EQUAL_FLOAT(1.0f, widest_after(1.0f, 0.0f));
+    TEST_ASSERT_EQUAL_FLOAT(-2.0f, widest_after(0.0f, -2.0f));
+    TEST_ASSERT_EQUAL_FLOAT(-2.0f, widest_after(1.5f, 0.0f));
+    TEST_ASSERT_EQUAL_FLOAT(-2.0f, widest_after(0.5f, 1.9f));
+    TEST_ASSERT_EQUAL_FLOAT(-3.0f, widest_after(-1.5f, -1.5f));
 }
 
 /* Nothing is written while the memory is another's, and never twice within eight ticks. */
@@ -205,6 +225,7 @@ int main(void)
     RUN_TEST(test_a_start_goes_on_from_the_record_and_knows_it);
     RUN_TEST(test_a_report_is_of_the_set_in_force);
     RUN_TEST(test_each_set_has_its_own_records);
+    RUN_TEST(test_the_widest_reading_of_a_posture);
     RUN_TEST(test_when_it_may_write);
     RUN_TEST(test_a_memory_that_fails_is_told);
     return UNITY_END();

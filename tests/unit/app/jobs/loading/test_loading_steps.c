@@ -104,6 +104,22 @@ static void test_a_force_that_is_none_on_either_axis_ends_it(void)
     }
 }
 
+/* A dwell in which no sample came leaves nothing to read: the test ends, and goes no further. */
+static void test_a_dwell_without_a_sample_ends_it(void)
+{
+    for (uint32_t step = 0; step < 2u; step++) {
+        setUp();
+        begin(&along_x);
+        test.phase = LOADING_READ;
+        test.step = step;
+        test.sums.count = 0;
+        (void)loading_work(&test, &inputs, &recorder, &reading);
+        TEST_ASSERT_EQUAL(BRACE_LOADING_E_NO_FORCE, test.result.outcome);
+        TEST_ASSERT_EQUAL(LOADING_RETURN, test.phase);
+        TEST_ASSERT_FALSE(reading.is_there);
+    }
+}
+
 static void test_the_force_may_change_by_its_bound(void)
 {
     for (int i = 0; i < 8; i++) {
@@ -458,6 +474,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_a_force_that_is_none_on_either_axis_ends_it);
+    RUN_TEST(test_a_dwell_without_a_sample_ends_it);
     RUN_TEST(test_the_force_may_change_by_its_bound);
     RUN_TEST(test_the_torque_of_either_motor_is_bounded);
     RUN_TEST(test_the_way_of_either_motor_is_bounded);

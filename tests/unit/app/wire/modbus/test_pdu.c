@@ -180,10 +180,11 @@ static void test_a_diagnosis_has_its_length(void)
 /* A request whose function has one length is refused at every other length. */
 static void test_a_request_of_another_length_is_none(void)
 {
-    static const uint8_t functions[] = {3, 4, 6};
+    static const uint8_t functions[] = {3, 4, 6, 8};
     for (uint32_t f = 0; f < sizeof functions; f++) {
         for (uint32_t length = 1; length <= 9u; length++) {
-            const uint8_t pdu[9] = {functions[f], 0, 0, 0, 1, 0, 1, 0, 1};
+            const uint8_t counter = functions[f] == 8u ? 11u : 0u, one = functions[f] == 8u ? 0u : 1u;
+            const uint8_t pdu[9] = {functions[f], 0, counter, 0, one, 0, one, 0, one};
             const reply_t reply = tcp_asks(UNIT, pdu, length);
             if (length != 5u) {
                 TEST_ASSERT_EQUAL(2, reply.count);
