@@ -222,8 +222,10 @@ static void test_an_age_is_never_negative(void)
     const brace_app_counters_t counted = counters();
     measured_take(&app, &counted, now()->taken_us - 3u, &measured);
     TEST_ASSERT_EQUAL_UINT32(0, measured.age_us);
-    measured_take(&app, &counted, now()->taken_us + 3u, &measured);
-    TEST_ASSERT_EQUAL_UINT32(3, measured.age_us);
+    for (uint32_t age_us = 0; age_us < 4u; age_us++) {
+        measured_take(&app, &counted, now()->taken_us + age_us, &measured);
+        TEST_ASSERT_EQUAL_UINT32(age_us, measured.age_us);
+    }
 }
 
 int main(void)

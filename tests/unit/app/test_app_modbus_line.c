@@ -142,7 +142,7 @@ static void test_an_answer_leaves_without_a_gap(void)
 /* What a tick works on is bounded: 48 bytes more than the line carries until the next one, and one for rounding. */
 static void test_a_tick_makes_no_more_of_an_answer_ready_than_it_needs(void)
 {
-    enum { BAUD = 9600, BITS = 11, TICK_US = 1000 };
+    enum { BAUD = 9600, BITS = 11 };
     is_asked_for_sixty_values(BAUD, TICK_US);
     uint32_t came = 0;
     for (int i = 0; i < 60 && came == 0u; i++) {

@@ -2,10 +2,12 @@
  * reading teaches, what evidence it is of, and what follows from that (docs/drift.md). */
 #include <math.h>
 #include <stdbool.h>
+#include <stddef.h>
 #include <string.h>
 
 #include "brace/chain.h"
 #include "brace/drift.h"
+#include "brace/kinematics.h"
 #include "noise.h"
 #include "sample_limbs.h"
 #include "unity.h"
@@ -340,9 +342,113 @@ static void test_what_is_known_wanders(void)
     }
 }
 
+/* Learning ends with the first reading behind its end that is compared with another. */
+static void test_learning_has_an_end(void)
+{
+    for (uint32_t left = 1; left <= 2u; left++) { /* the first reading of a run has none before it */
+        setUp();
+        learned_met = 0;
+        drift.steps = BRACE_DRIFT_LEARN_MOST - left;
+        run(0, 0.0f);
+        TEST_ASSERT_EQUAL(1, learned_met);
+        TEST_ASSERT_EQUAL(BRACE_DRIFT_WATCHING, drift.state);
+    }
+}
+
+/* The likeliest cause, how much of its link's or joint's stiffness is lost by what the readings say, and how sure that
+ * is; the evidence is the largest of all. */
+static void test_a_report_is_of_the_likeliest_cause(void)
+{
+    const double share[CAUSES] = {1.0, (double)drift_compliances(&believed).tibia_share, 1.0};
+    for (int cause = 0; cause < CAUSES; cause++) {
+        brace_drift_report_t told;
+        for (int c = 0; c < CAUSES; c++) {
+            drift.evidence[c] = c == cause ? 30.0f : 15.0f;
+            drift.score[c] = c == cause ? 90.0f : 4.0f;
+            drift.information[c] = 100.0f + 10.0f * (float)c;
+            drift.since[c] = (uint16_t)(7 + c);
+        }
+        for (int unexplained = 0; unexplained < 2; unexplained++) {
+            drift.evidence[CAUSES] = unexplained != 0 ? 40.0f : 1.0f;
+            TEST_ASSERT_EQUAL(BRACE_OK, brace_drift_report(&drift, &believed, &told));
+            TEST_ASSERT_EQUAL(cause, told.cause);
+            TEST_ASSERT_EQUAL_HEX32(1u << cause, told.could_be);
+            TEST_ASSERT_EQUAL_FLOAT(unexplained != 0 ? 40.0f : 30.0f, told.evidence);
+            TEST_ASSERT_EQUAL_UINT32(7 + cause, told.since_steps);
+            const double information = 100.0 + 10.0 * cause, size = 90.0 / information;
+            TEST_ASSERT_DOUBLE_WITHIN(1e-5, size / (share[cause] + size), told.loss_ratio);
+            TEST_ASSERT_DOUBLE_WITHIN(1e-5 / share[cause], 1.0 / sqrt(information) / share[cause],
+                                      told.loss_sigma_ratio);
+        }
+    }
+}
+
+/* What a number of a setup or of a reading may be: from `least` to `most`, both taken. */
+typedef struct {
+    size_t at;
+    float least, most;
+} bound_t;
+
+static brace_status_t learn(const void *bytes)
+{
+    brace_drift_setup_t asked;
+    memcpy(&asked, bytes, sizeof asked);
+    return brace_drift_learn(&drift, &believed, &asked);
+}
+
+static brace_status_t read(const void *bytes)
+{
+    brace_drift_reading_t asked;
+    const brace_stiffness_t k = stiffness_of(&believed, 0);
+    memcpy(&asked, bytes, sizeof asked);
+    return brace_drift_step(&drift, &believed, &k, &asked);
+}
+
+static void expect_bounds(const bound_t *bounds, int count, const void *sound, size_t size,
+                          brace_status_t (*asks)(const void *bytes))
+{
+    for (int i = 0; i < count; i++) {
+        const float values[] = {bounds[i].least, bounds[i].most, nextafterf(bounds[i].least, -1e9f),
+                                nextafterf(bounds[i].most, 1e9f), NAN, INFINITY};
+        for (int v = 0; v < 6; v++) {
+            uint8_t bytes[64];
+            memcpy(bytes, sound, size);
+            memcpy(bytes + bounds[i].at, &values[v], sizeof values[v]);
+            TEST_ASSERT_EQUAL_INT(v < 2 ? BRACE_OK : v < 4 ? BRACE_E_RANGE : BRACE_E_NOT_FINITE, asks(bytes));
+        }
+    }
+}
+
+static void test_each_number_of_a_setup_has_its_bounds(void)
+{
+    static const bound_t bounds[] = {{offsetof(brace_drift_setup_t, noise_n), 1e-45f, 1e6f},
+                                     {offsetof(brace_drift_setup_t, model_error_ratio), 0.0f, 0.1f},
+                                     {offsetof(brace_drift_setup_t, joint_compliance_per_degc), -0.1f, 0.1f},
+                                     {offsetof(brace_drift_setup_t, joint_compliance_trust_ratio), 0.0f, 1.0f}};
+    expect_bounds(bounds, 4, &setup, sizeof setup, learn);
+}
+
+static void test_each_number_of_a_reading_has_its_bounds(void)
+{
+    static const bound_t bounds[] = {
+        {offsetof(brace_drift_reading_t, theta1_rad), -BRACE_ANGLE_LIMIT_RAD, BRACE_ANGLE_LIMIT_RAD},
+        {offsetof(brace_drift_reading_t, theta2_rad), -BRACE_ANGLE_LIMIT_RAD, BRACE_ANGLE_LIMIT_RAD},
+        {offsetof(brace_drift_reading_t, dx_mm), -1e4f, 1e4f},
+        {offsetof(brace_drift_reading_t, dz_mm), -1e4f, 1e4f},
+        {offsetof(brace_drift_reading_t, fx_n), -1e6f, 1e6f},
+        {offsetof(brace_drift_reading_t, fz_n), -1e6f, 1e6f},
+        {offsetof(brace_drift_reading_t, warmer_degc), -200.0f, 200.0f}};
+    const brace_drift_reading_t sound = {postures[0][0], postures[0][1], 0.1f, 0.2f, 1.0f, 2.0f, 1.0f};
+    expect_bounds(bounds, 7, &sound, sizeof sound, read);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(test_learning_has_an_end);
+    RUN_TEST(test_a_report_is_of_the_likeliest_cause);
+    RUN_TEST(test_each_number_of_a_setup_has_its_bounds);
+    RUN_TEST(test_each_number_of_a_reading_has_its_bounds);
     RUN_TEST(test_it_learns_and_watches_as_the_filter_does);
     RUN_TEST(test_what_is_known_wanders);
     return UNITY_END();

@@ -44,9 +44,32 @@ static void test_a_block_ends_before_the_marks(void)
     TEST_ASSERT_EQUAL(BRACE_SLOT_DAMAGED, condition_of(BRACE_STORE_MARKS_AT + 4));
 }
 
+/* Of a block of ours everything is told, whether it counts or not. */
+static void test_what_a_block_of_ours_tells(void)
+{
+    for (uint32_t slot = 0; slot < 2u; slot++) {
+        brace_parameters_t set;
+        brace_store_status_t status;
+        uint32_t crc;
+        brace_fake_start(&fake);
+        brace_parameters_default(&set);
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_parameters_pack(&set, 9 + slot, fake.nvm[slot], BRACE_BLOCK_BYTES));
+        memcpy(&crc, fake.nvm[slot] + BRACE_BLOCK_BYTES - 4, 4);
+        TEST_ASSERT_EQUAL(BRACE_PARAMETERS_DEFAULT, brace_store_start(&store, &fake.hal, &set));
+        brace_store_status(&store, &status);
+        const brace_slot_report_t *told = &status.slot[slot];
+        TEST_ASSERT_EQUAL(BRACE_SLOT_NOT_COMMITTED, told->condition);
+        TEST_ASSERT_EQUAL_HEX32(BRACE_SCHEMA_HASH, told->schema_hash);
+        TEST_ASSERT_EQUAL_UINT32(9 + slot, told->sequence);
+        TEST_ASSERT_EQUAL_HEX32(crc, told->block_crc);
+        TEST_ASSERT_EQUAL_UINT32(0, told->wrong_index);
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_a_block_ends_before_the_marks);
+    RUN_TEST(test_what_a_block_of_ours_tells);
     return UNITY_END();
 }

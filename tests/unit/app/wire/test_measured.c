@@ -2,6 +2,7 @@
  * value of its own here, so that two exchanged names are noticed. */
 #include "wire/measured.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -242,6 +243,8 @@ static void test_a_drift_and_its_cause(void)
     TEST_ASSERT_EQUAL_FLOAT(34.0f, m.drift_loss_sigma_ratio);
     TEST_ASSERT_EQUAL_UINT32(35, m.drift_since_readings);
     TEST_ASSERT_EQUAL_UINT32(36, m.drift_readings);
+    report->evidence = FLT_MIN; /* however little there is */
+    TEST_ASSERT_NOT_EQUAL(BRACE_DRIFT_CAUSE_NONE, measured_drift_cause(report));
     report->evidence = 0.0f; /* no cause is told without evidence */
     m = told_of(&counters);
     TEST_ASSERT_EQUAL_UINT32(BRACE_DRIFT_CAUSE_NONE, m.drift_cause);

@@ -139,6 +139,24 @@ static void test_a_report_is_of_the_set_in_force(void)
     TEST_ASSERT_EQUAL(0, job.report.steps);
 }
 
+/* The check is set up by the limb's own numbers; a force without noise is one that nobody has measured. */
+static void test_the_check_has_the_limb_s_numbers(void)
+{
+    static brace_parameters_t p;
+    p = bench_parameters();
+    p.sensor.noise_n = 0.07f;
+    p.slow.joint_compliance_per_degc = 0.004f;
+    inputs.parameters = &p;
+    start(true);
+    TEST_ASSERT_EQUAL_FLOAT(0.07f, job.drift.setup.noise_n);
+    TEST_ASSERT_EQUAL_FLOAT(0.004f, job.drift.setup.joint_compliance_per_degc);
+    TEST_ASSERT_EQUAL_FLOAT(0.2f, job.drift.setup.joint_compliance_trust_ratio);
+    TEST_ASSERT_EQUAL_FLOAT(0.0005f, job.drift.setup.model_error_ratio);
+    p.sensor.noise_n = 0.0f;
+    start(true);
+    TEST_ASSERT_EQUAL_FLOAT(0.001f, job.drift.setup.noise_n);
+}
+
 /* The controller's own job: a record belongs to one set of parameters, whatever of it has changed. */
 static void test_each_set_has_its_own_records(void)
 {
@@ -224,6 +242,7 @@ int main(void)
     RUN_TEST(test_many_readings_are_kept);
     RUN_TEST(test_a_start_goes_on_from_the_record_and_knows_it);
     RUN_TEST(test_a_report_is_of_the_set_in_force);
+    RUN_TEST(test_the_check_has_the_limb_s_numbers);
     RUN_TEST(test_each_set_has_its_own_records);
     RUN_TEST(test_the_widest_reading_of_a_posture);
     RUN_TEST(test_when_it_may_write);

@@ -242,6 +242,21 @@ static void test_motors_that_do_not_come_there_have_three_seconds(void)
     }
 }
 
+/* They have them in each step, from when the shape stands. */
+static void test_three_seconds_in_each_step(void)
+{
+    int standing = 0;
+    begin(&along_x);
+    to_row(1);
+    while (test.phase == LOADING_MOVE && standing < 20000) { /* and the motors do not follow */
+        const float before_mm = test.along_mm;
+        tick();
+        standing = test.along_mm == before_mm ? standing + 1 : 0;
+    }
+    TEST_ASSERT_EQUAL(SERVOS_TICKS, standing);
+    TEST_ASSERT_EQUAL(LOADING_DWELL, test.phase);
+}
+
 /* A servo that does not answer is pushed by 0.3 rad at most, either way; the way of the shape comes on top. */
 static void test_a_servo_is_pushed_only_so_far(void)
 {
@@ -454,6 +469,40 @@ static void test_the_first_posture_may_be_all_zeros(void)
 }
 
 /* What cannot begin leaves everything as it was. */
+/* What a test has trimmed its motors by goes back as slowly, either joint by itself; then the test is at rest. */
+static void test_trims_go_back_at_their_pace(void)
+{
+    begin(&along_x);
+    test.phase = LOADING_RETURN;
+    test.along_mm = 0.0f;
+    test.trim_rad[0] = 0.004f, test.trim_rad[1] = -0.002f;
+    for (int i = 1; i <= 38; i++) { /* 0.1 rad/s */
+        tick();
+        TEST_ASSERT_FLOAT_WITHIN(1e-6f, 0.004f - 1e-4f * (float)i, test.trim_rad[0]);
+        TEST_ASSERT_FLOAT_WITHIN(1e-6f, i < 20 ? -0.002f + 1e-4f * (float)i : 0.0f, test.trim_rad[1]);
+        TEST_ASSERT_EQUAL(LOADING_RETURN, test.phase);
+    }
+    TEST_ASSERT_INT_WITHIN(1, 2, ticks_in(LOADING_RETURN));
+    TEST_ASSERT_EQUAL_FLOAT(0.0f, test.trim_rad[0]);
+    TEST_ASSERT_EQUAL(LOADING_IDLE, test.phase);
+}
+
+/* Only what takes longer than a tick is work; and what was read of another step is none. */
+static void test_what_counts_as_work(void)
+{
+    static const uint8_t idle[] = {LOADING_IDLE, LOADING_LISTEN, LOADING_MOVE, LOADING_DWELL, LOADING_RETURN};
+    begin(&along_x);
+    for (int i = 0; i < 5; i++) {
+        reading.is_there = true;
+        test.phase = idle[i];
+        TEST_ASSERT_FALSE(loading_work(&test, &inputs, &recorder, &reading));
+        TEST_ASSERT_FALSE(reading.is_there);
+    }
+    test.phase = LOADING_COMPARE;
+    TEST_ASSERT_TRUE(loading_work(&test, &inputs, &recorder, &reading));
+    TEST_ASSERT_EQUAL(BRACE_LOADING_DONE, test.result.outcome);
+}
+
 static void test_what_is_refused_changes_nothing(void)
 {
     starts_at(1.0f, 1.4f, BRACE_AXIS_X, 1, 0);
@@ -482,6 +531,7 @@ int main(void)
     RUN_TEST(test_the_time_runs_from_the_start);
     RUN_TEST(test_motors_that_stand_there_are_read_after_20_ms);
     RUN_TEST(test_motors_that_do_not_come_there_have_three_seconds);
+    RUN_TEST(test_three_seconds_in_each_step);
     RUN_TEST(test_a_servo_is_pushed_only_so_far);
     RUN_TEST(test_commanded_steps_wait_for_no_motor);
     RUN_TEST(test_how_near_a_motor_has_to_come);
@@ -492,6 +542,8 @@ int main(void)
     RUN_TEST(test_a_motor_has_to_rest_for_all_of_20_ms);
     RUN_TEST(test_postures_and_repeats_are_numbered);
     RUN_TEST(test_the_first_posture_may_be_all_zeros);
+    RUN_TEST(test_trims_go_back_at_their_pace);
+    RUN_TEST(test_what_counts_as_work);
     RUN_TEST(test_what_is_refused_changes_nothing);
     return UNITY_END();
 }

@@ -122,8 +122,9 @@ static void test_a_loading_test_from_its_start_to_its_rows(void)
     TEST_ASSERT_EQUAL(2, answer.fetch_row.row);
     TEST_ASSERT_EQUAL(4, answer.fetch_row.column);
     TEST_ASSERT_EQUAL_FLOAT(value, answer.fetch_row.value);
-    asked.fetch_row.row = 3;
-    refuses(BRACE_E_RANGE, 3, BRACE_REQUEST_FETCH_ROW);
+    for (asked.fetch_row.row = 3; asked.fetch_row.row < 6u; asked.fetch_row.row++) {
+        refuses(BRACE_E_RANGE, 3, BRACE_REQUEST_FETCH_ROW);
+    }
     asked.fetch_row = (brace_fetch_row_request_t){.row = 0, .column = 100};
     refuses(BRACE_E_RANGE, 3, BRACE_REQUEST_FETCH_ROW);
     takes(BRACE_REQUEST_LET_GO);
@@ -178,6 +179,8 @@ static void test_each_item_of_a_loading_test_s_result(void)
     takes(BRACE_REQUEST_LOADING_TEST_RESULT);
     asked.loading_test_result.item = items;
     refuses(BRACE_E_RANGE, items, BRACE_REQUEST_LOADING_TEST_RESULT);
+    asked.loading_test_result.item = items + 1u;
+    refuses(BRACE_E_RANGE, items, BRACE_REQUEST_LOADING_TEST_RESULT);
 }
 
 static void test_faults_are_cleared_and_what_is_left_is_told(void)
@@ -191,6 +194,8 @@ static void test_faults_are_cleared_and_what_is_left_is_told(void)
     TEST_ASSERT_EQUAL(BRACE_SETTING_BENCH, answer.clear.setting);
     asked.clear.faults = BRACE_FAULT_SENSOR_FEMUR; /* not by hand */
     refuses(BRACE_E_RANGE, 0, BRACE_REQUEST_CLEAR);
+    app.controller.faults.now = BRACE_FAULT_STORE | BRACE_FAULT_CRASHED;
+    refuses(BRACE_E_RANGE, BRACE_FAULT_STORE | BRACE_FAULT_CRASHED, BRACE_REQUEST_CLEAR);
 }
 
 static void test_each_number_of_a_drift(void)
@@ -231,8 +236,10 @@ static void test_play_and_its_take_up(void)
     TEST_ASSERT_EQUAL_FLOAT(now()->torque_n_mm[BRACE_TIBIA], answer.take_up_result.torque_n_mm);
     asked.take_up = (brace_take_up_request_t){.joint = BRACE_FEMUR, .flank = 1};
     refuses(BRACE_E_UNSUPPORTED, BRACE_MODE_TAKING_UP, BRACE_REQUEST_TAKE_UP);
-    asked.take_up_result.joint = 3;
-    refuses(BRACE_E_RANGE, 3, BRACE_REQUEST_TAKE_UP_RESULT);
+    for (uint32_t none = 3; none != 0u; none <<= 1) {
+        asked.take_up_result.joint = none;
+        refuses(BRACE_E_RANGE, none, BRACE_REQUEST_TAKE_UP_RESULT);
+    }
     takes(BRACE_REQUEST_LET_GO);
     TEST_ASSERT_EQUAL(BRACE_MODE_TAKING_UP, answer.let_go.mode);
 }
@@ -464,6 +471,8 @@ static void test_entries_are_staged_and_read(void)
     TEST_ASSERT_EQUAL_HEX32(0x1234, seal.mac);
     request.seal = NULL;
     TEST_ASSERT_EQUAL(BRACE_OK, answer_request(&request, BRACE_REQUEST_WRITE_ENTRY, &asked, &answer));
+    asked.read_entry.index = BRACE_ENTRY_MEASURED + BRACE_MEASURED_COUNT + 1u;
+    refuses(BRACE_E_RANGE, asked.read_entry.index, BRACE_REQUEST_READ_ENTRY);
     asked.read_entry.index = BRACE_ENTRY_MEASURED + BRACE_MEASURED_COUNT;
     refuses(BRACE_E_RANGE, asked.read_entry.index, BRACE_REQUEST_READ_ENTRY);
 }
@@ -554,6 +563,7 @@ static void test_a_block_of_another_dictionary_is_refused(void)
         memcpy(block + BRACE_BLOCK_BYTES - 4, &crc, sizeof crc);
         upload_block(block);
         refuses(fewer != 0 ? BRACE_E_LENGTH : BRACE_E_SCHEMA, BRACE_SCHEMA_HASH, BRACE_REQUEST_COMMIT);
+        refuses(BRACE_REFUSED_ORDER, 0, BRACE_REQUEST_COMMIT); /* it was committed, and is gone */
     }
 }
 
@@ -666,6 +676,14 @@ static void test_a_download_is_the_block(void)
     refuses(BRACE_REFUSED_ORDER, BRACE_BLOCK_BYTES / 4u, BRACE_REQUEST_DOWNLOAD_WORD);
     asked.download_word.word = 5;
     refuses(BRACE_REFUSED_ORDER, BRACE_BLOCK_BYTES / 4u, BRACE_REQUEST_DOWNLOAD_WORD);
+    for (asked.download_word.word = 0; asked.download_word.word < 3u; asked.download_word.word++) {
+        takes(BRACE_REQUEST_DOWNLOAD_WORD);
+    }
+    app.controller.snapshot[app.controller.newest].parameter_crc ^= 1u; /* another set: it has to begin anew */
+    refuses(BRACE_REFUSED_CHANGED, 3, BRACE_REQUEST_DOWNLOAD_WORD);
+    refuses(BRACE_REFUSED_ORDER, 0, BRACE_REQUEST_DOWNLOAD_WORD);
+    asked.download_word.word = 0;
+    takes(BRACE_REQUEST_DOWNLOAD_WORD);
 }
 
 int main(void)
