@@ -20,7 +20,7 @@ PREPROCESSED = {".c": ".i", ".cpp": ".ii"}
 COMPILERS = {".c": C, ".i": C, ".cpp": CXX, ".ii": CXX}
 OPTIONS = {
     ".i": ("-O2", "-fno-math-errno"),
-    ".ii": ("-O1", "-g", "-no-pie", "-fno-inline", "-fno-optimize-sibling-calls"),
+    ".ii": ("-O2", "-g", "-no-pie", "-fno-inline", "-fno-optimize-sibling-calls"),
 }
 
 

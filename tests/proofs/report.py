@@ -16,7 +16,7 @@ integers and pointers), into one formula and finds no input that breaks it. Besi
 pointer, shift, division and signed overflow on the way, and that no loop goes further than the bound says.
 
 `fixed_lengths` and `loaded_turns` are no formulas: there the firmware's text runs through all inputs, one after the
-other.
+other. Nor is `loaded_space`: there it runs with ranges of numbers (`tests/proofs/harness/ranged.h`).
 
 A proof that cannot fail proves nothing: every one is run again on code with a mistake put in, and has to find it. The
 mistakes stand at the end. What a proof takes from elsewhere stands under *stands on*: a function that has its own proof is
@@ -94,6 +94,11 @@ def _code(text: str) -> str:
     return f"{fence}{' '.join(text.split())}{fence}".replace("|", "\\|")
 
 
+def _start(text: str) -> str:
+    """The first lines of what a harness says, in one: what there is, and where it begins."""
+    return "; ".join(text.splitlines()[:3]).replace("|", "\\|")
+
+
 COLUMNS = "| claim | functions | for | stands on | properties | seconds | verdict | run at |"
 
 
@@ -135,6 +140,6 @@ def page(
             lines += [line for line in kept_rows(earlier, name) if not line.startswith("| **")]
             continue
         for change, twin in outcome.twins:
-            said = twin.failures[0] if twin.failures else f"**not found** {twin.trouble}"
+            said = _start(twin.failures[0]) if twin.failures else f"**not found** {twin.trouble}"
             lines.append(f"| {outcome.name} | {_code(change)} | {said} |")
     return "\n".join(lines) + "\n"

@@ -10,6 +10,7 @@
 #define DIRECTION_PART_MOST ((1LL << 30) - 64)
 #define SMALL_TURN_LEAST PART_OF(30, 0.999)
 #define SMALL_TURN_MOST PART_OF(30, 1.001)
+#define SMALL_SINE_MOST PART_OF(30, 0.87)
 #define SMALL_ANGLE_MOST ((int)PART_OF(29, 1.045))
 
 /* Angles of a shape on the way, and at points of it (loaded_points). */

@@ -22,6 +22,9 @@
  * that the root of the sum of their squares is at most so much; `has_length` enters such a fact, `length_of` asks for
  * one, and answers what the ranges give where there is none. Whoever enters one has to argue why.
  *
+ * Sizes together. Of some unknown sizes (a limb's lengths) only the sum is bounded. `with_shares` says of a number that
+ * it is at most so much for each of them, and so much more; sums and multiples keep that.
+ *
  * Branches. `each_way` runs what branches on numbers once for each way. Elsewhere an open comparison is a complaint.
  *
  * One number each. With `is_exact` set the same program runs on single numbers, that wrap as the machine's do. Then
@@ -75,6 +78,32 @@ inline bool is_within(range_t inner, range_t outer)
 
 enum class made_by_t { given, constant, cast, plus, less, times, left, right, magnitude, zeros, other };
 
+/* A number is another one times a factor, and off from that by so much, at most. */
+struct multiple_t {
+    std::size_t of;
+    long double factor, off;
+};
+
+/* A number is at most so much for each of some unknown sizes, and so much more. The sizes are at least zero and their
+ * sum is at most 1. */
+struct shares_t {
+    bool is_known = false;
+    std::array<long double, 3> by{};
+    long double more = 0.0L;
+
+    [[nodiscard]] long double most() const { return *std::max_element(by.begin(), by.end()) + more; }
+
+    [[nodiscard]] shares_t times(long double factor, long double cut = 0.0L) const
+    {
+        return {is_known, {by[0] * factor, by[1] * factor, by[2] * factor}, more * factor + cut};
+    }
+};
+
+inline shares_t sum_of(const shares_t &a, const shares_t &b)
+{
+    return {a.is_known && b.is_known, {a.by[0] + b.by[0], a.by[1] + b.by[1], a.by[2] + b.by[2]}, a.more + b.more};
+}
+
 /* A number that the program has made. */
 struct number_t {
     made_by_t made_by;
@@ -83,6 +112,11 @@ struct number_t {
     std::size_t from, with;  /* what it was made of */
     std::size_t size_as;     /* a number of the same magnitude, and whether of the other sign */
     bool is_minus;
+    std::size_t sign_as;     /* a number of the same sign (zero counts as positive), or of the other one */
+    bool is_other_sign;
+    std::size_t top_as;      /* a number with the same highest bit */
+    multiple_t multiple[2];  /* a product is one of either factor */
+    shares_t shares;
     int right;               /* made_by right: bits; right of 64 unsigned bits that may be negative: whole below that */
     int whole_bits;          /* how many of its lower bits are the machine's */
     std::size_t zeros_of;    /* it is the leading zeros of that number, plus zeros_more */
@@ -101,8 +135,10 @@ public:
     std::map<std::vector<std::size_t>, long double> lengths;
     std::vector<std::pair<std::string, std::string>> complaints; /* place, and the first that was found there */
     std::set<std::string> places;
+    std::size_t complaint_count = 0;
     wide_t noted_limit = 0;
     bool is_exact = false;
+    std::vector<std::size_t> broken; /* single numbers that break what is known of them */
     /* Within each_way: */
     bool in_ways = false;
     int way = 0;
@@ -118,13 +154,14 @@ public:
         lengths.clear();
         complaints.clear();
         places.clear();
+        broken.clear();
         learned.clear();
+        way = 0;
         since = 0;
         first_of_way = 0;
         for (const kind_t kind : {kind_t{32, true}, {32, false}, {64, true}, {64, false}}) {
             make(made_by_t::constant, kind, {0, 0});
         }
-        way = 0;
         in_ways = false;
         refined.clear();
     }
@@ -133,6 +170,13 @@ public:
     static std::size_t zero_of(kind_t kind)
     {
         return (kind.bits == 64 ? 2u : 0u) + (kind.is_signed ? 0u : 1u);
+    }
+
+    void keep(std::size_t id, bool does)
+    {
+        if (!does) {
+            broken.push_back(id);
+        }
     }
 
     static std::string where()
@@ -153,6 +197,7 @@ public:
         if (is_exact) {
             return;
         }
+        complaint_count++;
         const std::string place = where();
         if (places.insert(place).second) {
             complaints.emplace_back(place, what);
@@ -192,7 +237,9 @@ public:
             }
         }
         const std::size_t id = numbers.size();
-        numbers.push_back({made_by, kind, range, from, with, id, false, 0, kind.bits, none, 0});
+        const multiple_t itself{id, 1.0L, 0.0L};
+        numbers.push_back({made_by, kind, range, from, with, id, false, id, false, id, {itself, itself}, {}, 0,
+                           kind.bits, none, 0});
         keys.push_back(key);
         return id;
     }
@@ -253,10 +300,73 @@ public:
         }
         numbers[made].size_as = numbers[id].size_as;
         numbers[made].is_minus = numbers[id].is_minus != is_minus;
+        numbers[made].sign_as = numbers[id].sign_as;
+        numbers[made].is_other_sign = numbers[id].is_other_sign != is_minus;
+        keep_multiples(made, id, 1.0L, 0.0L);
         if (!is_minus) {
+            numbers[made].top_as = numbers[id].top_as;
             numbers[made].zeros_of = numbers[id].zeros_of;
             numbers[made].zeros_more = numbers[id].zeros_more;
         }
+    }
+
+    /* That `made` is `id` times a factor, and what is cut off. */
+    void keep_multiples(std::size_t made, std::size_t id, long double factor, long double cut)
+    {
+        for (int i = 0; i < 2 && numbers[made].made_by != made_by_t::other; i++) {
+            const multiple_t &m = numbers[id].multiple[i];
+            numbers[made].multiple[i] = {m.of, m.factor * factor, m.off * factor + cut};
+        }
+        if (numbers[made].made_by != made_by_t::other) {
+            numbers[made].shares = has_shares(id) ? numbers[id].shares.times(factor, cut) : shares_t{};
+        }
+    }
+
+    /* What is known of a number by shares; of one without any, its size. */
+    shares_t shares_of(std::size_t id) const
+    {
+        const range_t range = numbers[id].range;
+        const long double size = static_cast<long double>(std::max(range.most, -range.least));
+        return has_shares(id) ? numbers[id].shares : shares_t{true, {}, size};
+    }
+
+    /* Shares that come to much more than the number's size are no help. */
+    bool has_shares(std::size_t id) const
+    {
+        const range_t range = numbers[id].range;
+        const long double size = static_cast<long double>(std::max(range.most, -range.least));
+        return numbers[id].shares.is_known && numbers[id].shares.most() <= 1.1L * size;
+    }
+
+    shares_t shares_of_sum(std::size_t a, std::size_t b) const
+    {
+        const bool is_known = has_shares(a) || has_shares(b);
+        return is_known ? sum_of(shares_of(a), shares_of(b)) : shares_t{};
+    }
+
+    /* A sum of multiples of two parts of a vector: Cauchy's inequality. */
+    long double sum_most(std::size_t a, std::size_t b) const
+    {
+        long double most = 0x1p120L;
+        for (const multiple_t &m : numbers[a].multiple) {
+            for (const multiple_t &n : numbers[b].multiple) {
+                const auto fact = lengths.find({std::min(m.of, n.of), std::max(m.of, n.of)});
+                if (fact != lengths.end()) {
+                    const long double factors = std::sqrt(m.factor * m.factor + n.factor * n.factor);
+                    most = std::min(most, (fact->second * factors + m.off + n.off) * (1.0L + 0x1p-50L) + 1.0L);
+                }
+            }
+        }
+        return most;
+    }
+
+    range_t sum_range(std::size_t a, std::size_t b, range_t range) const
+    {
+        const shares_t shares = shares_of_sum(a, b);
+        const long double by_shares = shares.is_known ? shares.most() * (1.0L + 0x1p-50L) + 1.0L : 0x1p120L;
+        const long double most = is_exact ? 0x1p120L : std::min(sum_most(a, b), by_shares);
+        const wide_t whole = static_cast<wide_t>(std::min(most, 0x1p119L));
+        return most >= 0x1p119L ? range : range_t{std::max(range.least, -whole), std::min(range.most, whole)};
     }
 
     /* What a run that is not refused tells of a number, and so of those it was made of. */
@@ -322,6 +432,7 @@ public:
     {
         if (!is_sure && !in_ways) {
             complain("a comparison that is open");
+            first_of_way = numbers.size(); /* what follows tells nothing of what is before: it is one way of two */
         } else if (!is_sure) {
             const std::size_t at = decided.size();
             answer = at < to_decide.size() ? to_decide[at] : false;
@@ -333,6 +444,11 @@ public:
 };
 
 inline machine now;
+
+inline long double size_in(range_t range)
+{
+    return static_cast<long double>(std::max(range.most, -range.least));
+}
 
 /* --- words ---------------------------------------------------------------------------------------------------- */
 
@@ -412,7 +528,11 @@ auto operator+(const A &a, const B &b)
     using W = sum_t<A, B>;
     const W x(a), y(b);
     const range_t p = x.range(), q = y.range();
-    const std::size_t made = now.make(made_by_t::plus, W::kind, {p.least + q.least, p.most + q.most}, x.id, y.id);
+    const range_t range = now.sum_range(x.id, y.id, {p.least + q.least, p.most + q.most});
+    const std::size_t made = now.make(made_by_t::plus, W::kind, range, x.id, y.id);
+    if (now.numbers[made].made_by == made_by_t::plus) {
+        now.numbers[made].shares = now.shares_of_sum(x.id, y.id);
+    }
     if (q.least == 0 && q.most == 0) {
         now.keep_origin(made, x.id);
     } else if (q.least == q.most && now.numbers[x.id].zeros_of != none) {
@@ -429,7 +549,11 @@ auto operator-(const A &a, const B &b)
     using W = sum_t<A, B>;
     const W x(a), y(b);
     const range_t p = x.range(), q = y.range();
-    const std::size_t made = now.make(made_by_t::less, W::kind, {p.least - q.most, p.most - q.least}, x.id, y.id);
+    const range_t range = now.sum_range(x.id, y.id, {p.least - q.most, p.most - q.least});
+    const std::size_t made = now.make(made_by_t::less, W::kind, range, x.id, y.id);
+    if (now.numbers[made].made_by == made_by_t::less) {
+        now.numbers[made].shares = now.shares_of_sum(x.id, y.id);
+    }
     if (p.least == 0 && p.most == 0) {
         now.keep_origin(made, y.id, true);
     } else if (q.least == q.most && now.numbers[x.id].zeros_of != none) {
@@ -453,10 +577,9 @@ auto operator*(const A &a, const B &b)
     const range_t p = x.range(), q = y.range();
     const wide_t corner[] = {p.least * q.least, p.least * q.most, p.most * q.least, p.most * q.most};
     range_t range = {*std::min_element(corner, corner + 4), *std::max_element(corner, corner + 4)};
-    const number_t &m = now.numbers[x.id], &n = now.numbers[y.id];
-    if (m.size_as == n.size_as) { /* a square, or less than one */
-        range = m.is_minus == n.is_minus ? range_t{std::max(range.least, wide_t{0}), range.most}
-                                         : range_t{range.least, std::min(range.most, wide_t{0})};
+    const number_t m = now.numbers[x.id], n = now.numbers[y.id];
+    if (m.sign_as == n.sign_as && m.is_other_sign == n.is_other_sign) { /* a square, or about one */
+        range.least = std::max(range.least, wide_t{0});
     } else if (!now.is_exact) { /* of two parts of a vector: half its length's square at most */
         const auto fact = now.lengths.find({std::min(m.size_as, n.size_as), std::max(m.size_as, n.size_as)});
         if (fact != now.lengths.end() && fact->second < 0x1p50L) {
@@ -464,7 +587,16 @@ auto operator*(const A &a, const B &b)
             range = {std::max(range.least, -most), std::min(range.most, most)};
         }
     }
-    return W::of(now.make(made_by_t::times, W::kind, range, x.id, y.id));
+    const std::size_t made = now.make(made_by_t::times, W::kind, range, x.id, y.id);
+    const std::size_t of_x = m.size_as, of_y = n.size_as;
+    if (now.numbers[made].made_by == made_by_t::times) {
+        now.numbers[made].multiple[0] = {of_x, size_in(q), 0.0L};
+        now.numbers[made].multiple[1] = {of_y, size_in(p), 0.0L};
+        now.numbers[made].shares = now.has_shares(x.id)   ? m.shares.times(size_in(q))
+                                   : now.has_shares(y.id) ? n.shares.times(size_in(p))
+                                                          : shares_t{};
+    }
+    return W::of(made);
 }
 
 inline wide_t floored(wide_t number, int bits)
@@ -483,7 +615,7 @@ template <class B> range_t bits_of_shift(const B &by, int limit)
     }
     if (range.least < 0 || range.most >= limit) {
         now.complain("a shift out of range: " + machine::text_of(range));
-        range = {std::clamp<wide_t>(range.least, 0, limit - 1), std::clamp<wide_t>(range.most, 0, limit - 1)};
+        range = {0, limit - 1};
     }
     return range;
 }
@@ -511,6 +643,12 @@ A operator>>(const A &a, const B &by)
     const bool is_one_way = few == many && is_same;
     const std::size_t made = now.make(is_one_way ? made_by_t::right : made_by_t::other, A::kind, range, a.id);
     now.numbers[made].right = few;
+    if (few == many && is_same) {
+        now.keep_multiples(made, a.id, 1.0L / static_cast<long double>(wide_t{1} << few), 1.0L);
+    }
+    if (is_same && A::kind.is_signed && !n.is_other_sign) {
+        now.numbers[made].sign_as = n.sign_as;
+    }
     now.numbers[made].whole_bits = whole;
     return A::of(made);
 }
@@ -529,12 +667,16 @@ A operator<<(const A &a, const B &by)
     if constexpr (a_word<B>) { /* by its own leading zeros */
         const number_t &n = now.numbers[by.id];
         if (A::kind.bits == 32 && n.zeros_of != none && !now.is_exact && p.least > 0 && n.zeros_more <= 0 &&
-            now.numbers[n.zeros_of].size_as == now.numbers[a.id].size_as) {
+            now.numbers[n.zeros_of].top_as == now.numbers[a.id].top_as) {
             const int top = A::kind.bits + n.zeros_more;
             range = {std::max(range.least, wide_t{1} << (top - 1)), std::min(range.most, (wide_t{1} << top) - 1)};
         }
     }
-    return A::of(now.make(made_by_t::left, A::kind, range, a.id));
+    const std::size_t made = now.make(made_by_t::left, A::kind, range, a.id);
+    if (bits.least == bits.most) {
+        now.keep_multiples(made, a.id, static_cast<long double>(few), 0.0L);
+    }
+    return A::of(made);
 }
 
 template <class A, class B>
@@ -544,10 +686,10 @@ auto operator/(const A &a, const B &b)
     using W = sum_t<A, B>;
     const W x(a), y(b);
     const range_t p = W::kind.is_signed ? x.range() : now.settled(x.id);
-    range_t q = W::kind.is_signed ? y.range() : now.settled(y.id);
+    const range_t q = W::kind.is_signed ? y.range() : now.settled(y.id);
     if (q.least <= 0) {
         now.complain("a divisor that may not be positive: " + machine::text_of(q));
-        q = {1, std::max(q.most, wide_t{1})};
+        return W::of(now.make(made_by_t::other, W::kind, all_of(W::kind)));
     }
     const wide_t corner[] = {p.least / q.least, p.least / q.most, p.most / q.least, p.most / q.most};
     return W::of(now.make(made_by_t::other, W::kind,
@@ -598,8 +740,7 @@ auto operator|(const A &a, const B &b)
     }
     const std::size_t made = now.make(made_by_t::other, W::kind, range, x.id, y.id);
     if (q.least == 1 && q.most == 1 && p.least > 0) { /* `| 1u` leaves leading zeros as they are */
-        now.numbers[made].size_as = now.numbers[x.id].size_as;
-        now.numbers[made].is_minus = now.numbers[x.id].is_minus;
+        now.numbers[made].top_as = now.numbers[x.id].top_as;
     }
     return W::of(made);
 }
@@ -720,10 +861,10 @@ bool operator!=(const A &a, const B &b)
 template <a_word A> i32 leading_zeros_of(const A &number)
 {
     const u32 word(number);
-    range_t range = now.settled(word.id);
+    const range_t range = now.settled(word.id);
     if (range.least <= 0) {
         now.complain("leading zeros of what may be zero: " + machine::text_of(range));
-        range = {1, std::max(range.most, wide_t{1})};
+        return i32::of(now.make(made_by_t::other, i32::kind, all_of(i32::kind)));
     }
     const int least = __builtin_clz(static_cast<unsigned>(range.most));
     const int most = __builtin_clz(static_cast<unsigned>(range.least));
@@ -734,11 +875,14 @@ template <a_word A> i32 leading_zeros_of(const A &number)
 
 /* --- facts that the harness enters ---------------------------------------------------------------------------- */
 
-/* What is known of a number from elsewhere: as an assumption, or as the promise of another proof. */
+/* What is known of a number from elsewhere: as an assumption, or as the promise of another proof. A single number has
+ * to keep it. */
 template <a_word W> W within(const W &w, wide_t least, wide_t most)
 {
-    if (!now.is_exact) {
-        range_t &range = now.numbers[w.id].range;
+    range_t &range = now.numbers[w.id].range;
+    if (now.is_exact) {
+        now.keep(w.id, range.least >= least && range.most <= most);
+    } else {
         range = {std::max(range.least, least), std::min(range.most, most)};
     }
     return w;
@@ -746,7 +890,7 @@ template <a_word W> W within(const W &w, wide_t least, wide_t most)
 
 template <a_word W> long double size_of(const W &w)
 {
-    return static_cast<long double>(std::max(w.range().most, -w.range().least));
+    return size_in(w.range());
 }
 
 inline std::vector<std::size_t> lengths_key(const std::vector<i32> &parts)
@@ -759,22 +903,34 @@ inline std::vector<std::size_t> lengths_key(const std::vector<i32> &parts)
     return key;
 }
 
-/* The root of the sum of the parts' squares, at most. */
-inline long double length_of(const std::vector<i32> &parts)
+inline long double length_of_ranges(const std::vector<i32> &parts)
 {
     long double square = 0.0L;
     for (const i32 &part : parts) {
         square += size_of(part) * size_of(part);
     }
-    const long double of_ranges = std::sqrt(square) * (1.0L + 0x1p-50L);
+    return std::sqrt(square) * (1.0L + 0x1p-50L);
+}
+
+/* The root of the sum of the parts' squares, at most. */
+inline long double length_of(const std::vector<i32> &parts)
+{
+    long double most = length_of_ranges(parts);
+    for (std::size_t i = 0; i < parts.size() && parts.size() == 3; i++) { /* two of three, and the third */
+        const long double two = length_of({parts[(i + 1) % 3], parts[(i + 2) % 3]}), one = size_of(parts[i]);
+        most = std::min(most, std::sqrt(two * two + one * one) * (1.0L + 0x1p-50L));
+    }
     const auto fact = now.lengths.find(lengths_key(parts));
-    return fact == now.lengths.end() ? of_ranges : std::min(of_ranges, fact->second);
+    return fact == now.lengths.end() ? most : std::min(most, fact->second);
 }
 
 /* Enters that fact, and so bounds each part. */
 inline void has_length(const std::vector<i32> &parts, long double most)
 {
     if (now.is_exact) {
+        for (const i32 &part : parts) {
+            now.keep(part.id, length_of_ranges(parts) <= most + 1.0L);
+        }
         return;
     }
     auto [fact, is_new] = now.lengths.emplace(lengths_key(parts), most);
@@ -783,6 +939,22 @@ inline void has_length(const std::vector<i32> &parts, long double most)
     for (const i32 &part : parts) {
         within(part, -whole, whole);
     }
+    if (parts.size() == 3) {
+        has_length({parts[0], parts[1]}, most);
+        has_length({parts[1], parts[2]}, most);
+        has_length({parts[2], parts[0]}, most);
+    }
+}
+
+/* Enters what is known of a number by shares, and so bounds it. */
+template <a_word W> W with_shares(const W &w, const shares_t &shares)
+{
+    if (shares.is_known) {
+        now.numbers[w.id].shares = shares;
+        const wide_t whole = static_cast<wide_t>(std::ceil(std::min(shares.most(), 0x1p100L)));
+        within(w, -whole, whole);
+    }
+    return w;
 }
 
 /* --- branches ------------------------------------------------------------------------------------------------- */
@@ -909,15 +1081,27 @@ inline std::map<key_t, range_t> ranges()
     return all;
 }
 
-/* After an exact run: how many of its numbers lie outside the ranges. */
-inline std::size_t outside(const std::map<key_t, range_t> &proven)
+/* Runs the program on single numbers. */
+template <class RUN> void run_exactly(RUN run)
+{
+    now.is_exact = true;
+    now.begin();
+    run();
+    now.is_exact = false;
+}
+
+/* Then, of the numbers from `first` to before `end`: how many are outside the proven ranges or break what is known. */
+inline std::size_t outside(const std::map<key_t, range_t> &proven, std::size_t first, std::size_t end)
 {
     std::size_t count = 0;
-    for (std::size_t id = 0; id < now.numbers.size(); id++) {
+    for (std::size_t id = first; id < end; id++) {
         const auto place = proven.find(now.keys[id]);
         if (place == proven.end() || !is_within(now.numbers[id].range, place->second)) {
             count++;
         }
+    }
+    for (const std::size_t id : now.broken) {
+        count += id >= first && id < end ? 1 : 0;
     }
     return count;
 }

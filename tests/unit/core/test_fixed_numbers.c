@@ -300,6 +300,24 @@ static void test_a_minor_that_is_negative_by_a_last_place_is_refused(void)
     }
 }
 
+/* An entry across, or a cofactor, beyond what a definite matrix may have is refused: what is left of it in a word would
+ * be that of another matrix, which has a K. The first C is that matrix and 2^33 across, which the words drop; in the
+ * second one, no minor is negative, and their sum of nothing shifts the cofactors across out of their words. */
+static void test_entries_that_words_would_drop_are_refused(void)
+{
+    const int64_t unit = (int64_t)1 << 30, far = (int64_t)1 << 33;
+    for (int i = 0; i < 3; i++) {
+        fixed_tensor3_t c = {.xx = unit, .yy = unit, .zz = unit};
+        brace_k3_t k;
+        TEST_ASSERT_TRUE(fixed_inverse3(&c, 0, &k));
+        *(i == 0 ? &c.xy : i == 1 ? &c.xz : &c.yz) = far;
+        TEST_ASSERT_FALSE(fixed_inverse3(&c, 0, &k));
+    }
+    const fixed_tensor3_t no_minor = {.xx = unit, .xy = unit, .xz = unit, .yy = unit, .yz = -unit, .zz = unit};
+    brace_k3_t k;
+    TEST_ASSERT_FALSE(fixed_inverse3(&no_minor, 0, &k));
+}
+
 /* C so small that its words would be noise is refused, sound as it may be. */
 static void test_a_C_below_its_least_trace_is_refused(void)
 {
@@ -330,6 +348,7 @@ int main(void)
     RUN_TEST(test_pivots_are_noted_outside_their_range);
     RUN_TEST(test_the_inverse_in_space);
     RUN_TEST(test_a_minor_that_is_negative_by_a_last_place_is_refused);
+    RUN_TEST(test_entries_that_words_would_drop_are_refused);
     RUN_TEST(test_a_C_below_its_least_trace_is_refused);
     return UNITY_END();
 }

@@ -50,6 +50,31 @@ static void a_move(fixed3_t v, noted_t *noted)
     fixed_add_move(&sum, v, 0, noted);
 }
 
+/* What a link is turned about itself counts, and what it curls. */
+static void twists(fixed3_t v, noted_t *noted)
+{
+    (void)fixed_twist_of(v.x, 0, noted);
+    (void)fixed_twist_of(0, v.y, noted);
+    (void)fixed_twist_of(v.z, 0, noted);
+}
+
+static void own_entries(fixed3_t v, ranges_t ranges, noted_t *noted)
+{
+    note_own(v.x, ranges, noted);
+    note_own(v.y, ranges, noted);
+    note_own(v.z, ranges, noted);
+}
+
+static void a_link_s_own(fixed3_t v, noted_t *noted)
+{
+    own_entries(v, RANGES, noted);
+}
+
+static void an_overload_s_own(fixed3_t v, noted_t *noted)
+{
+    own_entries(v, OVERLOAD_RANGES, noted);
+}
+
 /* A link's own turns, of which nothing yields: they go on as they are. */
 static void a_link_s_turns(fixed3_t v, noted_t *noted)
 {
@@ -68,7 +93,8 @@ static void test_each_word_of_a_vector_is_noted(void)
         int format;
     } row[] = {{a_row, 8.0, 24},       {an_overload_s_row, 1.0, 24}, {note_lever, 2.0, 26},    {levers_by_x, 2.0, 26},
                {levers_by_y, 2.0, 26}, {levers_by_z, 2.0, 26},       {a_move, 2.0, 26},        {note_turned, 1.0, 29},
-               {a_link_s_turns, 1.0, 29}};
+               {a_link_s_turns, 1.0, 29}, {twists, 1.0, 29},         {a_link_s_own, 16.0, 24},
+               {an_overload_s_own, 2.0, 24}};
     for (uint32_t i = 0; i < sizeof row / sizeof *row; i++) {
         const int32_t beyond = word(row[i].most, row[i].format), within = beyond - 1;
         for (int axis = 0; axis < 6; axis++) {

@@ -370,6 +370,29 @@ static void test_what_is_refused(void)
     TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, brace_loaded_space_fixed_in_plane(&none, &plane));
 }
 
+/* The collapse refuses a limb, whatever its load, of which a word is beyond what the proof of this path takes: here
+ * what no links have, one at a time. */
+static void test_what_no_link_has_is_refused_by_the_collapse(void)
+{
+    brace_space_result_t result;
+    collapse();
+    brace_space_link_t *const link[] = {&loaded.coxa, &loaded.femur, &loaded.tibia};
+    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
+        float *const word[] = {&link[i]->tilt_mm.x, &link[i]->tilt_mm.z, &link[i]->bow_mm.x, &link[i]->bow_mm.z,
+                               &link[i]->twelfth_mm, &link[i]->across.x, &link[i]->across.z, &link[i]->end_share,
+                               &link[i]->stretch_end_share, &link[i]->own_share};
+        for (uint32_t w = 0; w < sizeof word / sizeof *word; w++) {
+            const float sound = *word[w];
+            *word[w] = w < 5u ? 0.9f * link[i]->length_mm + 1.0f : 1.2f;
+            brace_loaded_space_fixed_collapse(&loaded, &fixed);
+            TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, told_at(1.0f, 1.4f, &result));
+            *word[w] = sound;
+        }
+    }
+    brace_loaded_space_fixed_collapse(&loaded, &fixed);
+    TEST_ASSERT_EQUAL(BRACE_OK, told_at(1.0f, 1.4f, &result));
+}
+
 static void test_each_input_has_its_range(void)
 {
     brace_space_result_t result;
@@ -458,6 +481,22 @@ static void test_K_that_no_limb_has_is_refused(void)
         if (i != 1) { /* the limb's plane has no y */
             TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, brace_loaded_space_fixed_in_plane(&no_limb_s[i], &plane));
         }
+    }
+}
+
+/* Eigenvalues 4.12 times the largest entry apart, which no K has that a limb has: refused before a word has to hold
+ * them. The sanitized build would see the shift by a negative number. */
+static void test_eigenvalues_far_apart_are_refused(void)
+{
+    const float e = 0x1.fffffep-1f;
+    static const int negative[3][3] = {{-1, 1, 1}, {1, -1, 1}, {1, 1, -1}};
+    for (int i = 0; i < 3; i++) {
+        const brace_k3_t k = {e * (float)negative[i][0], e, e, e * (float)negative[i][1], e, e * (float)negative[i][2]};
+        brace_stiffness_spatial_t s;
+        memset(&s, 0x5a, sizeof s);
+        const brace_stiffness_spatial_t untouched = s;
+        TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, brace_loaded_space_fixed_turn(0.0f, &k, &s));
+        TEST_ASSERT_EQUAL_MEMORY(&untouched, &s, sizeof s);
     }
 }
 
@@ -687,9 +726,11 @@ int main(void)
     RUN_TEST(test_samples_pressed_towards_their_buckling);
     RUN_TEST(test_turning_and_eigenvalues);
     RUN_TEST(test_what_is_refused);
+    RUN_TEST(test_what_no_link_has_is_refused_by_the_collapse);
     RUN_TEST(test_each_input_has_its_range);
     RUN_TEST(test_limbs_that_do_not_yield_are_refused);
     RUN_TEST(test_K_that_no_limb_has_is_refused);
+    RUN_TEST(test_eigenvalues_far_apart_are_refused);
     RUN_TEST(test_slender_K_says_so);
     RUN_TEST(test_any_input);
     RUN_TEST(test_soft_limbs_near_their_buckling);

@@ -144,8 +144,9 @@ static void test_a_bent_limb_part_by_part(void)
         curls_t curls = {(float)coxa_rad, (float)femur_rad};
         fixed_curls_t curl_words = {word(coxa_rad, 29), word(femur_rad, 29)};
         const commanded_t commanded = {rest.hip_commanded, rest.knee_commanded};
+        noted_t noted = 0u;
         turns_of(&rest.pose, curls, &commanded, &rest.turns);
-        fixed_turns_of(&words, curl_words, &words.turns);
+        fixed_turns_of(&words, curl_words, &words.turns, &noted);
         expect_turns(&rest.turns, &words.turns);
 
         const fixed_weights_t parts = {word((double)loaded.beyond_coxa_n / force_unit_n, 30),
@@ -154,7 +155,6 @@ static void test_a_bent_limb_part_by_part(void)
                                        word((double)loaded.tibia.weight_n / force_unit_n, 30)};
         brace_space_pose_t drives;
         brace_space_fixed_pose_t drive_words;
-        noted_t noted = 0u;
         see_forces(&loaded, rest.tip_n, rest.down, &rest);
         fixed_see_forces(&parts, words_of(rest.tip_n, force_unit_n, 30), words_of(rest.down, 1.0, 30), &words);
         bend_limb(&loaded, &rest, &curls, true, &drives);
@@ -286,7 +286,7 @@ static void test_K_at_one_pose(void)
         noted_t noted = 0u;
         const commanded_t commanded = {rest.hip_commanded, rest.knee_commanded};
         turns_of(&rest.pose, curls, &commanded, &rest.turns);
-        fixed_turns_of(&words, curl_words, &words.turns);
+        fixed_turns_of(&words, curl_words, &words.turns, &noted);
         see_forces(&loaded, rest.tip_n, rest.down, &rest);
         rest.whole_n = vec3_plus_scaled(rest.tip_n, rest.down, loaded.beyond_coxa_n);
         bend_limb(&loaded, &rest, &curls, false, &drives);

@@ -180,6 +180,21 @@ static void test_what_is_refused(void)
     TEST_ASSERT_EQUAL_MEMORY(&untouched, &result, sizeof result);
 }
 
+/* Joints alone move a straight limb across itself only: along it nothing yields, and there is no K. */
+static void test_a_straight_limb_of_rigid_links_has_no_K(void)
+{
+    brace_loaded_stiffness_t result, untouched;
+    limb.link[BRACE_FEMUR] = limb.link[BRACE_TIBIA] = (brace_link_t){0};
+    limb.base = (brace_base_t){0};
+    memset(&result, 0x55, sizeof result);
+    memcpy(&untouched, &result, sizeof result);
+    for (int i = -3; i <= 3; i++) {
+        TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, status_at(0.5f * (float)i, 0.0f, &result));
+        TEST_ASSERT_EQUAL_MEMORY(&untouched.stiffness, &result.stiffness, sizeof result.stiffness);
+    }
+    TEST_ASSERT_EQUAL(BRACE_OK, status_at(0.5f, 1.0f, &result));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -188,6 +203,7 @@ int main(void)
     RUN_TEST(test_no_load_is_the_linear_limb);
     RUN_TEST(test_buckling_factor_of_one_hinge);
     RUN_TEST(test_a_measured_angle_is_the_equilibrium);
+    RUN_TEST(test_a_straight_limb_of_rigid_links_has_no_K);
     RUN_TEST(test_what_is_refused);
     return UNITY_END();
 }

@@ -106,7 +106,10 @@ static void test_the_newest_record_is_found_again(void)
     TEST_ASSERT_EQUAL(5, restart(0, IDENTITY));
     TEST_ASSERT_EQUAL(-1, restart(1, IDENTITY));
     TEST_ASSERT_EQUAL(-1, restart(0, IDENTITY + 1));
-    TEST_ASSERT_EQUAL(-1, restart(BRACE_NVM_SLOT_COUNT, IDENTITY));
+    for (uint32_t none = BRACE_NVM_SLOT_COUNT; none < 5u; none++) {
+        TEST_ASSERT_EQUAL(-1, restart(none, IDENTITY));
+        TEST_ASSERT_EQUAL_UINT32(0, brace_journal_room(&journal));
+    }
     TEST_ASSERT_FALSE(brace_journal_begin(&journal, &state));
 }
 

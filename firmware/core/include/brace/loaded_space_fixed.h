@@ -26,10 +26,10 @@ void brace_loaded_space_fixed_collapse(const brace_loaded_space_t *loaded, brace
 /* As brace_loaded_space_settle, also in what it refuses, except that
  *   BRACE_E_RANGE: also where a component of `down` is beyond 1 by more than a thousandth, or not a number;
  *   BRACE_E_SINGULAR: also where something yields so much under this load, or is so softened by it, that a word does
- *     not hold it: where a joint or link would turn by 32 rad under the whole force at the whole reach, a joint or all
- *     before it turns by more than 1 rad, a spring moves by more than a quarter of the reach or, at the end of a beam,
- *     of about its length, a pivot is below 1/16 (the buckling factor is near 1), or a beam is shorter than a millionth of the
- *     limb. One of 600 random limbs within the promise is refused for that.
+ *     not hold it: where a joint or link would turn by 32 rad under the whole force at the whole reach, a joint, a link
+ *     about itself or all before a joint turns by more than 1 rad, a spring moves by more than a quarter of the reach
+ *     or, at the end of a beam, of about its length, a pivot is below 1/16 (the buckling factor is near 1), or a beam
+ *     is shorter than a millionth of the limb. One of 600 random limbs within the promise is refused for that.
  * No pointer may be null.
  * Cost on a Cortex-M3: 6,757 instructions, the same for every posture and load; stack at most 1,000 bytes. */
 brace_status_t brace_loaded_space_fixed_settle(const brace_loaded_space_fixed_t *fixed, float theta1_rad,

@@ -20,17 +20,25 @@ INLINE int32_t turned_at_joint(fixed3_t before, int32_t joint, fixed3_t after)
     return plus(plus(before.z >> 1, after.z >> 1), joint);
 }
 
-static void fixed_turns_of(const fixed_rest3_t *rest, fixed_curls_t curls, fixed_turns3_t *turns)
+/* A link's twist about itself, its curl included; at most 1 rad. */
+INLINE fixed_vec_t fixed_twist_of(int32_t turn, int32_t curl, noted_t *noted)
+{
+    const int32_t twist = plus(turn, curl);
+    note(noted, twist, TURN_MOST_BITS);
+    return fixed_small_turn_of(twist);
+}
+
+static void fixed_turns_of(const fixed_rest3_t *rest, fixed_curls_t curls, fixed_turns3_t *turns, noted_t *noted)
 {
     const brace_space_fixed_pose_t *pose = &rest->pose;
     turns->base = fixed_small_turn_of(pose->base);
     turns->yaw = fixed_small_turn_of(pose->yaw);
     turns->coxa_z = fixed_small_turn_of(pose->coxa.z >> 1);
     turns->coxa_y = fixed_small_turn_of(pose->coxa.y >> 1);
-    turns->coxa_x = fixed_small_turn_of(plus(pose->coxa.x, curls.coxa));
+    turns->coxa_x = fixed_twist_of(pose->coxa.x, curls.coxa, noted);
     turns->hip = fixed_joint_turn(rest->theta1_turn, turned_at_joint(pose->coxa, pose->hip, pose->femur));
     turns->femur_y = fixed_small_turn_of(pose->femur.y >> 1);
-    turns->femur_x = fixed_small_turn_of(plus(pose->femur.x, curls.femur));
+    turns->femur_x = fixed_twist_of(pose->femur.x, curls.femur, noted);
     turns->knee = fixed_joint_turn(0u - rest->theta2_turn, turned_at_joint(pose->femur, pose->knee, pose->tibia));
     turns->tibia_y = fixed_small_turn_of(pose->tibia.y >> 1);
 }

@@ -132,6 +132,12 @@ INLINE fixed_freedom_t fixed_eliminate_joint(fixed_held_t *held, int32_t yields_
     return fixed_eliminate(held, row, r.zz, overloaded(yields_q26, overload, noted), overload, noted);
 }
 
+/* Among a link's own turns: at most 16, of an overload 2, so that a ratio times it still fits. */
+INLINE void note_own(int32_t own_q24, ranges_t ranges, noted_t *noted)
+{
+    note(noted, own_q24, ranges.row_most_bits + 1);
+}
+
 /* is_last: nothing lies beyond the link. overload: NULL for K, and what the load softens at the link's end springs is
  * left out. */
 INLINE void fixed_eliminate_link(const fixed_link3_t *link, const fixed_rest3_t *rest, fixed3_t turn,
@@ -219,6 +225,10 @@ INLINE void fixed_eliminate_link(const fixed_link3_t *link, const fixed_rest3_t 
         const int32_t by_z = by_q29(by_q29(sideways_spread, turn.z), turn.z);
         const int32_t by_y = by_q29(by_q29(across_spread, turn.y), turn.y);
         const int32_t twist = plus(overloaded(link->twist_q31 >> turn_shift, overload, noted), plus(by_y, by_z));
+        if (overload != NULL) { /* whose ratios are 16 times as large */
+            note_own(own.xy, ranges, noted);
+            note_own(own.xz, ranges, noted);
+        }
         free->x = fixed_eliminate(held, x, own.xx, twist, overload, noted);
         free->y_by_x = follow(own.xy, free->x.yields_q26, ranges, noted);
         free->z_by_x = follow(own.xz, free->x.yields_q26, ranges, noted);
@@ -228,6 +238,8 @@ INLINE void fixed_eliminate_link(const fixed_link3_t *link, const fixed_rest3_t 
         y = fixed3_plus_ratio(y, x, free->y_by_x, ranges);
         z = fixed3_plus_ratio(z, x, free->z_by_x, ranges);
     }
+    note_own(own.yz, ranges, noted);
+    note_own(own.zz, ranges, noted);
     const int32_t sideways_turns = overloaded(link->sideways_q31 >> turn_shift, overload, noted);
     const int32_t bends = overloaded(link->bend_q31 >> turn_shift, overload, noted);
     free->y = fixed_eliminate(held, y, own.yy, sideways_turns, overload, noted);

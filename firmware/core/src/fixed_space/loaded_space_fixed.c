@@ -210,7 +210,7 @@ INLINE void see_straight(const fixed_weights_t *weights, fixed3_t tip, fixed3_t 
 INLINE void bend_to(const brace_loaded_space_fixed_t *limb, const fixed_inputs3_t *in, fixed_rest3_t *rest,
                     fixed_curls_t *curls, bool is_driven, brace_space_fixed_pose_t *drives, noted_t *noted)
 {
-    fixed_turns_of(rest, *curls, &rest->turns);
+    fixed_turns_of(rest, *curls, &rest->turns, noted);
     fixed_see_forces(&in->weights, in->tip_q30, in->down_q30, rest);
     fixed_bend_limb(limb, rest, curls, is_driven, drives, noted);
 }

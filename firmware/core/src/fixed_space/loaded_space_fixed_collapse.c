@@ -2,6 +2,7 @@
 #include <stdbool.h>
 
 #include "brace/loaded_space_fixed.h"
+#include "fixed_space/space_kept.h"
 #include "loaded/fixed_quantise.h"
 
 static brace_fixed_vec_t vector_of(brace_vec_t v, int32_t exponent)
@@ -9,19 +10,17 @@ static brace_fixed_vec_t vector_of(brace_vec_t v, int32_t exponent)
     return (brace_fixed_vec_t){quantised((double)v.x, exponent), quantised((double)v.z, exponent)};
 }
 
-#define ARM_SHIFT_MOST 20
-
 /* The arm of the springs at a link's end, as a part of the unit of length: so short that they curl the link's own turns
  * by no more than one for each radian. */
 static int32_t arm_shift_of(const brace_space_link_t *link, int32_t length_exponent)
 {
     const int32_t curl = exponent_above(link->curl_per_mm) + length_exponent;
-    return curl > ARM_SHIFT_MOST ? ARM_SHIFT_MOST : larger(curl, 0);
+    return curl > (int32_t)ARM_SHIFT_MOST ? (int32_t)ARM_SHIFT_MOST : larger(curl, 0);
 }
 
 static bool is_too_short(const brace_space_link_t *link, int32_t length_exponent)
 {
-    return exponent_above(link->curl_per_mm) + length_exponent > ARM_SHIFT_MOST;
+    return exponent_above(link->curl_per_mm) + length_exponent > (int32_t)ARM_SHIFT_MOST;
 }
 
 /* Exponents of a link's compliances for an angle, in 1/N, their turn times the unit of length. */
@@ -30,7 +29,8 @@ static int32_t turn_exponent_of(const brace_space_link_t *link, int32_t length_e
     if (is_too_short(link, length_exponent)) {
         return REFUSED_EXPONENT;
     }
-    const float turns = fmaxf(fmaxf(link->twist_rad_per_n_mm, link->sideways_rad_per_n_mm),
+    /* To the twist comes what bending spreads: by less than a quarter of the most that a word holds. */
+    const float turns = fmaxf(fmaxf(1.25f * link->twist_rad_per_n_mm, link->sideways_rad_per_n_mm),
                               fmaxf(link->bend_rad_per_n_mm, fmaxf(link->across_spread_per_n_mm,
                                                                    link->sideways_spread_per_n_mm)));
     const float springs = fmaxf(link->across_mm_per_n, link->sideways_mm_per_n);
@@ -62,7 +62,7 @@ static brace_space_fixed_link_t link_of(const brace_space_link_t *link, const br
         .across_spread_q31 = quantised((double)link->across_spread_per_n_mm, turns),
         .sideways_spread_q31 = quantised((double)link->sideways_spread_per_n_mm, turns),
         .stretch_q31 = quantised((double)stretch_of(link), 31 - length - fixed->spring_exponent),
-        .end_share_q30 = quantised((double)link->end_share, 30),
+        .end_share_q30 = larger(quantised((double)link->end_share, 30) - 1, 0), /* and a half more is below 1 */
         .stretch_end_share_q30 = quantised((double)link->stretch_end_share, 30),
         .own_share_q30 = quantised((double)link->own_share, 30),
         .curl_q30 = quantised((double)link->curl_per_mm, per_arm),
@@ -93,4 +93,7 @@ void brace_loaded_space_fixed_collapse(const brace_loaded_space_t *loaded, brace
     fixed->base_rotation_q31 = quantised((double)loaded->base_rotation_rad_per_n_mm,
                                          31 + length - fixed->turn_exponent);
     fixed->weight_q8 = (uint32_t)(384.0f * loaded->beyond_coxa_n);
+    if (!is_space_kept(fixed)) {
+        *fixed = (brace_loaded_space_fixed_t){.turn_exponent = REFUSED_EXPONENT};
+    }
 }

@@ -22,6 +22,8 @@
 #ifndef BRACE_CORE_FIXED_SPACE_NUMBER_H
 #define BRACE_CORE_FIXED_SPACE_NUMBER_H
 
+#include <stdbool.h>
+
 #include "loaded/fixed_vec.h"
 
 /* --- sums ----------------------------------------------------------------------------------------------------- */
