@@ -54,7 +54,8 @@ static void collapses(void)
     brace_loaded_fixed_t fixed, refused = {.bend_exponent = REFUSED_EXPONENT};
     brace_loaded_fixed_collapse(&loaded, &fixed);
     PROVE(look_count == 1, "a last look");
-    PROVE(same(&fixed, is_within ? &shown : &refused, sizeof fixed), "what it lets through, or a limb that takes no load");
+    PROVE(same(&fixed, is_within ? &shown : &refused, sizeof fixed),
+          "what it lets through, or a limb that takes no load");
 }
 
 int main(void)

@@ -95,7 +95,8 @@ static void circle_fits(const fixed_circle_t *circle, brace_stiffness_t *stiffne
 static void circle_fits(const fixed_circle_t *c, brace_stiffness_t *stiffness)
 {
     PROVE(c->trace >= 0x80000000u && c->det_leading >= 0x80000000u, "trace and determinant fill their words");
-    PROVE(c->exponent_k % (1u << 23) == 0u && c->exponent_k >= 59u << 23 && c->exponent_k <= 231u << 23, "K's exponent");
+    PROVE(c->exponent_k % (1u << 23) == 0u && c->exponent_k >= 59u << 23 && c->exponent_k <= 231u << 23,
+          "K's exponent");
     PROVE(c->exponent_min % (1u << 23) == 0u && c->exponent_min >= 59u << 23 && c->exponent_min <= 231u << 23,
           "the least eigenvalue's");
     (void)stiffness;

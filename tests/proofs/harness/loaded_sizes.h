@@ -22,8 +22,8 @@
 #define FAR_MOST PART_OF(29, 1.04)   /* from the first to the second */
 
 /* A link: the unit of length is above the reach, the unit of force above the loads, springs move by a quarter. The
- * tilt is a quarter turn at most, so that the way to the beam is the root of two times as long. Of two links the shorter
- * one is half of the reach at most. */
+ * tilt is a quarter turn at most, so that the way to the beam is the root of two times as long. Of two links the
+ * shorter one is half of the reach at most. */
 #define LENGTH_OFF 96
 #define BEAM_MOST (PART_OF(28, 1.0) + LENGTH_OFF)
 #define TO_BEAM_MOST (PART_OF(28, 1.41422) + LENGTH_OFF)

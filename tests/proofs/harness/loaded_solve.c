@@ -166,7 +166,8 @@ static fixed_rest_t any_rest(void)
 static void are_factors(const fixed_factors_t *f)
 {
     PROVE(f->yields_a >= 0 && f->yields_b >= 0, "yields");
-    PROVE(size_of(f->b_by_a) <= RATIO_MOST && size_of(f->root_by_a) <= RATIO_MOST && size_of(f->root_by_b) <= RATIO_MOST,
+    PROVE(size_of(f->b_by_a) <= RATIO_MOST && size_of(f->root_by_a) <= RATIO_MOST &&
+              size_of(f->root_by_b) <= RATIO_MOST,
           "ratios");
 }
 

@@ -91,8 +91,8 @@ static void any_limb(void)
 }
 
 /* Forces whose lengths together are below FORCE_MOST. Of the tip's force and the whole weight, 91/64 times its number,
- * loaded_inputs says that they are below the unit; the last look says that knee and femur make the whole within 256, which
- * the unit's shift halves at least, and that the tibia's is in the knee's. So together they are no more than the unit,
+ * loaded_inputs says that they are below the unit; the last look says that knee and femur make the whole within 256,
+ * which the unit's shift halves at least, and that the tibia's is in the knee's. So together they are no more than the unit,
  * 129 91/64 and, turned, scaled and rounded three times, 32 more. */
 static bool are_within_unit(int forces)
 {
@@ -122,7 +122,8 @@ static int32_t any_times(int32_t a, int32_t b, int bits)
 static fixed_vec_t sum_of(fixed_vec_t a, fixed_vec_t b)
 {
     const int forces = a.forces | b.forces;
-    PROVE((a.forces & b.forces) == 0 && (a.forces == 0) == (b.forces == 0) && are_within_unit(forces), "forces together");
+    PROVE((a.forces & b.forces) == 0 && (a.forces == 0) == (b.forces == 0) && are_within_unit(forces),
+          "forces together");
     ASSUME(forces == 0 || (size_of(a.x) + size_of(b.x) <= FORCE_MOST && size_of(a.z) + size_of(b.z) <= FORCE_MOST));
     const fixed_vec_t sum = {a.x + b.x, a.z + b.z, forces != 0 ? FORCE_MOST : length_of(a) + length_of(b), forces};
     ASSUME(size_of(sum.x) <= sum.most && size_of(sum.z) <= sum.most);
@@ -240,14 +241,19 @@ static void is_link(const fixed_link_t *link, bool is_femur)
     PROVE(link->own.forces == (is_femur ? FEMUR_WEIGHT : TIBIA_WEIGHT), "its own");
 }
 
+static fixed_shape_t any_shape(void)
+{
+    return (fixed_shape_t){any_within(ROOT_ANGLE_MOST), any_within(CURVATURE_MOST), any_within(CURVATURE_MOST)};
+}
+
 static bool any_step(fixed_limb_t *limb, bool is_first, int32_t hip, int32_t knee)
 {
     (void)is_first;
     IF_SEEN_ONLY(is_link(&limb->femur, true));
     IF_SEEN_ONLY(is_link(&limb->tibia, false));
     PROVE(hip >= 0 && knee >= 0, "joints' compliances");
-    limb->femur_shape = (fixed_shape_t){any_within(ROOT_ANGLE_MOST), any_within(CURVATURE_MOST), any_within(CURVATURE_MOST)};
-    limb->tibia_shape = (fixed_shape_t){any_within(ROOT_ANGLE_MOST), any_within(CURVATURE_MOST), any_within(CURVATURE_MOST)};
+    limb->femur_shape = any_shape();
+    limb->tibia_shape = any_shape();
     IF_SEEN_ONLY(ASSUME(false));
     return any_bool();
 }

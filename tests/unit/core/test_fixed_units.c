@@ -72,7 +72,8 @@ static void test_every_limb_passes_the_last_look(void)
 
 static brace_status_t status_of(const brace_loaded_t *loaded)
 {
-    const brace_load_t load = {.tip = {3.0f, 5.0f}, .down = {0.0f, -1.0f}, .hip = {1e-5f, 1e-5f}, .knee = {1e-5f, 1e-5f}};
+    const brace_load_t load = {
+        .tip = {3.0f, 5.0f}, .down = {0.0f, -1.0f}, .hip = {1e-5f, 1e-5f}, .knee = {1e-5f, 1e-5f}};
     brace_loaded_fixed_t fixed;
     brace_loaded_stiffness_t result;
     brace_loaded_fixed_collapse(loaded, &fixed);
@@ -121,7 +122,8 @@ static void test_a_lever_beyond_its_word_is_noted(void)
     static const struct {
         double lever, other, ratio;
         bool is_told;
-    } row[] = {{7.0, 1.0, -0.999, true},  {7.0, 1.0, -1.001, false}, {-7.0, 1.0, 0.999, true}, {-7.0, 1.0, 1.001, false},
+    } row[] = {{7.0, 1.0, -0.999, true},  {7.0, 1.0, -1.001, false},
+               {-7.0, 1.0, 0.999, true}, {-7.0, 1.0, 1.001, false},
                {5.0, 3.9, 3.3, true},     {-4.1, 3.9, 1.1, false},   {0.0, 4.5, 1.7, true},    {0.0, 4.5, 1.8, false},
                {7.9, 7.9, -3.99, false}, {-7.9, 7.9, 3.99, false}};
     for (uint32_t i = 0; i < sizeof row / sizeof *row; i++) {

@@ -35,8 +35,8 @@ typedef struct {
     int32_t length_exponent, bend_exponent, spring_exponent, weight_exponent;
 } brace_loaded_fixed_t;
 
-/* The limb's constants as scaled integers. A limb that does not keep its units (a number that is none, a weight below 0)
- * takes no load: BRACE_E_SINGULAR.
+/* The limb's constants as scaled integers. A limb that does not keep its units (a number that is none, a weight below
+ * 0) takes no load: BRACE_E_SINGULAR.
  * loaded: from brace_loaded_collapse. No pointer may be null.
  * Cost: once per parameter change; float and double, in software where there is no FPU. */
 void brace_loaded_fixed_collapse(const brace_loaded_t *loaded, brace_loaded_fixed_t *fixed);

@@ -1,5 +1,5 @@
-/* What a collapsed limb keeps so that no number of loaded_fixed.c leaves its word under any load. The collapse looks for
- * it last, in integers; the proofs of loaded_fixed.c stand on it (tests/proofs/harness/loaded_sizes.h). */
+/* What a collapsed limb keeps so that no number of loaded_fixed.c leaves its word under any load. The collapse looks
+ * for it last, in integers; the proofs of loaded_fixed.c stand on it (tests/proofs/harness/loaded_sizes.h). */
 #ifndef BRACE_LOADED_FIXED_UNITS_H
 #define BRACE_LOADED_FIXED_UNITS_H
 
@@ -72,7 +72,8 @@ static inline bool is_within_units(const brace_loaded_fixed_t *fixed)
 {
     return unit_are_exponents(fixed) && unit_are_weights(fixed) && unit_is_link(&fixed->femur) &&
            unit_is_link(&fixed->tibia) &&
-           (int64_t)fixed->femur.length_q28 + fixed->tibia.length_q28 <= UNIT_REACH_MOST_Q28 && fixed->base_q31 >= 0 && fixed->base_rotation_q31 >= 0 &&
+           (int64_t)fixed->femur.length_q28 + fixed->tibia.length_q28 <= UNIT_REACH_MOST_Q28 &&
+           fixed->base_q31 >= 0 && fixed->base_rotation_q31 >= 0 &&
            unit_are_roots(fixed->base_root_q31);
 }
 
