@@ -80,7 +80,12 @@ class Judge:
         self.bench = bench.Bench()
         self.suites = {suite.name: suite for suite in self.bench.build()}
         self.by_line = suites_by_line()
-        self.uncounted = sorted(self.suites.keys() - read_counts().keys())
+        counted, counted_s = read_counts().keys(), COUNTS.stat().st_mtime
+        self.uncounted = [
+            name
+            for name, source in self.bench.source_of().items()
+            if name not in counted or (bench.ROOT / source).stat().st_mtime > counted_s
+        ]
         self.by_file: dict[str, set[str]] = defaultdict(set)
         for (file, _), names in self.by_line.items():
             self.by_file[file].update(names)
@@ -151,7 +156,7 @@ class Judge:
 
     def _suites_of(self, mutant: generate.Mutant) -> Iterable[str]:
         """Those that run its line; those that run its file, where that has changed since the lines were counted; and
-        those that nobody has counted."""
+        those that have changed or come since."""
         is_counted = (bench.ROOT / mutant.file).stat().st_mtime < COUNTS.stat().st_mtime
         known = self.by_line[mutant.file, mutant.line] if is_counted else self.by_file[mutant.file]
         return [*known, *self.uncounted]

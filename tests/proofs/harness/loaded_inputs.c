@@ -1,26 +1,41 @@
 /* The inputs of K under load in fixed point, any floats: the units, and the load in them. */
 #include "proof.h"
 #include "loaded_sizes.h"
-#include "loaded/loaded_fixed.c"
+#include "loaded/fixed_inputs.h"
+#include "loaded/fixed_units.h"
+
+#define REFUSED_EXPONENT 100 /* as loaded/fixed_quantise.h */
 
 #include "fixed/fixed_table.c"
+
+static int64_t size_of(int32_t number)
+{
+    return number < 0 ? -(int64_t)number : number;
+}
 
 static bool is_in(int64_t number, int64_t most)
 {
     return number <= most && number >= -most;
 }
 
-/* What the collapse makes, as far as the units go: exponents of floats and their sums. */
+/* What the collapse makes (loaded_collapse). */
 static void is_collapsed(const brace_loaded_fixed_t *limb)
 {
-    ASSUME(is_in(limb->length_exponent, 128) && is_in(limb->bend_exponent, 256) && is_in(limb->spring_exponent, 256));
-    ASSUME(is_in(limb->weight_exponent, 128) && limb->weight_q8 <= 1u << 30 && limb->base_rotation_q31 >= 0);
-    /* one and a half times the weight is above the power of two below it */
-    ASSUME(limb->weight_exponent <= 24 - (int32_t)leading_zeros(limb->weight_q8 + 2u));
+    ASSUME(unit_are_exponents(limb) && unit_are_weights(limb) && limb->base_rotation_q31 >= 0);
+}
+
+/* What it makes of a limb that does not keep its units. */
+static void the_refused(void)
+{
+    const brace_loaded_fixed_t limb = {.bend_exponent = REFUSED_EXPONENT};
+    brace_load_t load;
+    fixed_inputs_t in;
+    PROVE(inputs_of(&limb, any_float(), any_float(), &load, &in) != BRACE_OK, "no load is taken");
 }
 
 int main(void)
 {
+    the_refused();
     brace_loaded_fixed_t limb;
     brace_load_t load;
     fixed_inputs_t in;
@@ -35,6 +50,8 @@ int main(void)
     PROVE(in.weight_shift >= 1u && in.weight_shift <= 31u && in.parity <= 1u, "weights' shift");
     PROVE(is_in(in.tip_q30.x, 1 << 30) && is_in(in.tip_q30.z, 1 << 30), "the force is below its unit");
     PROVE(is_in(in.down_q30.x, DOWN_MOST_Q30) && is_in(in.down_q30.z, DOWN_MOST_Q30), "the weight's direction");
-    PROVE(is_in(in.force_exponent, 60), "the unit of force is a float's");
+    PROVE(in.force_exponent >= FORCE_EXPONENT_LEAST && in.force_exponent <= FORCE_MOST_EXPONENT, "the unit of force");
+    const int64_t force = size_of(in.tip_q30.x) + size_of(in.tip_q30.z), weight = limb.weight_q31 >> in.weight_shift;
+    PROVE(force + weight * DOWN_MOST_64THS / 64 <= FORCE_UNIT, "force and weight together are below it");
     return 0;
 }

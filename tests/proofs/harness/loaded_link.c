@@ -299,9 +299,12 @@ static void bent(void)
     is_pull(&pull);
 }
 
-static void at_rest(void)
+static void at_rest(bool is_short)
 {
-    const fixed_link_t link = any_link();
+    fixed_link_t link = any_link();
+    if (is_short) {
+        link.to_beam = any_vector(HALF_TO_BEAM_MOST), link.beam = any_vector(HALF_BEAM_MOST);
+    }
     const fixed_shape_t shape = any_shape();
     fixed_rest_t rest;
     fixed_rest_of(&link, &shape, &rest);
@@ -309,9 +312,9 @@ static void at_rest(void)
     PROVE(size_of(rest.end_resists) <= SOFTENS_MOST, "the end resists");
     PROVE(rest.root_softens >= 0 && rest.root_softens <= SOFTENS_MOST, "the root softens");
     PROVE(rest.end_softens >= 0 && rest.end_softens <= SOFTENS_MOST, "the end softens");
-    PROVE(rest.tip.most <= TIP_MOST, "the tip");
+    PROVE(rest.tip.most <= (is_short ? HALF_TIP_MOST : TIP_MOST), "the tip");
     PROVE(rest.a.most <= LEVER_MOST && rest.b.most <= LEVER_MOST, "curvatures' levers");
-    PROVE(rest.end.most <= LEVER_MOST && rest.aside.most <= LEVER_MOST, "other levers");
+    PROVE(rest.end.most <= LEVER_MOST && rest.aside.most <= ASIDE_MOST, "other levers");
     PROVE(rest.root_spring.most <= SPRING_GIVES_MOST && rest.end_spring.most <= SPRING_GIVES_MOST, "springs");
 }
 
@@ -319,6 +322,7 @@ int main(void)
 {
     straight();
     bent();
-    at_rest();
+    at_rest(false);
+    at_rest(true);
     return 0;
 }

@@ -22,12 +22,20 @@
 #define FAR_MOST PART_OF(29, 1.04)   /* from the first to the second */
 
 /* A link: the unit of length is above the reach, the unit of force above the loads, springs move by a quarter. The
- * tilt is a quarter turn at most, so that the way to the beam is the root of two times as long. */
-#define BEAM_MOST (PART_OF(28, 1.0) + 16)
-#define TO_BEAM_MOST (PART_OF(28, 1.41421357) + 16)
-#define SPRING_MOST (PART_OF(30, 0.5) + 16)
-#define RIGID_MOST (TO_BEAM_MOST + PART_OF(28, 0.25) + 32)
-#define FORCE_MOST (PART_OF(30, 1.0) + 64)
+ * tilt is a quarter turn at most, so that the way to the beam is the root of two times as long. Of two links the
+ * shorter one is half of the reach at most. */
+#define LENGTH_OFF 96
+#define BEAM_MOST (PART_OF(28, 1.0) + LENGTH_OFF)
+#define TO_BEAM_MOST (PART_OF(28, 1.41422) + LENGTH_OFF)
+#define HALF_BEAM_MOST (PART_OF(28, 0.5) + LENGTH_OFF)
+#define HALF_TO_BEAM_MOST (PART_OF(28, 0.70711) + LENGTH_OFF)
+#define SPRING_MOST (PART_OF(30, 0.5) + 300)
+#define RIGID_MOST (TO_BEAM_MOST + PART_OF(28, 0.25) + 256)
+#define FORCE_UNIT PART_OF(30, 1.0)
+#define FORCE_MOST (FORCE_UNIT + 256)
+#define DOWN_MOST_64THS 91         /* a direction whose parts are 1.001 is as long, and a little more */
+#define FORCE_EXPONENT_LEAST (-6)
+#define FORCE_MOST_EXPONENT 40
 #define SPRING_GIVES_MOST PART_OF(30, 0.503) /* turned, along a force or across */
 #define END_MOST PART_OF(30, 0.25)
 
@@ -39,7 +47,17 @@
 #define END_DRIVES_MOST PART_OF(27, 1.095)
 #define REST_MOST PART_OF(27, 3.0)
 #define SOFTENS_MOST PART_OF(27, 0.51)
-#define TIP_MOST PART_OF(28, 3.3)
+#define TIP_MOST PART_OF(28, 3.2)
+#define HALF_TIP_MOST PART_OF(28, 1.97)
 #define LEVER_MOST PART_OF(28, 1.3)
+#define ASIDE_MOST PART_OF(28, 0.77)
+
+/* One over a pivot, ratios and yields of what is not refused (loaded_solve); levers of C (loaded_levers). */
+#define RATIO_MOST PART_OF(27, 4.0)
+#define BEYOND_MOST PART_OF(28, 4.0)
+
+/* C, with its springs, and what rounding adds off the diagonal: 2^33 for each of six levers. */
+#define C_MOST ((1ull << 62) + (1ull << 58))
+#define C_ROUNDED (1LL << 36)
 
 #endif

@@ -21,9 +21,8 @@ static int32_t any_within(int64_t most)
 static bool is_true;
 
 /* Any sum of products, kept by the firmware's own text. */
-static int32_t any_kept(int bits, int room, lost_t *lost)
+static int32_t any_kept(int64_t sum, int bits, int room, lost_t *lost)
 {
-    const int64_t sum = any_i64();
     const int32_t number = kept(sum, bits, room, lost);
     PROVE(*lost >= LOST || number == sum >> bits, "a number beyond its word is noted as lost");
     PROVE(*lost >= LOST || size_of(number) <= 1LL << (56 + room - bits), "and beyond its room");
@@ -76,7 +75,17 @@ static int32_t any_times(int32_t a, int32_t b, int bits)
 static int32_t any_inverse(int32_t pivot)
 {
     PROVE(pivot >= LEAST_PIVOT_Q27, "one over it fits its word");
-    return any_i32();
+    const int32_t inverse = any_i32();
+    ASSUME(inverse > 0);
+    return inverse;
+}
+
+/* A compliance, which is not negative, over a pivot. */
+static int64_t any_above_zero(void)
+{
+    const int64_t sum = any_i64();
+    ASSUME(sum >= 0);
+    return sum;
 }
 
 static fixed_matrix_t any_matrix(int64_t most)
@@ -120,7 +129,10 @@ static void any_pull_bent(const fixed_link_t *link, const fixed_shape_t *shape, 
 #define sum2 sum2_fits
 #define sum3 sum3_fits
 #define IS_SUM(text) ((text)[0] == 's')
-#define kept(sum, bits, room, lost) (IS_SUM(#sum) ? (void)(sum) : (void)0, any_kept(bits, room, lost))
+#define IS_OVER_PIVOT(text) ((text)[9] == 'b' && (text)[16] == 'i') /* (int64_t)bend * inverse_q27(...) */
+#define kept(sum, bits, room, lost)                                                                                    \
+    (IS_SUM(#sum) ? (void)(sum) : (void)0,                                                                             \
+     any_kept(IS_OVER_PIVOT(#sum) ? any_above_zero() : any_i64(), bits, room, lost))
 #define wrapped_plus plus_or_not
 #define wrapped_less less_or_not
 #define times any_times
@@ -150,16 +162,29 @@ static fixed_rest_t any_rest(void)
     return rest;
 }
 
+/* What levers are eliminated with (loaded_levers). */
+static void are_factors(const fixed_factors_t *f)
+{
+    PROVE(f->yields_a >= 0 && f->yields_b >= 0, "yields");
+    PROVE(size_of(f->b_by_a) <= RATIO_MOST && size_of(f->root_by_a) <= RATIO_MOST &&
+              size_of(f->root_by_b) <= RATIO_MOST,
+          "ratios");
+}
+
 static void pivots(void)
 {
     const fixed_rest_t femur = any_rest(), tibia = any_rest();
     const fixed_stance_t stance = {&femur, &tibia, any_i32(), any_i32(), any_i32(), any_i32()};
+    ASSUME(stance.femur_bend >= 0 && stance.tibia_bend >= 0);
     fixed_pivots_t p;
     is_true = true;
     if (!fixed_pivots_of(&stance, &p)) {
         return;
     }
     PROVE(is_true, "pivots that are answered are true");
+    are_factors(&p.femur);
+    are_factors(&p.tibia);
+    PROVE(p.per_hip > 0 && p.per_knee > 0, "one over a joint's pivot");
     const fixed_wide_t det = fixed_product(&p);
     PROVE(det.mantissa_q31 >= 1 << 30 && size_of(det.exponent) <= 64, "their product");
 }

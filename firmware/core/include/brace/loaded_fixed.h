@@ -35,7 +35,8 @@ typedef struct {
     int32_t length_exponent, bend_exponent, spring_exponent, weight_exponent;
 } brace_loaded_fixed_t;
 
-/* The limb's constants as scaled integers.
+/* The limb's constants as scaled integers. A limb that does not keep its units (a number that is none, a weight below
+ * 0) takes no load: BRACE_E_SINGULAR.
  * loaded: from brace_loaded_collapse. No pointer may be null.
  * Cost: once per parameter change; float and double, in software where there is no FPU. */
 void brace_loaded_fixed_collapse(const brace_loaded_t *loaded, brace_loaded_fixed_t *fixed);
@@ -44,13 +45,13 @@ void brace_loaded_fixed_collapse(const brace_loaded_t *loaded, brace_loaded_fixe
  *   BRACE_E_RANGE: also where a component of `down` is beyond 1 by more than a thousandth, or not a number;
  *   BRACE_E_SINGULAR: also where a spring or a joint yields so much under this load, or is so softened by it, that a
  *     word does not hold it: a joint that would turn by 2 rad under the whole force at the whole reach, a spring that
- *     would move by a quarter of the reach, a pivot below 1/16 (its limb's buckling factor is near 1), and det C below
- *     3e-8 of its squared mean.
+ *     would move by a quarter of the reach, a pivot below 1/16 or a lever of 8 times the reach (its limb's buckling
+ *     factor is near 1), det C below 3e-8 of its squared mean, and a limb of which nothing yields by 1e-12 mm/N.
  * result: written on success only.
  * Accuracy: as brace_loaded_stiffness, and at most 1e-4 of lambda_max more for the rounding. At no load K within 2e-6
  *         of lambda_max where det C is above 1e-3 of its squared mean, less exact the more slender the limb.
  *         tests/engine/test_core_under_load.py judges random limbs.
- * Cost on a Cortex-M3: at most 6,000 instructions, 5,795 to 5,939 measured: the search for the buckling factor differs
+ * Cost on a Cortex-M3: at most 6,000 instructions, 5,668 to 5,800 measured: the search for the buckling factor differs
  *         from posture to posture. Stack at most 700 bytes. */
 brace_status_t brace_loaded_fixed_stiffness(const brace_loaded_fixed_t *fixed, float theta1_rad, float theta2_rad,
                                             const brace_load_t *load, brace_loaded_stiffness_t *result);

@@ -10,8 +10,6 @@ static brace_fixed_vec_t vector_of(brace_vec_t v, int32_t exponent)
     return (brace_fixed_vec_t){quantised((double)v.x, exponent), quantised((double)v.z, exponent)};
 }
 
-#define REFUSED_EXPONENT 100 /* of compliances that no word holds, whatever the load */
-
 /* The arm of the springs at a link's end, as a part of the unit of length: so short that they curl the link's own turns
  * by no more than one for each radian. */
 static int32_t arm_shift_of(const brace_space_link_t *link, int32_t length_exponent)

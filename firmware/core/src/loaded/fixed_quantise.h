@@ -2,14 +2,19 @@
 #ifndef BRACE_LOADED_FIXED_QUANTISE_H
 #define BRACE_LOADED_FIXED_QUANTISE_H
 
+#include <float.h>
 #include <math.h>
 #include <stdint.h>
 
-#define LEAST_EXPONENT (-100) /* stands for zero: no other number's exponent is as small */
+#define LEAST_EXPONENT (-100)   /* stands for zero: no other number's exponent is as small */
+#define REFUSED_EXPONENT 100    /* of compliances that no word holds, whatever the load */
 
-/* The least exponent whose power of two is above a magnitude. */
+/* The least exponent whose power of two is above a magnitude. What is no number is refused. */
 static inline int32_t exponent_above(float value)
 {
+    if (!(fabsf(value) <= FLT_MAX)) {
+        return REFUSED_EXPONENT;
+    }
     if (!(fabsf(value) > 1e-30f)) {
         return LEAST_EXPONENT;
     }
@@ -23,11 +28,11 @@ static inline int32_t larger(int32_t a, int32_t b)
     return a > b ? a : b;
 }
 
-/* value 2^exponent as an integer, rounded. Its magnitude is below 2^31. */
+/* value 2^exponent as an integer, rounded, and within its word, whatever the value is. */
 static inline int32_t quantised(double value, int32_t exponent)
 {
-    const double scaled = ldexp(value, exponent);
-    const double limited = scaled > 0x7fffffffp0 ? 0x7fffffffp0 : scaled; /* what rounds to 2^31 */
+    const double most = 0x7fffffffp0, scaled = ldexp(value, exponent);
+    const double limited = scaled > most ? most : scaled > -most ? scaled : -most; /* what is no number is the least */
     return (int32_t)(limited + (limited < 0.0 ? -0.5 : 0.5));
 }
 

@@ -2,6 +2,7 @@
 
 #include "brace/loaded_fixed.h"
 #include "loaded/fixed_quantise.h"
+#include "loaded/fixed_units.h"
 
 static brace_fixed_vec_t lengths_of(brace_vec_t v_mm, int32_t exponent)
 {
@@ -63,5 +64,8 @@ void brace_loaded_fixed_collapse(const brace_loaded_t *loaded, brace_loaded_fixe
     roots_of(loaded->base_root, fixed, fixed->base_root_q31);
     fixed->base_rotation_q31 = quantised((double)loaded->base_rotation_rad_per_n_mm,
                                          31 + fixed->length_exponent - fixed->bend_exponent);
-    fixed->weight_q8 = (uint32_t)(384.0f * loaded->weight_n);
+    fixed->weight_q8 = (uint32_t)quantised(384.0 * (double)loaded->weight_n, 0);
+    if (!is_within_units(fixed)) {
+        *fixed = (brace_loaded_fixed_t){.bend_exponent = REFUSED_EXPONENT};
+    }
 }
