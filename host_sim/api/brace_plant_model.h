@@ -25,6 +25,7 @@ typedef struct {
     double coulomb_n_mm; /* [0, 1e+09] */
     double coulomb_per_load_ratio; /* [0, 0.9] */
     double hardening_n_mm_per_rad3; /* [0, 1e+30] */
+    double coulomb_load_fade_per_n_mm; /* [0, 1] */
 } brace_plant_joint_t;
 
 typedef struct {

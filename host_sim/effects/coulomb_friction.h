@@ -1,6 +1,7 @@
 // A joint's deflection changes only when the torque out of balance exceeds the friction torque. That torque is a
-// constant, and a share of what the spring carries, because gears rub harder under load. Seen as energy, each change
-// costs friction times its size.
+// constant, and a share of what the spring carries, because gears rub harder under load. The share may fade as the load
+// grows, to the two-thirds power of the load at last: the true area of an elastic contact grows so (Hertz). Seen as
+// energy, each change costs friction times its size.
 #pragma once
 
 #include <algorithm>
@@ -10,10 +11,27 @@
 
 namespace brace::effects::coulomb_friction {
 
-// The largest torque that friction holds while the spring carries this torque.
-inline double most_n_mm(double coulomb_n_mm, double per_load_ratio, double spring_n_mm)
+struct Friction {
+    double coulomb_n_mm, per_load_ratio, load_fade_per_n_mm;
+};
+
+// The load that friction grows with, at a load of at least 0, and how fast it grows with it: between 0 and 1.
+inline double felt_n_mm(double load_n_mm, double load_fade_per_n_mm)
 {
-    return coulomb_n_mm + per_load_ratio * std::fabs(spring_n_mm);
+    return load_fade_per_n_mm > 0.0 ? load_n_mm / std::cbrt(1.0 + load_fade_per_n_mm * load_n_mm) : load_n_mm;
+}
+
+inline double felt_slope(double load_n_mm, double load_fade_per_n_mm)
+{
+    const double faded = load_fade_per_n_mm * load_n_mm, root = std::cbrt(1.0 + faded);
+    return (1.0 + 2.0 / 3.0 * faded) / (root * (1.0 + faded));
+}
+
+// The largest torque that friction holds while the spring carries this torque.
+inline double most_n_mm(const Friction &friction, double spring_n_mm)
+{
+    return friction.coulomb_n_mm
+           + friction.per_load_ratio * felt_n_mm(std::fabs(spring_n_mm), friction.load_fade_per_n_mm);
 }
 
 // Under an imposed deflection friction holds this share [-1, 1] of its largest torque. It works fully against the
@@ -30,12 +48,23 @@ inline double turned_share(double share, double change_rad, double reversal_rad)
 }
 
 // The spring's torque while the joint moves towards `sense` under a given torque, which friction lessens or adds to.
-// Friction grows with the very torque that this function seeks, so the torque is divided. Needs per_load_ratio < 1.
-inline double spring_while_moving_n_mm(double coulomb_n_mm, double per_load_ratio, double torque_n_mm,
-                                       double sense)
+// Friction grows with the very torque that this function seeks, so the torque is divided; where the share fades, Newton's
+// method falls on the answer from there, always from the same side. Needs per_load_ratio < 1.
+inline double spring_while_moving_n_mm(const Friction &friction, double torque_n_mm, double sense)
 {
-    const double constant = torque_n_mm - sense * coulomb_n_mm;
-    return constant / (1.0 + (constant > 0.0 ? sense : -sense) * per_load_ratio);
+    const double constant = torque_n_mm - sense * friction.coulomb_n_mm, size = std::fabs(constant);
+    const double ratio = (constant > 0.0 ? sense : -sense) * friction.per_load_ratio;
+    const double fade = friction.load_fade_per_n_mm;
+    double spring = size / (1.0 + ratio);
+    for (int i = 0; fade > 0.0 && i < 100; ++i) {
+        const double step =
+            (spring + ratio * felt_n_mm(spring, fade) - size) / (1.0 + ratio * felt_slope(spring, fade));
+        spring -= step;
+        if (std::fabs(step) <= 1e-15 * spring) {
+            break;
+        }
+    }
+    return std::copysign(spring, constant);
 }
 
 } // namespace brace::effects::coulomb_friction

@@ -17,6 +17,10 @@ struct JointLaw : brace_plant_joint_t {
     JointLaw() : brace_plant_joint_t{} {}
 
     bool rubs() const { return coulomb_n_mm > 0.0 || coulomb_per_load_ratio > 0.0; }
+    effects::coulomb_friction::Friction friction() const
+    {
+        return {coulomb_n_mm, coulomb_per_load_ratio, coulomb_load_fade_per_n_mm};
+    }
 };
 
 inline JointLaw joint_law(const effects::Model &model, int joint, double temp_degc)
@@ -60,15 +64,16 @@ inline double spring_stiffness_n_mm_per_rad(const JointLaw &law, double deflecti
 // The largest torque that friction holds at this deflection, and how fast it grows with the deflection.
 inline double friction_n_mm(const JointLaw &law, double deflection_rad)
 {
-    return law.rubs() ? effects::coulomb_friction::most_n_mm(law.coulomb_n_mm, law.coulomb_per_load_ratio,
-                                                             spring_torque_n_mm(law, deflection_rad))
+    return law.rubs() ? effects::coulomb_friction::most_n_mm(law.friction(), spring_torque_n_mm(law, deflection_rad))
                       : 0.0;
 }
 
 inline double friction_slope_n_mm_per_rad(const JointLaw &law, double deflection_rad)
 {
-    return std::copysign(law.coulomb_per_load_ratio * spring_stiffness_n_mm_per_rad(law, deflection_rad),
-                         deflection_rad);
+    const double load_n_mm = std::fabs(spring_torque_n_mm(law, deflection_rad));
+    const double ratio = law.coulomb_per_load_ratio
+                         * effects::coulomb_friction::felt_slope(load_n_mm, law.coulomb_load_fade_per_n_mm);
+    return std::copysign(ratio * spring_stiffness_n_mm_per_rad(law, deflection_rad), deflection_rad);
 }
 
 // Elastic deflection under a torque, without friction.

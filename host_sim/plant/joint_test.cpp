@@ -26,7 +26,7 @@ double torque_at(const JointLaw &law, double deflection_rad, double reversal_rad
     const double spring = spring_torque_n_mm(law, state.instant_rad);
     return spring
            + state.friction_share
-                 * effects::coulomb_friction::most_n_mm(law.coulomb_n_mm, law.coulomb_per_load_ratio, spring);
+                 * effects::coulomb_friction::most_n_mm(law.friction(), spring);
 }
 
 // How far friction is strained where a test starts at this torque: friction carries what the spring does not carry.
@@ -55,8 +55,7 @@ double most_deflection(const JointLaw &law, double torque_n_mm)
 double deflection_under(const JointLaw &law, double torque_n_mm, JointState &state)
 {
     const auto spring_n_mm = [&](double sense) {
-        return effects::coulomb_friction::spring_while_moving_n_mm(law.coulomb_n_mm, law.coulomb_per_load_ratio,
-                                                                   torque_n_mm, sense);
+        return effects::coulomb_friction::spring_while_moving_n_mm(law.friction(), torque_n_mm, sense);
     };
     state.instant_rad = std::clamp(state.instant_rad, least_deflection(law, spring_n_mm(1.0)),
                                    most_deflection(law, spring_n_mm(-1.0)));

@@ -48,6 +48,8 @@ RestProblem random_problem(brace::rig::Noise &draw, int joint_count, double load
         joint.law.hardening_n_mm_per_rad3 = draw.uniform() < 0.5 ? decades(draw, 6.0, 11.0) : 0.0;
         joint.load_n_mm = between(draw, -500.0, 500.0);
         joint.before_rad = between(draw, -0.01, 0.01);
+        brace::rig::Noise apart(static_cast<unsigned>(1e8 * (joint.before_rad + 0.01)));
+        joint.law.coulomb_load_fade_per_n_mm = apart.uniform() < 0.5 ? decades(apart, -5.0, -1.0) : 0.0;
     }
     const double softest =
         1.0 / std::fmax(problem.joint[0].law.compliance_rad_per_n_mm, problem.joint[1].law.compliance_rad_per_n_mm);
@@ -83,7 +85,8 @@ void check_balance(const RestProblem &problem, const RestState &state)
         for (int j = 0; j < problem.joint_count; ++j) {
             pushing -= problem.by_loads_n_mm_per_rad(i, j) * state.deflection_rad[j];
         }
-        const double most = joint.law.coulomb_n_mm + joint.law.coulomb_per_load_ratio * std::fabs(spring);
+        const double share = std::pow(1.0 + joint.law.coulomb_load_fade_per_n_mm * std::fabs(spring), -1.0 / 3.0);
+        const double most = joint.law.coulomb_n_mm + joint.law.coulomb_per_load_ratio * share * std::fabs(spring);
         const double moved = state.deflection_rad[i] - joint.before_rad;
         const double tolerance = 1e-6; // N mm: the promised 1e-9 N over levers of some hundred mm
         if (moved == 0.0) {
@@ -109,7 +112,8 @@ static void test_balance(void)
 }
 
 // Loads that turn with the joints, up to a third of a spring's stiffness. Within its play a joint may have no other
-// stiffness, and stand as under a weight above it.
+// stiffness, and stand as under a weight above it. Where friction grows by more of the spring's torque than loads leave of
+// the stiffness, there may be no rest; then none is told.
 static void test_balance_under_loads(void)
 {
     brace::rig::Noise draw(22);
@@ -121,7 +125,11 @@ static void test_balance_under_loads(void)
         RestState state{};
         state.deflection_rad = {problem.joint[0].before_rad, problem.joint[1].before_rad};
         brace::plant::find_rest(problem, state);
-        check_balance(problem, state);
+        const double ratio =
+            std::fmax(problem.joint[0].law.coulomb_per_load_ratio, problem.joint[1].law.coulomb_per_load_ratio);
+        if (state.solved || ratio + 0.3 < 1.0) {
+            check_balance(problem, state);
+        }
     }
 }
 

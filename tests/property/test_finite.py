@@ -216,6 +216,7 @@ def random_drive(draw: np.random.Generator) -> dict[str, float]:
     for joint in ("femur", "tibia"):
         for name, value in (("gap_rad", draw.uniform(0.0, 0.01)), ("coulomb_n_mm", 10 ** draw.uniform(1.0, 3.5)),
                             ("coulomb_per_load_ratio", draw.uniform(0.0, 0.5)),
+                            ("coulomb_load_fade_per_n_mm", 10 ** draw.uniform(-5.0, -1.0)),
                             ("hardening_n_mm_per_rad3", 10 ** draw.uniform(7.0, 10.0))):
             if draw.random() < 0.5:
                 keys[f"joint.{joint}.{name}"] = value
@@ -248,7 +249,9 @@ def test_turned_joints_are_in_balance(seed: int, step_mm: float) -> None:
         np.testing.assert_allclose(base_mm, rest.base_mm, rtol=0.0, atol=1e-12)
         for k, joint in enumerate(("femur", "tibia")):
             spring = spring_n_mm(model, joint, deflection[i, k])
-            most = (model[f"joint.{joint}.coulomb_n_mm"] + model[f"joint.{joint}.coulomb_per_load_ratio"] * abs(spring))
+            share = (1.0 + model[f"joint.{joint}.coulomb_load_fade_per_n_mm"] * abs(spring)) ** (-1.0 / 3.0)
+            most = (model[f"joint.{joint}.coulomb_n_mm"]
+                    + model[f"joint.{joint}.coulomb_per_load_ratio"] * share * abs(spring))
             pushing = rest.torque_n_mm[k] - spring
             rounding = 1e-6 + 1e-9 * abs(spring)
             if deflection[i, k] == before[k]:

@@ -65,12 +65,24 @@ def test_friction_that_grows_with_the_load() -> None:
     np.testing.assert_allclose(play_joint(model, angle), wanted, atol=1e-9)
 
 
+def test_friction_whose_growth_fades() -> None:
+    """The share is divided by the cube root of one plus the load over a load: all of it at no load, half at seven such
+    loads, and the two-thirds power of the load far beyond."""
+    angle, fade = ramp(0.02), 1.0 / 150.0
+    model = joint(gap_rad=GAP, coulomb_n_mm=TAU, coulomb_per_load_ratio=0.8, coulomb_load_fade_per_n_mm=fade)
+    sense = np.sign(np.concatenate([[0.0], np.diff(angle)]))
+    carried = play_joint(joint(gap_rad=GAP), angle)
+    wanted = carried + (TAU + 0.8 * np.abs(carried) / (1.0 + fade * np.abs(carried)) ** (1.0 / 3.0)) * sense
+    np.testing.assert_allclose(play_joint(model, angle), wanted, atol=1e-9)
+
+
 @pytest.mark.parametrize("gap", [0.0, GAP])
 @pytest.mark.parametrize("tau", [0.0, TAU])
-@pytest.mark.parametrize("ratio", [0.0, 0.25])
-def test_imposed_torque_undoes_imposed_angle(gap: float, tau: float, ratio: float) -> None:
+@pytest.mark.parametrize(("ratio", "fade"), [(0.0, 0.0), (0.25, 0.0), (0.25, 1e-3), (0.89, 1.0), (0.89, 1e-2)])
+def test_imposed_torque_undoes_imposed_angle(gap: float, tau: float, ratio: float, fade: float) -> None:
     """Angles that a torque history makes, imposed in turn, need that torque wherever the joint moves."""
-    model = joint(gap_rad=gap, coulomb_n_mm=tau, coulomb_per_load_ratio=ratio, hardening_n_mm_per_rad3=H)
+    model = joint(gap_rad=gap, coulomb_n_mm=tau, coulomb_per_load_ratio=ratio, hardening_n_mm_per_rad3=H,
+                  coulomb_load_fade_per_n_mm=fade)
     torque = ramp(1500.0, 37)
     angle = play_joint(model, torque, torque_imposed=True)
     back = play_joint(model, angle)

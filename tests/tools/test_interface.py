@@ -12,7 +12,7 @@ import pytest
 
 from brace.model import LIMB_KEYS
 from brace.model.keys import KEY_BY_NAME
-from brace.wire.names import PARAMETERS, SCHEMA_HASH
+from brace.wire.names import OF_THE_MODEL, PARAMETERS, SCHEMA_HASH
 from conftest import PROJECT
 
 sys.path.insert(0, str(PROJECT / "tools"))
@@ -66,7 +66,9 @@ def test_schema_hash_is_of_keys_types_and_units() -> None:
 
 
 def test_every_key_of_the_file_is_a_parameter() -> None:
-    assert {key.name for key in LIMB_KEYS} == {p.key for p in PARAMETERS} | {"format", "name"}
+    of_the_model = {p.key for p in OF_THE_MODEL}
+    assert {key.name for key in LIMB_KEYS} == {p.key for p in PARAMETERS} | of_the_model | {"format", "name"}
+    assert all(p.default == 0.0 for p in OF_THE_MODEL), "a controller, which has none of them, is told of no effect"
     tables = [key.name.rpartition(".")[0] for key in LIMB_KEYS]
     for table in set(tables):  # a table is written once
         places = [i for i, name in enumerate(tables) if name == table]

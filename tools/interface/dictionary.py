@@ -30,10 +30,10 @@ class Entry:
     """One value visible from outside."""
 
     index: int  # among those of the same persistence, in the struct's order
-    register: int  # Modbus
+    register: int  # Modbus; -1 where no controller keeps it
     persistence: str
     key: str  # as in limb.toml
-    member: str  # C expression in the struct
+    member: str  # C expression in the struct; empty where no controller keeps it
     type: str  # f32, u32
     unit: str
     low: float
@@ -81,6 +81,11 @@ class Dictionary:
         return tuple(entry for entry in self.entries if entry.persistence == "parameter")
 
     @property
+    def of_the_model(self) -> tuple[Entry, ...]:
+        """What limb.toml and the simulated limb have, and no controller."""
+        return tuple(entry for entry in self.entries if entry.persistence == "model")
+
+    @property
     def schema(self) -> str:
         """Key, type and unit of each parameter, one a line."""
         return "".join(f"{entry.key} {entry.type} {entry.unit}\n" for entry in self.parameters)
@@ -104,13 +109,21 @@ def load(path: Path) -> Dictionary:
     entries: list[Entry] = []
     for group in content["group"]:
         _refuse_unknown(group, _GROUP_KEYS, str(group.get("table")))
-        for part in range(len(LINKS) if "*" in group["member"] else 1):
+        for part in range(_parts(group)):
             for raw in group["entry"]:
-                entries.append(_entry(group, raw, part, len(entries)))
-    for field in ("key", "member"):
-        _refuse_twice([getattr(entry, field) for entry in entries])
-    check_area("parameters", [entry.register for entry in entries], 0, content)
-    return Dictionary(tuple(entries), _structs(content["group"], entries))
+                alike = [entry for entry in entries if entry.persistence == group["persistence"]]
+                entries.append(_entry(group, raw, part, len(alike)))
+    kept = [entry for entry in entries if entry.persistence == "parameter"]
+    _refuse_twice([entry.key for entry in entries])
+    _refuse_twice([entry.member for entry in kept])
+    check_area("parameters", [entry.register for entry in kept], 0, content)
+    groups = [group for group in content["group"] if group["persistence"] == "parameter"]
+    return Dictionary(tuple(entries), _structs(groups, kept))
+
+
+def _parts(group: Mapping[str, Any]) -> int:
+    """How many tables of limb.toml a group has."""
+    return len(LINKS) if "*" in group.get("member", group["table"]) else 1
 
 
 def _structs(groups: Sequence[Mapping[str, Any]], entries: Sequence[Entry]) -> tuple[Struct, ...]:
@@ -158,15 +171,18 @@ def _entry(group: Mapping[str, Any], raw: Mapping[str, Any], part: int, index: i
         low, high = min(numbers), max(numbers)
     else:
         low, high = raw["range"]
-    register = raw["register"]
-    if (len(register) if isinstance(register, list) else 1) != (len(LINKS) if "*" in group["member"] else 1):
+    is_kept = group["persistence"] == "parameter"
+    if not is_kept and (group["persistence"] != "model" or {"register", "field", "safe"} & set(raw)):
+        raise DictionaryError(f"{key}: what no controller keeps has persistence \"model\", and no register, field, safe")
+    register = raw["register"] if is_kept else [-1] * _parts(group)
+    if (len(register) if isinstance(register, list) else 1) != _parts(group):
         raise DictionaryError(f"{key}: a table with * has a list of {len(LINKS)} registers, another one has one")
     entry = Entry(
         index=index,
         register=register[part] if isinstance(register, list) else register,
         persistence=group["persistence"],
         key=key,
-        member=group["member"].replace("*", str(part)) + "." + raw.get("field", raw["name"]),
+        member=group["member"].replace("*", str(part)) + "." + raw.get("field", raw["name"]) if is_kept else "",
         type=kind,
         unit=raw["unit"],
         low=low,

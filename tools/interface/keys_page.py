@@ -15,6 +15,14 @@ The last column is what a controller uses that has no valid block; it then flags
 """
 
 
+_OF_THE_MODEL = """## Of the simulated limb alone
+
+No controller keeps these: `brace params pack` passes them over. What the controller reckons with instead is on the safe
+side: friction whose growth does not fade is the larger one.
+
+"""
+
+
 def keys_page(dictionary: Dictionary) -> str:
     """Tables of limb.toml in the order of the struct."""
     tables: dict[str, list[Entry]] = {}
@@ -25,7 +33,12 @@ def keys_page(dictionary: Dictionary) -> str:
         text += f"## `[{table}]`\n\n| number | key | unit | range | default | means | without a block |\n"
         text += "|---|---|---|---|---|---|---|\n"
         text += "".join(_row(entry) for entry in entries) + "\n"
-    return text.rstrip("\n") + "\n"
+    text += _OF_THE_MODEL + "| key | unit | range | default | means |\n|---|---|---|---|---|\n"
+    text += "".join(
+        f"| `{entry.key}` | {entry.unit} | {_range(entry)} | {_number(entry, entry.default)} | {entry.description} |\n"
+        for entry in dictionary.of_the_model
+    )
+    return text
 
 
 def _row(entry: Entry) -> str:

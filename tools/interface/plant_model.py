@@ -17,7 +17,7 @@ _NOISE = "sensor.noise_n"
 def plant_entries(dictionary: Dictionary) -> list[Entry]:
     """The entries that describe the limb, side by side by their tables in limb.toml."""
     tables: dict[str, list[Entry]] = {}
-    for entry in dictionary.parameters:
+    for entry in (*dictionary.parameters, *dictionary.of_the_model):
         if _kind(entry) not in _NOT_OF_THE_LIMB and entry.key != _NOISE:
             tables.setdefault(_kind(entry), []).append(entry)
     return [entry for entries in tables.values() for entry in entries]

@@ -10,7 +10,7 @@ from interface.dictionary import Dictionary, Entry
 def names_module(dictionary: Dictionary) -> str:
     """One `Parameter(...)` for each member of the block, in its order."""
     lines = [
-        '"""Parameters of the controller by name. Written by tools/interface from dictionary.toml; do not edit."""',
+        '"""Numbers of limb.toml by name. Written by tools/interface from dictionary.toml; do not edit."""',
         "",
         "from __future__ import annotations",
         "",
@@ -22,6 +22,10 @@ def names_module(dictionary: Dictionary) -> str:
         "",
         "PARAMETERS: tuple[Parameter, ...] = (",
         *(line for entry in dictionary.parameters for line in _parameter(entry)),
+        ")",
+        "# Of the simulated limb alone: no controller keeps them.",
+        "OF_THE_MODEL: tuple[Parameter, ...] = (",
+        *(line for entry in dictionary.of_the_model for line in _parameter(entry)),
         ")",
     ]
     return "\n".join(lines) + "\n"

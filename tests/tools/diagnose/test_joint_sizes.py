@@ -154,3 +154,37 @@ def test_readings_where_the_drive_does_not_follow_tell_nothing() -> None:
     elsewhere = columns | {"torque_n_mm": 0.85 * command}
     assert np.all(usable(elsewhere))
     assert np.all(usable({name: columns[name] for name in ("torque_n_mm", "test")}))
+
+
+def rubbing(fade_per_n_mm: float, random: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
+    """Angles that are imposed on a joint with play, and the torque: friction grows with the load, and ever less."""
+    angle = 0.03 * np.concatenate([triangle(), triangle()])
+    spring = np.sign(angle) * np.maximum(np.abs(angle) - 0.004, 0.0) / COMPLIANCE
+    level = held_by_friction(np.abs(spring), fade_per_n_mm)
+    share = 0.0
+    shares = []
+    for moved in np.diff(angle, prepend=0.0):
+        share = float(np.clip(share + moved / 6e-4, -1.0, 1.0))
+        shares.append(share)
+    return angle, spring + level * np.array(shares) + 40.0 * random.standard_normal(angle.size)
+
+
+def held_by_friction(load_n_mm: np.ndarray, fade_per_n_mm: float) -> np.ndarray:
+    return np.asarray(700.0 + 0.4 * load_n_mm * (1.0 + fade_per_n_mm * load_n_mm) ** (-1.0 / 3.0))
+
+
+@pytest.mark.parametrize("fade_per_n_mm", [0.0, 1.0 / 800.0])
+def test_limb_toml_has_a_friction_whose_growth_fades_where_it_does(tmp_path: Path, fade_per_n_mm: float) -> None:
+    """Both commands find it, and say so; a share that stays is told as one."""
+    random = np.random.default_rng(6)
+    tests = [rubbing(fade_per_n_mm, random) for _ in range(4)]
+    found = found_in(tmp_path / "diagnose", tests)
+    record = load_dataset(recorded(tmp_path / "identify", tests))
+    fitted = identify(record, spring_alone(record), Options())
+    for model in (found.model, fitted.fit.model):
+        told = [model.number(f"joint.femur.coulomb_{leaf}") for leaf in ("n_mm", "per_load_ratio", "load_fade_per_n_mm")]
+        assert (told[2] > 0.0) is (fade_per_n_mm > 0.0), told
+        for load_n_mm in (3000.0, 6000.0, 12000.0):
+            most = told[0] + told[1] * load_n_mm * (1.0 + told[2] * load_n_mm) ** (-1.0 / 3.0)
+            assert most == pytest.approx(float(held_by_friction(np.array(load_n_mm), fade_per_n_mm)), rel=0.05), told
+    assert any("ever less with the load" in note for note in found.notes) is (fade_per_n_mm > 0.0)

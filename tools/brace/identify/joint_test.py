@@ -16,7 +16,7 @@ from brace.dataset import Dataset
 from brace.dataset.grid import step_of, unrounded
 from brace.errors import BadFileError
 from brace.identify.fit import Fit, Nuisances, columns_of, fit
-from brace.effects.catalogue import FRICTION_TURN, MOST_GAP, USUAL_LOAD_RATIO
+from brace.effects.catalogue import FADES_SHRINK, FADING_STARTS, FRICTION_TURN, MOST_GAP, USUAL_LOAD_RATIO
 from brace.identify.gear_positions import POSITION, apart, count
 from brace.identify.parameters import (
     ANGLE_ZERO,
@@ -216,7 +216,21 @@ class JointProblem:
             drawn = [replace(one, start=0.0, prior_sigma=prior) if one.key == key else one
                      for one in found.parameters.parameters]  # fmt: skip
             found = fit(self, ParameterSet(found.parameters.base, tuple(drawn)), [found.x])
-        return replace(found, together=found.residual.size / count)
+        return replace(self._fading(found), together=found.residual.size / count)
+
+    def _fading(self, found: Fit) -> Fit:
+        """The fit with a friction whose growth with the load fades, where that leaves less by a share."""
+        key, ratio = (f"joint.{self.joint}.coulomb_{leaf}" for leaf in ("load_fade_per_n_mm", "per_load_ratio"))
+        one = 1.0 / (float(np.ptp(self.columns["torque_n_mm"])) or 1.0)
+        law = Parameter(key, found.parameters.base.number(key), one, 0.0, KEY_BY_NAME[key].high)
+        starts = []
+        for fades, share in FADING_STARTS:
+            starts.append(np.append(found.x, fades * one))
+            starts[-1][found.parameters.keys.index(ratio)] = share
+        freed = ParameterSet(found.parameters.base, (*found.parameters.parameters, law))
+        faded = fit(self, freed, [np.append(found.x, law.start), *starts])
+        is_better = np.linalg.norm(faded.residual) < (1.0 - FADES_SHRINK) * np.linalg.norm(found.residual)
+        return faded if is_better else found
 
     def zeros(self, angle_span_rad: float) -> tuple[Parameter, ...]:
         """The encoder's zero at every gear position."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from brace.toml import Key
-from brace.wire.names import PARAMETERS
+from brace.wire.names import OF_THE_MODEL, PARAMETERS
 from brace.wire.parameter import Parameter
 
 LINKS = ("coxa", "femur", "tibia")
@@ -38,7 +38,7 @@ def _by_table(keys: list[Key]) -> list[Key]:
 LIMB_KEYS: tuple[Key, ...] = (
     Key("format", None, "the version of the file's format, 1", "", 1, 1, kind="integer"),
     Key("name", "", "a name for the limb", kind="text"),
-    *_by_table([_key(parameter) for parameter in PARAMETERS]),
+    *_by_table([_key(parameter) for parameter in (*PARAMETERS, *OF_THE_MODEL)]),
 )
 
 KEY_BY_NAME = {key.name: key for key in LIMB_KEYS}

@@ -11,7 +11,7 @@ from brace.errors import BadFileError
 from brace.model import LimbModel
 from brace.model.keys import KEY_BY_NAME
 from brace.toml import Value
-from brace.wire.names import PARAMETERS
+from brace.wire.names import OF_THE_MODEL, PARAMETERS
 from brace.wire.parameter import Parameter
 
 _HALF_STEP = 2.0**-24  # of a 32-bit float: what rounding may change, of the value
@@ -67,7 +67,7 @@ def value_of(parameter: Parameter, word: int) -> float | int | str:
 
 def model_of(words: np.ndarray) -> LimbModel:
     """The limb model of a block's words; what equals the format's default is not marked as given."""
-    values: dict[str, Value] = {"format": 1, "name": ""}
+    values: dict[str, Value] = {"format": 1, "name": "", **{one.key: one.default or 0.0 for one in OF_THE_MODEL}}
     given = {"format"}
     for parameter in PARAMETERS:
         values[parameter.key] = value_of(parameter, int(words[parameter.index]))

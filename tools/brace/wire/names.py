@@ -1,4 +1,4 @@
-"""Parameters of the controller by name. Written by tools/interface from dictionary.toml; do not edit."""
+"""Numbers of limb.toml by name. Written by tools/interface from dictionary.toml; do not edit."""
 
 from __future__ import annotations
 
@@ -568,5 +568,23 @@ PARAMETERS: tuple[Parameter, ...] = (
         111, 107, "controller.modbus_baud", "controller.modbus_baud",
         unit="bit/s", low=1200, high=230400, default=115200, safe=115200, type="u32", numbers=(1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200, 230400,),
         description="the baud rate of Modbus RTU",
+    ),
+)
+# Of the simulated limb alone: no controller keeps them.
+OF_THE_MODEL: tuple[Parameter, ...] = (
+    Parameter(
+        0, -1, "joint.coxa.coulomb_load_fade_per_n_mm", "",
+        unit="1/(N mm)", low=0.0, high=1.0, default=0.0, safe=0.0,
+        description="how fast the share of the load that is added to the dry friction at theta0 fades: it is divided by the cube root of one plus this times the spring's torque",
+    ),
+    Parameter(
+        1, -1, "joint.femur.coulomb_load_fade_per_n_mm", "",
+        unit="1/(N mm)", low=0.0, high=1.0, default=0.0, safe=0.0,
+        description="how fast the share of the load that is added to the dry friction at theta1 fades: it is divided by the cube root of one plus this times the spring's torque",
+    ),
+    Parameter(
+        2, -1, "joint.tibia.coulomb_load_fade_per_n_mm", "",
+        unit="1/(N mm)", low=0.0, high=1.0, default=0.0, safe=0.0,
+        description="how fast the share of the load that is added to the dry friction at theta2 fades: it is divided by the cube root of one plus this times the spring's torque",
     ),
 )

@@ -4,7 +4,8 @@
 
 #include <stddef.h>
 
-#include "brace/loaded_fixed.h"
+#include "brace/loaded.h"
+#include "brace/loaded_fixed_types.h"
 #include "loaded/fixed_solve.h"
 
 #define FORCE_MOST_Q17 (10000u << 17)

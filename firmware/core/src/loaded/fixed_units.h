@@ -5,7 +5,7 @@
 
 #include <stdbool.h>
 
-#include "brace/loaded_fixed.h"
+#include "brace/loaded_fixed_types.h"
 #include "fixed/fixed_word.h"
 
 /* Lengths, and what rounding adds to that of a vector, that of floats too. A link tilted by a quarter turn is the root

@@ -11,8 +11,10 @@ import numpy as np
 
 from brace.diagnose.joint_test.terms import Role, Term
 from brace.effects import JointTestSize
+from brace.effects.catalogue import FADING_STARTS
 from brace.identify.fit import Nuisances
 from brace.identify.parameters import LAG, VISCOUS, Parameter
+from brace.model.keys import KEY_BY_NAME
 
 ASYMMETRY = "asymmetry_ratio"  # the spring on one side is this much stiffer
 COG_SIN, COG_COS, COG_PERIOD = "cogging_sin_n_mm", "cogging_cos_n_mm", "cogging_period_rad"
@@ -110,6 +112,14 @@ def shapes(size: JointTestSize, period_rad: float, rubs: bool) -> list[Term]:
         own = Parameter(TORQUE_DRIFT, 0.0, 0.01 * drift, -drift, drift)
         found.append(_term("torque_drift", "sensor", "shape", [own], {}))
     return found
+
+
+def fading(joint: str, size: JointTestSize) -> Term:
+    """A law that limb.toml has numbers for: the share of the load that friction grows by fades as the load grows."""
+    fade, share = f"joint.{joint}.coulomb_load_fade_per_n_mm", f"joint.{joint}.coulomb_per_load_ratio"
+    one = 1.0 / size.torque_n_mm
+    starts = ({fade: fades * one, share: ratio} for fades, ratio in FADING_STARTS)
+    return _term("fading_friction", "joint", "law", [Parameter(fade, 0.0, one, 0.0, KEY_BY_NAME[fade].high)], *starts)
 
 
 def _term(name: str, where: str, role: Role, parameters: list[Parameter], *starts: dict[str, float]) -> Term:

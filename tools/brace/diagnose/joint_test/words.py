@@ -74,6 +74,12 @@ def shape(name: str, values: Mapping[str, float]) -> str:
         return f"free travel of {free:.3g} rad in series with a slider that slips at {values[SLIP]:.3g} N mm"
     if name == "later_friction":
         return f"friction of which {values[LATER]:.3g} N mm turn over {values[LATER_TURN]:.3g} rad"
+    if name == "fading_friction":
+        fade = next(value for key, value in values.items() if key.endswith("coulomb_load_fade_per_n_mm"))
+        return (
+            f"friction that grows ever less with the load: by half of its first share at {7.0 / fade:.3g} N mm"
+            " (as elastic contacts do)"
+        )
     if name == "torque_drift":
         return f"a torque reading whose zero moves by {values[TORQUE_DRIFT]:.3g} N mm/s"
     return name.replace("_", " ")

@@ -32,10 +32,11 @@ from brace.diagnose.joint_test.intake import blocking_faults, require_enough, sp
 from brace.diagnose.joint_test.localise import localise
 from brace.diagnose.joint_test.record import JointRecord
 from brace.diagnose.joint_test.rivals import Rival, beside, one_less, ranges, rivals, surest
-from brace.diagnose.joint_test.shapes import record_terms, shapes
+from brace.diagnose.joint_test.shapes import fading, record_terms, shapes
 from brace.diagnose.joint_test.terms import Term, effects_of
 from brace.diagnose.options import Advance, Options
 from brace.effects import JointTestBench
+from brace.effects.catalogue import FADES_SHRINK
 from brace.identify.parameters import ANGLE_ZERO, TORQUE_OFFSET
 from brace.model import LimbModel
 from brace.model.keys import KEY_BY_NAME
@@ -179,6 +180,7 @@ def _told(
     predicts = exported
     if believed is None and effects:
         predicts = _as_gears_are(by_rows, search, exported, True)
+    predicts = _as_friction_fades(by_rows, predicts)
     gap, residuals, rows = _gaps(by_rows, base, effects, exported, predicts)
     after = gap.after.fitted
     remainder_noise = max(record.noise_n_mm, 1e-9)
@@ -208,7 +210,7 @@ def _told(
         exported = by_rows.fit(tuple(own), base)
         predicts = exported
         if believed is None and verdict == "unknown":
-            predicts = _as_gears_are(by_rows, search, exported, False)
+            predicts = _as_friction_fades(by_rows, _as_gears_are(by_rows, search, exported, False))
     named = {effect.name for effect in effects}
     all_rows = by_rows.over_all()
     final = all_rows.fit(exported.terms, exported)
@@ -219,6 +221,7 @@ def _told(
         keys = [parameter.key for term in more for parameter in term.parameters if parameter.key in KEY_BY_NAME]
         numbers = positions.typical(record, told)
         notes += (words.not_named([term.name for term in more], {key: numbers[key] for key in keys}),)
+    notes += tuple(words.shape(term.name, told.values) for term in told.terms if term.role == "law")
     model = _exportable(record, fitter.base, told, believed, bool(effects))
     nearest = [one.label for one in choice.candidates if one.gain > 0.0 and " + " not in one.label]
     could_be = tuple(dict.fromkeys((*withheld, *nearest)))[:4] if verdict == "unknown" else ()
@@ -277,6 +280,18 @@ def _as_gears_are(by_rows: Fitter, search: _Found, exported: Fitted, have_names:
                   and one.held_rss <= found.held_rss]  # fmt: skip
         found = min(better, key=lambda one: one.rss, default=found)
     return found
+
+
+def _as_friction_fades(by_rows: Fitter, found: Fitted) -> Fitted:
+    """What was found, with a friction whose growth with the load fades where that fits better, as `brace identify` has
+    it."""
+    record = by_rows.record
+    if not any(term.name == "coulomb_friction" for term in found.terms):
+        return found
+    law = fading(record.joint, record.size)
+    faded = by_rows.fit((*found.terms, law), found, law)
+    is_better = faded.rss < (1.0 - FADES_SHRINK) ** 2 * found.rss and faded.held_rss <= found.held_rss
+    return faded if is_better and not strained(by_rows, faded) else found
 
 
 def _as_told(effect: NamedEffect, values: Mapping[str, float]) -> NamedEffect:
