@@ -8,7 +8,8 @@ void setUp(void) {}
 
 void tearDown(void) {}
 
-/* quantised rounds to the nearest integer, above and below zero. A number that would round to 2^31 becomes 2^31 - 1. */
+/* quantised rounds to the nearest integer, above and below zero. A number beyond a word becomes the largest of
+ * its sign, whose negative is a word, too; what is no number becomes a word as well. */
 static void test_a_number_becomes_the_nearest_word(void)
 {
     for (int whole = -3; whole <= 3; whole++) {
@@ -16,7 +17,10 @@ static void test_a_number_becomes_the_nearest_word(void)
         TEST_ASSERT_EQUAL_INT32(whole, quantised(((double)whole - 0.49) / 1024.0, 10));
     }
     TEST_ASSERT_EQUAL_INT32(INT32_MAX, quantised(1.0 - 1e-12, 31));
-    TEST_ASSERT_EQUAL_INT32(INT32_MIN, quantised(-1.0, 31));
+    TEST_ASSERT_EQUAL_INT32(-INT32_MAX, quantised(-1.0, 31));
+    TEST_ASSERT_EQUAL_INT32(INT32_MAX, quantised(INFINITY, 31));
+    TEST_ASSERT_EQUAL_INT32(-INT32_MAX, quantised(-INFINITY, 0));
+    TEST_ASSERT_EQUAL_INT32(-INT32_MAX, quantised(NAN, 31));
 }
 
 /* exponent_above tells the exponent of the next power of two above a number. For a number near zero it tells
@@ -28,6 +32,8 @@ static void test_the_power_of_two_above_a_number(void)
     TEST_ASSERT_EQUAL_INT32(-3, exponent_above(0.12f));
     TEST_ASSERT_EQUAL_INT32(LEAST_EXPONENT, exponent_above(0.0f));
     TEST_ASSERT_EQUAL_INT32(LEAST_EXPONENT, exponent_above(1e-31f));
+    TEST_ASSERT_EQUAL_INT32(REFUSED_EXPONENT, exponent_above(-INFINITY));
+    TEST_ASSERT_EQUAL_INT32(REFUSED_EXPONENT, exponent_above(NAN));
 }
 
 int main(void)

@@ -28,7 +28,7 @@ static inline int32_t larger(int32_t a, int32_t b)
     return a > b ? a : b;
 }
 
-/* value 2^exponent as an integer, rounded, and within its word, whatever the value is. */
+/* value 2^exponent as an integer, rounded; from -(2^31 - 1) to 2^31 - 1, whatever the value is. */
 static inline int32_t quantised(double value, int32_t exponent)
 {
     const double most = 0x7fffffffp0, scaled = ldexp(value, exponent);
