@@ -372,6 +372,20 @@ static void test_halves_of_two_masters_do_not_meet(void)
     TEST_ASSERT_EQUAL_HEX32(ours, value_at(&reply, 0));
 }
 
+/* Two connections whose halves are kept in one place: what the one has begun, the other does not end. */
+static void test_halves_of_two_connections_do_not_meet(void)
+{
+    const uint8_t high[] = {6, 0, 2, 0x43, 0x35}, low[] = {6, 0, 3, 0x80, 0};
+    brace_fake_with_peers(&fake);
+    configure();
+    fake.peer = 11;
+    accepted(tcp_asks(UNIT, high, sizeof high), 6);
+    fake.peer = 3;
+    refused(tcp_asks(UNIT, low, sizeof low), 6, 3);
+    accepted(tcp_asks(UNIT, high, sizeof high), 6);
+    refused(tcp_asks(UNIT, low, sizeof low), 6, 7); /* whole, but another writes */
+}
+
 /* A set beyond what the board allows is a wrong value to a Modbus master, and is not stored. */
 static void test_the_board_s_ceilings_hold_over_modbus(void)
 {
@@ -411,5 +425,6 @@ int main(void)
     RUN_TEST(test_without_a_k_there_is_no_answer_from_it);
     RUN_TEST(test_commands_need_their_key_and_their_mode);
     RUN_TEST(test_halves_of_two_masters_do_not_meet);
+    RUN_TEST(test_halves_of_two_connections_do_not_meet);
     return UNITY_END();
 }

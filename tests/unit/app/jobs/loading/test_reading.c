@@ -52,6 +52,7 @@ static void test_the_first_reading_is_what_all_counts_from(void)
     snapshot.theta_rad[BRACE_FEMUR] = 1.33f, snapshot.theta_rad[BRACE_TIBIA] = 1.44f;
     test.dx_mm = test.dz_mm = 9.0f;
     test.test_us = 250000;
+    test.result.setup.axis = BRACE_AXIS_Z;
     add(0.010f, 0.030f, 0.002f, 0.005f, 4.0f, 7.0f, 30.0f);
     add(0.020f, 0.050f, 0.004f, 0.009f, 6.0f, 10.0f, 34.0f);
     TEST_ASSERT_TRUE(reading_take(&test, &inputs, &recorder));
@@ -73,7 +74,7 @@ static void test_the_first_reading_is_what_all_counts_from(void)
     const float told[] = {row.run,       row.config, row.axis,  row.rep,  row.step, row.t_s,        row.temp_degc,
                           row.dx_mm,     row.dz_mm,  row.fx_n,  row.fz_n, row.theta1_rad, row.theta2_rad,
                           row.enc1_rad,  row.enc2_rad};
-    const double wanted[] = {3, 4, 0, 5, 0, 0.25, 32.0, 0.0, 0.0, 5.0, 8.5, 1.06, 1.15, 0.0, 0.0};
+    const double wanted[] = {3, 4, BRACE_AXIS_Z, 5, 0, 0.25, 32.0, 0.0, 0.0, 5.0, 8.5, 1.06, 1.15, 0.0, 0.0};
     for (int i = 0; i < 15; i++) {
         ASSERT_CLOSE(wanted[i], told[i], 1e-5);
     }

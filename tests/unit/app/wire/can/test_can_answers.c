@@ -45,9 +45,12 @@ static void test_there_is_room_to_the_last_place(void)
     }
     TEST_ASSERT_TRUE(can_answers_have_room(&answers, 0));
     TEST_ASSERT_FALSE(can_answers_have_room(&answers, 1));
-    for (uint32_t i = 0; i < (uint32_t)CAN_ANSWERS_ROOM; i++) {
+    add(99, 1); /* who does not ask for room takes the last place, and none beyond it */
+    TEST_ASSERT_EQUAL(CAN_ANSWERS_ROOM, answers.count);
+    for (uint32_t i = 0; i + 1u < (uint32_t)CAN_ANSWERS_ROOM; i++) {
         leaves(i);
     }
+    leaves(99);
     TEST_ASSERT_NULL(can_answers_next(&answers));
 }
 
