@@ -131,6 +131,18 @@ static void test_K_in_space_elsewhere_is_the_reference(void)
     TEST_ASSERT_EQUAL(0, e.force_is_told);
 }
 
+static void test_K_in_space_beyond_the_travel_is_flagged(void)
+{
+    uint8_t data[8];
+    brace_can_k_in_space_at_posture_answer_4_t e;
+    brace_can_pack_k_in_space_at_posture_request(
+        &(brace_can_k_in_space_at_posture_request_t){9, -0.5f, -2.5f, 1.0f}, data);
+    const answer_t answer = ask(data);
+    TEST_ASSERT_EQUAL(6, answer.count);
+    brace_can_unpack_k_in_space_at_posture_answer_4(answer.part[4], &e);
+    TEST_ASSERT_EQUAL_HEX32(BRACE_FLAG_OUT_OF_RANGE, e.flags);
+}
+
 /* K under a force from any side, by the core's estimator: tests/engine judges it. */
 typedef struct {
     brace_stiffness_spatial_t k;
@@ -753,6 +765,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_K_in_space_is_the_reference_at_every_posture);
     RUN_TEST(test_K_in_space_elsewhere_is_the_reference);
+    RUN_TEST(test_K_in_space_beyond_the_travel_is_flagged);
     RUN_TEST(test_K_here_is_K_as_asked_for_here);
     RUN_TEST(test_K_in_space_elsewhere_counts_a_force_once);
     RUN_TEST(test_K_in_space_elsewhere_under_a_force_that_folds_the_limb_is_refused);
