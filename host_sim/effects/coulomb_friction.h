@@ -48,8 +48,8 @@ inline double turned_share(double share, double change_rad, double reversal_rad)
 }
 
 // The spring's torque while the joint moves towards `sense` under a given torque, which friction lessens or adds to.
-// Friction grows with the very torque that this function seeks, so the torque is divided; where the share fades, Newton's
-// method falls on the answer from there, always from the same side. Needs per_load_ratio < 1.
+// Friction grows with the very torque that this function seeks, so the torque is divided; where the share fades,
+// Newton's method falls on the answer from there, always from the same side. Needs per_load_ratio < 1.
 inline double spring_while_moving_n_mm(const Friction &friction, double torque_n_mm, double sense)
 {
     const double constant = torque_n_mm - sense * friction.coulomb_n_mm, size = std::fabs(constant);

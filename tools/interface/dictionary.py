@@ -173,7 +173,8 @@ def _entry(group: Mapping[str, Any], raw: Mapping[str, Any], part: int, index: i
         low, high = raw["range"]
     is_kept = group["persistence"] == "parameter"
     if not is_kept and (group["persistence"] != "model" or {"register", "field", "safe"} & set(raw)):
-        raise DictionaryError(f"{key}: what no controller keeps has persistence \"model\", and no register, field, safe")
+        why = 'what no controller keeps has persistence "model", and no register, field, safe'
+        raise DictionaryError(f"{key}: {why}")
     register = raw["register"] if is_kept else [-1] * _parts(group)
     if (len(register) if isinstance(register, list) else 1) != _parts(group):
         raise DictionaryError(f"{key}: a table with * has a list of {len(LINKS)} registers, another one has one")

@@ -92,8 +92,8 @@ static void any_limb(void)
 
 /* Forces whose lengths together are below FORCE_MOST. Of the tip's force and the whole weight, 91/64 times its number,
  * loaded_inputs says that they are below the unit; the last look says that knee and femur make the whole within 256,
- * which the unit's shift halves at least, and that the tibia's is in the knee's. So together they are no more than the unit,
- * 129 91/64 and, turned, scaled and rounded three times, 32 more. */
+ * which the unit's shift halves at least, and that the tibia's is in the knee's. So together they are no more than the
+ * unit, 129 91/64 and, turned, scaled and rounded three times, 32 more. */
 static bool are_within_unit(int forces)
 {
     return (forces & ~(TIP | WHOLE_WEIGHT)) == 0 || (forces & ~(TIP | KNEE_WEIGHT | FEMUR_WEIGHT)) == 0 ||

@@ -182,7 +182,8 @@ def test_limb_toml_has_a_friction_whose_growth_fades_where_it_does(tmp_path: Pat
     record = load_dataset(recorded(tmp_path / "identify", tests))
     fitted = identify(record, spring_alone(record), Options())
     for model in (found.model, fitted.fit.model):
-        told = [model.number(f"joint.femur.coulomb_{leaf}") for leaf in ("n_mm", "per_load_ratio", "load_fade_per_n_mm")]
+        leaves = ("n_mm", "per_load_ratio", "load_fade_per_n_mm")
+        told = [model.number(f"joint.femur.coulomb_{leaf}") for leaf in leaves]
         assert (told[2] > 0.0) is (fade_per_n_mm > 0.0), told
         for load_n_mm in (3000.0, 6000.0, 12000.0):
             most = told[0] + told[1] * load_n_mm * (1.0 + told[2] * load_n_mm) ** (-1.0 / 3.0)

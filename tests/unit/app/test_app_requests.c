@@ -202,7 +202,8 @@ static void test_each_ceiling_of_the_board(void)
     for (int i = 0; i < BRACE_LINK_COUNT; i++) {
         for (int bound = 0; bound < 3; bound++) {
             brace_parameters_t p = at;
-            float *const value[] = {&p.drive[i].torque_range_n_mm, &p.drive[i].angle_min_rad, &p.drive[i].angle_max_rad};
+            float *const value[] = {&p.drive[i].torque_range_n_mm, &p.drive[i].angle_min_rad,
+                                    &p.drive[i].angle_max_rad};
             *value[bound] = nextafterf(*value[bound], bound == 1 ? -1e9f : 1e9f);
             const uint32_t named = (uint32_t)((const char *)value[bound] - (const char *)&p) / 4u;
             TEST_ASSERT_EQUAL_UINT32(named, brace_app_beyond_board(&app, &p));

@@ -210,7 +210,7 @@ static void test_process_data_count(void)
 /* In a second each frame leaves as often as its rate says, whatever the others' rates are. */
 static void test_each_frame_at_its_rate(void)
 {
-    enum { STIFFNESS_HZ = 10, POSTURE_HZ = 20, LOAD_HZ = 40, IDS = 0x800 }; /* the first frame is not the most frequent */
+    enum { STIFFNESS_HZ = 10, POSTURE_HZ = 20, LOAD_HZ = 40, IDS = 0x800 }; /* the first is not the most frequent */
     static const struct {
         uint32_t id;
         int hz;
