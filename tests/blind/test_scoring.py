@@ -103,8 +103,8 @@ def test_disguised() -> None:
 
 
 def test_outsiders_by_their_own_names() -> None:
-    """A class that holds the name of what is hidden names it, whatever stands beside it; another name is as wrong as
-    ever."""
+    """The tool is right when the true name is among the names of its class. Any other name, said with 0.9, is
+    wrong."""
     real = {
         **truth("disguised", "rig_turned@outside"),
         "alike": ["sensor_rotation@sensor"],

@@ -112,8 +112,8 @@ static void test_balance(void)
 }
 
 // Loads that turn with the joints, up to a third of a spring's stiffness. Within its play a joint may have no other
-// stiffness, and stand as under a weight above it. Where friction grows by more of the spring's torque than loads leave
-// of the stiffness, there may be no rest; then none is told.
+// stiffness, and stand as under a weight above it. The loads and a friction that
+// grows with the load may together take more than the spring's stiffness. Then find_rest may find no rest, and says so.
 static void test_balance_under_loads(void)
 {
     brace::rig::Noise draw(22);

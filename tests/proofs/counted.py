@@ -12,8 +12,8 @@ import time
 
 import cbmc
 
-# By the harness's suffix. Of ranges, places are told by the addresses of calls, so that calls stay as they are. The
-# firmware's C is not all C++: -fpermissive.
+# The harness's suffix chooses the compiler. ranged.h names a place in the firmware by the addresses of its calls, so a
+# compiler must not inline them. -fpermissive: a C++ compiler refuses some of the firmware's C without it.
 C = (os.environ.get("CC", "cc"), "-std=gnu11")
 CXX = (os.environ.get("CXX", "c++"), "-std=gnu++20", "-fpermissive", "-w")
 PREPROCESSED = {".c": ".i", ".cpp": ".ii"}

@@ -52,7 +52,7 @@
 #define LEVER_MOST PART_OF(28, 1.3)
 #define ASIDE_MOST PART_OF(28, 0.77)
 
-/* One over a pivot, ratios and yields of what is not refused (loaded_solve); levers of C (loaded_levers). */
+/* loaded_solve promises these sizes of ratios and compliances, loaded_levers of the levers behind C. */
 #define RATIO_MOST PART_OF(27, 4.0)
 #define BEYOND_MOST PART_OF(28, 4.0)
 

@@ -401,10 +401,10 @@ static fixed3_t fixed_axes_times(const fixed_axes_t *e, fixed3_t v)
     return result;
 }
 
-/* A symmetric matrix, by the root of the sum of its nine entries' squares. Two of its rows and columns are turned. With
- * s, c of the turn and n its squared length, cosine and sine of twice the angle are 1 - 2 s^2 and 2 s c here, whose
- * length is the root of 1 + 4 s^2 (n - 1); eight units are cut off each, which counts as 12 in 2^30 of what is turned.
- * What else is cut off: half a unit of the mean, 4 units of each of the turned parts. */
+/* A symmetric matrix is known by the root of its nine entries' squares, added up. A turn (c, s) changes two rows and
+ * columns, by 1 - 2 s^2 and 2 s c for cosine and sine of twice its angle. With n = c^2 + s^2 their length is the root
+ * of 1 + 4 s^2 (n - 1). Truncation takes at most 8 units of each, together 12 of 2^30; half a unit of the mean; and 4
+ * units of each turned part. */
 static long double length_of_sym3(const fixed_sym3_t &m)
 {
     return length_of({m.xx, m.xy, m.xy, m.xz, m.xz, m.yy, m.yz, m.yz, m.zz});

@@ -1,5 +1,5 @@
-/* K under load in fixed point from its inputs to what is told: each part promises what its own proof says, and the next
- * one is given what it takes. A vector is known by its parts and by its length, a product by its factors' sizes. */
+/* K under load in fixed point, from inputs to answer. Each part has its own proof: here it may answer whatever that
+ * proof allows, and the next part must accept it. A vector is known by its parts and length, a product by sizes. */
 #include "proof.h"
 #include "loaded_sizes.h"
 

@@ -13,10 +13,10 @@
  * What is refused. The firmware collects in one word (`noted |= v`) what is too large, and refuses the result if that
  * word reaches noted_limit. In a run that is not refused each v is below the limit, and that bounds what v was made of.
  * So the program runs again and again (`prove`): what one run learns of a number bounds it in the next, in the place
- * where it is made, until nothing more is learned. A number is known in the next run by its key: the how-manieth number
- * it is since the last comparison, after these answers to the comparisons before. A bound goes from v to what v is made
- * of only through steps that wrapped nothing in that run, whose own ranges were right for all that are not refused.
- * So by induction all ranges are. A number is made with its bound only after its range without it was found to fit.
+ * where it is made, until nothing more is learned. The next run knows a number by its key: its place in the order of
+ * numbers since the last comparison, and the answers to all comparisons before. A bound of v also bounds what v is made
+ * of, but only through steps in which nothing wrapped. One run's ranges hold for whatever is not refused; by induction
+ * the next run's do. A number takes its bound only where its range without the bound fits the word.
  *
  * Lengths. Turns keep a vector's length, but the box around a turned vector grows. So a table says of numbers together
  * that the root of the sum of their squares is at most so much; `has_length` enters such a fact, `length_of` asks for

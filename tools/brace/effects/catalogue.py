@@ -17,7 +17,7 @@ FRICTION_TURN = "friction_turn_rad"  # over which a joint's friction changes sig
 
 MOST_GAP = 0.95  # of the angles that a joint test visits: a small test may hardly leave a large gap
 USUAL_LOAD_RATIO = 0.2  # friction over load: a gear with an efficiency of two thirds; more needs evidence to match
-FADES_SHRINK = 0.005  # of the rms: elastic contacts rub so, so that a share that fades needs no more than this
+FADES_SHRINK = 0.005  # of the rms: by how much less a fading share must leave; physics expects it, so this is little
 FADING_STARTS = ((8.0, 0.4), (40.0, 0.6))  # of one over the range of torques; and the share where nothing is carried
 MOST_TIMES = 40  # at which a link's change is tried
 READINGS_CLIPPED = (4, 8, 16, 32, 64, 128, 256)  # of which a saturation is tried

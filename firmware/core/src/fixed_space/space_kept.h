@@ -60,9 +60,9 @@ static inline bool is_link_kept(const brace_space_fixed_link_t *link)
            link->weight_q31 >= 0 && link->arm_shift <= ARM_SHIFT_MOST;
 }
 
-/* Do weight_q8, which decides on the unit of force, and the weights' words tell the same? It holds 384 units to the
- * newton, so it is above three halves of the power of two that is below the weight; and beside what floats round it is
- * no less than the words say. */
+/* Do weight_q8 and the weights' words tell the same? weight_q8 decides on the unit of force and counts 384 a newton.
+ * The weight is at least half of its power of two, so weight_q8 is at least 192 times that power. But for the rounding
+ * of floats, weight_q8 is no less than what the words add up to. */
 static inline bool is_weight_kept(const brace_loaded_space_fixed_t *fixed)
 {
     const uint32_t weight_q8 = fixed->weight_q8, most_q8 = weight_q8 + (weight_q8 >> 20);
