@@ -17,7 +17,7 @@ from brace.diagnose.joint_test.dead_zone import is_friction_turning
 from brace.diagnose.joint_test.fit import Fitted, Fitter
 from brace.diagnose.joint_test.intake import spring_alone
 from brace.diagnose.joint_test.record import JointRecord
-from brace.diagnose.joint_test.rivals import Rival, _share, beside, one_less, surest
+from brace.diagnose.joint_test.rivals import Rival, _share, beside, beside_friction, one_less, surest
 from brace.diagnose.joint_test.shapes import SOFT, shapes
 from brace.diagnose.joint_test.terms import Term, effects_of
 from brace.diagnose.joint_test.workflow import _refused_gap
@@ -63,6 +63,14 @@ def test_travel_that_is_no_joint_withholds_names(tmp_path: Path) -> None:
     found = found_in(tmp_path, tests)
     assert found.verdict == "unknown" and not found.effects, found.sentence
     assert found.unexplained is not None and found.unexplained.structured
+
+
+def test_hardening_and_creep_beside_friction_must_be_ten_times_likelier() -> None:
+    for name in ("joint_hardening", "creep"):
+        assert beside_friction(name, 10.0 / 11.0) == pytest.approx(0.5)
+        assert beside_friction(name, 0.0) == 0.0 and beside_friction(name, 1.0) == 1.0
+    for name in ("coulomb_friction", "backlash"):
+        assert beside_friction(name, 0.7) == 0.7
 
 
 def soft_middle(random: np.random.Generator) -> list[tuple[np.ndarray, np.ndarray]]:

@@ -21,6 +21,9 @@ BY_CHOICE = 3.0  # odds that one of several shapes gains on the held-out reading
 # Times less likely, before any reading, than an effect of the catalogue: as in loading records. A spring that has one
 # shape is not of the catalogue, so that a further one is no rarer than an effect.
 SHAPE = 10.0
+# Real friction turns in another curve than the one that is fitted. What that curve leaves over bends with the load or
+# lasts for a while, and hardening or creep takes it. So beside friction both start as rare as a shape.
+FEIGNED_BY_FRICTION = frozenset({"joint_hardening", "creep"})
 
 Ranges = dict[str, tuple[float, float]]
 
@@ -122,6 +125,13 @@ def ranges(by_rows: Fitter, found: Sequence[Rival], random: np.random.Generator)
 def surest(found: Sequence[Rival], name: str) -> float:
     """How sure an effect can be at most while these rivals stand."""
     return 1.0 - max((rival.share for rival in found if name not in rival.names), default=0.0)
+
+
+def beside_friction(name: str, confidence: float) -> float:
+    """How sure an effect is that stands beside friction, of how sure the readings alone make it."""
+    if name not in FEIGNED_BY_FRICTION:
+        return confidence
+    return confidence / (confidence + SHAPE * (1.0 - confidence))
 
 
 def beside(found: Sequence[Rival], named: frozenset[str]) -> tuple[str, ...]:

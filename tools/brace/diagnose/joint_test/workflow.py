@@ -31,7 +31,7 @@ from brace.diagnose.joint_test.fit import Fitted, Fitter
 from brace.diagnose.joint_test.intake import blocking_faults, require_enough, spring_alone
 from brace.diagnose.joint_test.localise import localise
 from brace.diagnose.joint_test.record import JointRecord
-from brace.diagnose.joint_test.rivals import Rival, beside, one_less, ranges, rivals, surest
+from brace.diagnose.joint_test.rivals import Rival, beside, beside_friction, one_less, ranges, rivals, surest
 from brace.diagnose.joint_test.shapes import fading, record_terms, shapes
 from brace.diagnose.joint_test.terms import Term, effects_of
 from brace.diagnose.options import Advance, Options
@@ -362,7 +362,10 @@ def _named(
         )
         net = max(both) - len(term.parameters) * float(np.log(max(count, 3.0)))
         real = 1.0 - feigned(record, poorer, best)
-        confidence = min(SUREST, real, surest(others, term.name), 1.0 / (1.0 + float(np.exp(-0.5 * net))))
+        confidence = min(real, surest(others, term.name), 1.0 / (1.0 + float(np.exp(-0.5 * net))))
+        if any(other.name == "coulomb_friction" for other in found):
+            confidence = beside_friction(term.name, confidence)
+        confidence = min(SUREST, confidence)
         parameters = {}
         for key in (parameter.key for parameter in term.parameters if parameter.key in KEY_BY_NAME):
             value, (_, low, high) = values[key], limits[key]
