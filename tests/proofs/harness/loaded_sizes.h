@@ -60,4 +60,14 @@
 #define C_MOST ((1ull << 62) + (1ull << 58))
 #define C_ROUNDED (1LL << 36)
 
+
+/* The search for the buckling factor: its units (loaded_search), and the limb under a multiple of its load
+ * (loaded_softened). */
+#define SEARCH_MOMENT_MOST (1LL << 27)
+#define SEARCH_SOFTENS_MOST (1LL << 23)
+#define SEARCH_COMPLIANCE_MOST ((1LL << 29) - 1)
+#define SEARCH_UNITS_LEAST (-50)
+#define SEARCH_UNITS_MOST 10
+#define SEARCH_EXPONENT_MOST 128
+
 #endif

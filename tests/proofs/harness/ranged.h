@@ -679,6 +679,11 @@ A operator<<(const A &a, const B &by)
     return A::of(made);
 }
 
+template <std::integral A, a_word B> auto operator>>(A a, const B &by)
+{
+    return promoted_t<A>(a) >> by;
+}
+
 template <class A, class B>
     requires some_word<A, B>
 auto operator/(const A &a, const B &b)
