@@ -61,6 +61,9 @@
 #define C_ROUNDED (1LL << 36)
 
 
+/* C in space, each entry of its diagonal (loaded_space). */
+#define SPACE_C_MOST ((1LL << 61) + (1LL << 59))
+
 /* The search for the buckling factor: its units (loaded_search), and the limb under a multiple of its load
  * (loaded_softened). */
 #define SEARCH_MOMENT_MOST (1LL << 27)

@@ -452,6 +452,9 @@ static void fixed_sym3_about_z(fixed_sym3_t *m, fixed_vec_t by)
 #define overload_softened(first, ...) PICK(SOFTENED_##first, any_overload_softened, ~)(first, __VA_ARGS__)
 #define SOFTENED_int32_t ~, text_overload_softened,
 
+#define multiply_determinant(first, ...) PICK(DETERMINANT_##first, any_determinant, ~)(first, __VA_ARGS__)
+#define DETERMINANT_fixed_overload_t ~, text_determinant,
+
 #define is_settled(first, ...) PICK(SETTLED first, text_is_settled, ~)(first, __VA_ARGS__) /* its call has a cast */
 #define SETTLED(...) ~, any_is_settled,
 
@@ -464,6 +467,7 @@ static int32_t any_over_second_step(int32_t second_by_first, uint32_t first2);
 static bool any_is_settled(uint32_t first2_q25, uint32_t second2_q25);
 template <class OVERLOAD, class NOTED>
 int32_t any_overload_softened(int32_t yields_q14, int32_t entry_q24, OVERLOAD *overload, NOTED *noted);
+template <class OVERLOAD> void any_determinant(OVERLOAD *overload, uint32_t pivot_q20, bool is_negative);
 
 #include "fixed_space/loaded_space_fixed.c"
 
@@ -505,6 +509,14 @@ static bool any_is_settled(uint32_t first2_q25, uint32_t second2_q25)
 {
     const std::vector<bool> answers = ranged::each_way([&] { return text_is_settled(first2_q25, second2_q25); });
     return std::find(answers.begin(), answers.end(), true) != answers.end();
+}
+
+/* A pivot counts in the determinant also where what comes after it is refused. So what is noted from here on tells
+ * nothing of the numbers up to here. */
+template <class OVERLOAD> void any_determinant(OVERLOAD *overload, uint32_t pivot_q20, bool is_negative)
+{
+    text_determinant(overload, pivot_q20, is_negative);
+    now.first_to_learn_of = now.numbers.size();
 }
 
 template <class OVERLOAD, class NOTED>
@@ -703,9 +715,13 @@ static void run_once()
     fixed_frames_of(&rest.turns, &frames);
     fixed_sum_limb(&limb, &rest, &free, &frames, &sum, &noted);
     words_of(moved(&limb, &rest, sum.tip_q28));
+    for (const int64_t &entry : {sum.c.xx, sum.c.yy, sum.c.zz}) {
+        PROVE(ranged::size_of(entry) <= SPACE_C_MOST, "C is one that is inverted");
+    }
     end_stage(noted);
 
     noted = 0u;
+    now.first_to_learn_of = now.numbers.size();
     fixed_overload_t overload = {.times_q27 = GIVEN(0, WORD_MOST, times_q27), .mantissa_q31 = 1 << 30, .exponent = 1,
                                  .is_negative = false, .has_buckled = false, .is_refused = false};
     fixed_eliminate_limb(&limb, &rest, &overload, &free, &noted);

@@ -137,6 +137,7 @@ public:
     std::set<std::string> places;
     std::size_t complaint_count = 0;
     wide_t noted_limit = 0;
+    std::size_t first_to_learn_of = 0; /* what is noted tells nothing of numbers made before */
     bool is_exact = false;
     std::vector<std::size_t> broken; /* single numbers that break what is known of them */
     /* Within each_way: */
@@ -159,6 +160,7 @@ public:
         way = 0;
         since = 0;
         first_of_way = 0;
+        first_to_learn_of = 0;
         for (const kind_t kind : {kind_t{32, true}, {32, false}, {64, true}, {64, false}}) {
             make(made_by_t::constant, kind, {0, 0});
         }
@@ -372,7 +374,7 @@ public:
     /* What a run that is not refused tells of a number, and so of those it was made of. */
     void learn(std::size_t id, range_t range, int steps = 12)
     {
-        if (is_exact || id == none || steps == 0 || id < first_of_way) {
+        if (is_exact || id == none || steps == 0 || id < first_of_way || id < first_to_learn_of) {
             return;
         }
         const number_t &n = numbers[id];

@@ -77,12 +77,13 @@ INLINE int32_t overload_softened(int32_t yields_q14, int32_t entry_q24, fixed_ov
 {
     const int64_t more = (int64_t)yields_q14 * entry_q24;
     note(noted, brace_high_word(more), 16);
+    overload->is_refused = is_refused(*noted); /* this pivot, too, may be another one */
     const int32_t pivot = plus(1 << 20, shifted(more, 18));
     const uint32_t magnitude = magnitude_of(pivot);
     const uint32_t size = magnitude < OVERLOAD_PIVOT_LEAST_Q20 ? OVERLOAD_PIVOT_LEAST_Q20 : magnitude;
+    multiply_determinant(overload, size, pivot < 0);
     const uint32_t zeros = leading_zeros(size);
     const int64_t softened = ((int64_t)yields_q14 * (int32_t)over_q61(size << zeros)) >> (41u - zeros);
-    multiply_determinant(overload, size, pivot < 0);
     note(noted, shifted(softened, 16), 14);
     const int32_t word = (int32_t)(uint32_t)(uint64_t)softened;
     return pivot < 0 ? minus(word) : word;
@@ -113,14 +114,11 @@ INLINE fixed_sym3_t fixed_chord_resists(fixed3_t chord_q28, fixed3_t f)
 INLINE fixed_freedom_t fixed_eliminate(fixed_held_t *held, fixed3_t row_q24, int32_t entry_q24, int32_t yields,
                                        fixed_overload_t *overload, noted_t *noted)
 {
-    const int32_t softened = eliminated_yields(yields, entry_q24, overload, noted);
     const ranges_t ranges = ranges_of(overload);
-    const fixed3_t follows = follow_row(row_q24, softened, ranges, noted);
     note_row(row_q24, ranges, noted);
+    const int32_t softened = eliminated_yields(yields, entry_q24, overload, noted);
+    const fixed3_t follows = follow_row(row_q24, softened, ranges, noted);
     fixed_sym3_add(&held->resists_q24, row_q24, follows, ranges, noted);
-    if (overload != NULL) {
-        overload->is_refused = is_refused(*noted);
-    }
     return (fixed_freedom_t){follows, softened};
 }
 

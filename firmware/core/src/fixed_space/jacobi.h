@@ -19,19 +19,26 @@ INLINE void fixed_jacobi_pair(int32_t *p, int32_t *q, int32_t c_q30, int32_t s_q
     *q = shifted(sum2(s_q30, old, c_q30, *q), 30);
 }
 
+/* (qq - pp, 2 pq) as large as a word holds below 2^30, its first part not negative; either may be one unit off.
+ * Magnitudes below 2^30. */
+INLINE fixed_vec_t fixed_twice_turned(int32_t apart, int32_t twice_pq)
+{
+    const int32_t sign = apart >> 31;
+    const uint32_t zeros = leading_zeros(magnitude_of(apart) | magnitude_of(twice_pq) | 1u) - 2u;
+    return (fixed_vec_t){(int32_t)((magnitude_of(apart) | 1u) << zeros),
+                         (int32_t)((uint32_t)((twice_pq ^ sign) - sign) << zeros)};
+}
+
 /* Turns two axes p and q, by at most an eighth of a turn, so that their entry pq vanishes. r: the third axis. The
  * vector (qq - pp, 2 pq) has twice the angle of the turn. */
 INLINE void fixed_jacobi_turn(int32_t *pp, int32_t *pq, int32_t *qq, int32_t *rp, int32_t *rq, fixed3_t *p,
                               fixed3_t *q)
 {
-    const int32_t apart = less(*qq, *pp), sign = apart >> 31;
-    const uint32_t zeros = leading_zeros(magnitude_of(apart) | magnitude_of(twice(*pq)) | 1u) - 2u;
-    const int32_t along = (int32_t)((magnitude_of(apart) | 1u) << zeros);
-    const int32_t aside = (int32_t)((uint32_t)((twice(*pq) ^ sign) - sign) << zeros);
-    const fixed_length_t length = fixed_length_of(along, aside);
+    const fixed_vec_t twice_turned = fixed_twice_turned(less(*qq, *pp), twice(*pq));
+    const fixed_length_t length = fixed_length_of(twice_turned.x, twice_turned.z);
     const int32_t per = (int32_t)length.per_length_q27;
-    const int32_t cosine_q26 = high_of((int32_t)((uint32_t)along << (length.shift - 1u)), per);
-    const int32_t sine_q26 = high_of((int32_t)((uint32_t)aside << (length.shift - 1u)), per);
+    const int32_t cosine_q26 = high_of((int32_t)((uint32_t)twice_turned.x << (length.shift - 1u)), per);
+    const int32_t sine_q26 = high_of((int32_t)((uint32_t)twice_turned.z << (length.shift - 1u)), per);
     const uint32_t square_q32 = ((uint32_t)(ONE_Q27 / 2 + cosine_q26) << 5) - 1u; /* of the cosine of the turn */
     const uint32_t per_c_q27 = fixed_per_root_q27(square_q32);
     const int32_t c_q30 = (int32_t)(high_unsigned(square_q32, per_c_q27) << 3);

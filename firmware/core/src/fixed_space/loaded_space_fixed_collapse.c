@@ -92,7 +92,7 @@ void brace_loaded_space_fixed_collapse(const brace_loaded_space_t *loaded, brace
     fixed->base_z_q31 = quantised((double)loaded->base_z_mm_per_n, 31 - length - fixed->spring_exponent);
     fixed->base_rotation_q31 = quantised((double)loaded->base_rotation_rad_per_n_mm,
                                          31 + length - fixed->turn_exponent);
-    fixed->weight_q8 = (uint32_t)(384.0f * loaded->beyond_coxa_n);
+    fixed->weight_q8 = (uint32_t)quantised(384.0 * (double)loaded->beyond_coxa_n, 0);
     if (!is_space_kept(fixed)) {
         *fixed = (brace_loaded_space_fixed_t){.turn_exponent = REFUSED_EXPONENT};
     }

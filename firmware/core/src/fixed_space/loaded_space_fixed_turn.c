@@ -48,7 +48,7 @@ brace_status_t brace_loaded_space_fixed_in_plane(const brace_k3_t *k, brace_stif
         return BRACE_E_SINGULAR;
     }
     const int32_t xx = words.k.xx, xz = words.k.xz, zz = words.k.zz;
-    const int64_t det = (int64_t)xx * zz - (int64_t)xz * xz;
+    const int64_t det = whole_product(xx, zz) - whole_product(xz, xz);
     const uint32_t mean = (uint32_t)((xx + zz) >> 1), squared = high_unsigned(mean, mean);
     const int32_t det_high = brace_high_word(det);
     if (xx <= 0 || zz <= 0 || det < 1 << 26) {

@@ -7,7 +7,7 @@
 #include <stdint.h>
 
 #include "brace/loaded_space_fixed_types.h"
-#include "fixed/fixed_word.h"
+#include "loaded/fixed_units.h"
 
 /* The unit of length is above the links' lengths; beside it what three floats' sum and their rounding may add. */
 #define LENGTHS_MOST_Q28 ((1 << 28) + 32)
@@ -74,11 +74,13 @@ static inline bool is_weight_kept(const brace_loaded_space_fixed_t *fixed)
            (right > 63 || ((uint64_t)(uint32_t)fixed->beyond_coxa_q31 * 384u) >> right <= most_q8);
 }
 
+/* The unit of length is a limb's, so that K and what moves are floats. */
 static inline bool is_space_kept(const brace_loaded_space_fixed_t *fixed)
 {
     const int64_t lengths = (int64_t)fixed->coxa.length_q28 + fixed->femur.length_q28 + fixed->tibia.length_q28;
     const int64_t weights = (int64_t)fixed->beyond_femur_q31 + fixed->femur.weight_q31;
-    return is_link_kept(&fixed->coxa) && is_link_kept(&fixed->femur) && is_link_kept(&fixed->tibia) &&
+    return unit_holds(fixed->length_exponent, UNIT_LENGTH_EXPONENT_LEAST, UNIT_LENGTH_EXPONENT_MOST) &&
+           is_link_kept(&fixed->coxa) && is_link_kept(&fixed->femur) && is_link_kept(&fixed->tibia) &&
            lengths <= LENGTHS_MOST_Q28 && fixed->beyond_femur_q31 >= 0 &&
            weights <= (int64_t)fixed->beyond_coxa_q31 + WEIGHTS_APART_Q31 &&
            fixed->tibia.weight_q31 <= (int64_t)fixed->beyond_femur_q31 + WEIGHTS_APART_Q31 && fixed->base_x_q31 >= 0 &&
