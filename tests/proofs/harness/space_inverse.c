@@ -73,7 +73,7 @@ static int32_t sound_to_word(int64_t number, uint32_t zeros)
 
 static bool is_finite(float value)
 {
-    return value - value == 0.0f;
+    return (bits_of(value) & 0x7f800000u) != 0x7f800000u;
 }
 
 int main(void)
@@ -89,6 +89,6 @@ int main(void)
     PROVE(is_finite(k.xx_n_per_mm) && is_finite(k.xy_n_per_mm) && is_finite(k.xz_n_per_mm) &&
               is_finite(k.yy_n_per_mm) && is_finite(k.yz_n_per_mm) && is_finite(k.zz_n_per_mm),
           "K is finite");
-    PROVE(k.xx_n_per_mm >= 0.0f && k.yy_n_per_mm >= 0.0f && k.zz_n_per_mm >= 0.0f, "its diagonal is not negative");
+    PROVE((bits_of(k.xx_n_per_mm) | bits_of(k.yy_n_per_mm) | bits_of(k.zz_n_per_mm)) >> 31 == 0u, "its diagonal is not negative");
     return 0;
 }

@@ -82,7 +82,8 @@ static bool is_turning;
 static uint32_t any_high_unsigned(uint32_t a, uint32_t b)
 {
     const uint32_t high_word = any_u32();
-    ASSUME(high_word <= (a < b ? a : b) && (!is_turning || high_word < 1u << 27));
+    ASSUME(high_word <= (a < b ? a : b) && (a >> 31 == 0u || high_word >= b >> 1));
+    ASSUME(!is_turning || high_word < 1u << 27);
     return high_word;
 }
 
@@ -238,7 +239,12 @@ static void jacobi_turns(void)
 
 static bool is_finite(float value)
 {
-    return value - value == 0.0f;
+    return (bits_of(value) & 0x7f800000u) != 0x7f800000u;
+}
+
+static bool is_above_zero(float value)
+{
+    return bits_of(value) - 1u < 0x7fffffffu;
 }
 
 static void in_plane(void)
@@ -246,8 +252,8 @@ static void in_plane(void)
     brace_k3_t k;
     brace_stiffness_t plane;
     if (brace_loaded_space_fixed_in_plane(&k, &plane) == BRACE_OK) {
-        PROVE(is_finite(plane.lambda_min_n_per_mm) && plane.lambda_min_n_per_mm > 0.0f, "the least eigenvalue");
-        PROVE(is_finite(plane.lambda_max_n_per_mm) && plane.lambda_max_n_per_mm > 0.0f, "the largest");
+        PROVE(is_finite(plane.lambda_min_n_per_mm) && is_above_zero(plane.lambda_min_n_per_mm), "the least eigenvalue");
+        PROVE(is_finite(plane.lambda_max_n_per_mm) && is_above_zero(plane.lambda_max_n_per_mm), "the largest");
     }
 }
 
@@ -258,7 +264,7 @@ static void turned(void)
     if (brace_loaded_space_fixed_turn(any_float(), &k, &told) == BRACE_OK) {
         PROVE(is_finite(told.k_xx_n_per_mm) && is_finite(told.k_xy_n_per_mm) && is_finite(told.k_xz_n_per_mm) &&
                   is_finite(told.k_yy_n_per_mm) && is_finite(told.k_yz_n_per_mm), "K is finite");
-        PROVE(is_finite(told.lambda_n_per_mm[0]) && told.lambda_n_per_mm[0] > 0.0f, "the least eigenvalue");
+        PROVE(is_finite(told.lambda_n_per_mm[0]) && is_above_zero(told.lambda_n_per_mm[0]), "the least eigenvalue");
     }
 }
 
