@@ -163,6 +163,51 @@ static void test_a_set_that_cannot_be_is_refused(void)
     TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_leave(&app));
 }
 
+/* A commit of another set than was named is counted as refused. Whatever else a store is asked for is not, however it
+ * ends, also when such a commit came before it. */
+static void test_only_a_set_that_is_not_the_one_named_is_counted(void)
+{
+    brace_parameters_t p = bench_parameters();
+    const uint32_t *refused = &app.controller.parameters.commits_refused;
+    uint32_t word, wrong_index;
+    p.limb.femur_mm = 190.0f;
+    memcpy(&word, &p.limb.femur_mm, sizeof word);
+    for (int before = 0; before < 2; before++) {
+        const uint32_t count = (uint32_t)before;
+        setUp();
+        ticks(5);
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_enter(&app));
+        if (before != 0) {
+            TEST_ASSERT_EQUAL(BRACE_OK, brace_app_parameters_stage(
+                                            &app, brace_parameter_number(BRACE_PARAMETER_GEOMETRY_FEMUR_MM), 1, &word));
+            TEST_ASSERT_EQUAL(BRACE_OK, brace_app_parameters_commit_named(&app, brace_parameters_crc(&p) ^ 1u,
+                                                                          &wrong_index));
+            ticks(1000);
+            TEST_ASSERT_EQUAL(BRACE_E_CHECKSUM, app.controller.parameters.store.refusal);
+            TEST_ASSERT_EQUAL_UINT32(count, *refused);
+        }
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_app_parameters_rollback(&app)); /* there is nothing to go back to */
+        ticks(5);
+        TEST_ASSERT_EQUAL_UINT32(count, *refused);
+        fake.nvm_stuck = 0x04; /* the memory does not keep it */
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_app_parameters_commit(&app, &p));
+        ticks(1000);
+        TEST_ASSERT_EQUAL_UINT32(count, *refused);
+        fake.nvm_stuck = 0;
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_app_parameters_commit(&app, &p)); /* it comes in force */
+        ticks(1000);
+        TEST_ASSERT_EQUAL_HEX32(brace_parameters_crc(&p), app.controller.parameters.crc);
+        TEST_ASSERT_EQUAL_UINT32(count, *refused);
+        p.limb.tibia_mm = -1.0f; /* no limb is like that */
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_app_parameters_commit(&app, &p));
+        ticks(5);
+        TEST_ASSERT_EQUAL(BRACE_E_PARAMETER, app.controller.parameters.store.refusal);
+        TEST_ASSERT_EQUAL_UINT32(count, *refused);
+        p = bench_parameters();
+        p.limb.femur_mm = 190.0f;
+    }
+}
+
 static void test_a_memory_that_does_not_keep_is_a_fault_and_the_old_set_stays(void)
 {
     brace_parameters_t p = bench_parameters();
@@ -297,6 +342,7 @@ int main(void)
     RUN_TEST(test_parameters_are_stored_in_configuration_only);
     RUN_TEST(test_a_committed_set_is_in_force_and_survives_a_restart_and_can_be_taken_back);
     RUN_TEST(test_a_set_that_cannot_be_is_refused);
+    RUN_TEST(test_only_a_set_that_is_not_the_one_named_is_counted);
     RUN_TEST(test_a_memory_that_does_not_keep_is_a_fault_and_the_old_set_stays);
     RUN_TEST(test_a_faulty_controller_can_still_be_configured);
     RUN_TEST(test_an_erase_in_configuration_is_no_late_tick);

@@ -4,6 +4,7 @@
 
 #include "modbus_master.h"
 #include "brace/questions.h"
+#include "wire/modbus/command.h"
 #include "wire/modbus/pdu.h"
 #include "wire/modbus/refusal.h"
 #include "wire/modbus/write.h"
@@ -314,6 +315,28 @@ static void test_questions_that_nobody_asked_read_as_not_known(void)
     }
 }
 
+/* A request over Modbus is of this tick and of the master that asks, and a seal is checked over all its bytes. */
+static void test_what_a_request_carries(void)
+{
+    const uint8_t pdu[] = {6, 0x40, 0, 0xc0, 0xde};
+    brace_seal_t seal = {.is_there = true};
+    brace_measured_t measured;
+    const modbus_server_t server = {.asker = BRACE_ASKER_MODBUS_TCP, .who = {BRACE_ASKER_MODBUS_TCP, 3}, .seal = &seal,
+                                    .pdu = pdu, .length = sizeof pdu};
+    const wire_tick_t tick = {.hal = &fake.hal, .app = &app, .measured = &measured, .now_us = 7};
+    const request_t request = modbus_request(&server, &tick);
+    TEST_ASSERT_EQUAL_PTR(&app, request.app);
+    TEST_ASSERT_EQUAL_PTR(&measured, request.measured);
+    TEST_ASSERT_EQUAL(BRACE_ASKER_MODBUS_TCP, request.asker);
+    TEST_ASSERT_EQUAL(BRACE_ASKER_MODBUS_TCP, request.who.port);
+    TEST_ASSERT_EQUAL(3, request.who.master);
+    TEST_ASSERT_EQUAL_PTR(&seal, request.seal);
+    TEST_ASSERT_EQUAL_PTR(pdu, request.bytes);
+    TEST_ASSERT_EQUAL(sizeof pdu, request.count);
+    TEST_ASSERT_NULL(request.asked_force); /* these are of CAN */
+    TEST_ASSERT_NULL(request.transfer);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -331,5 +354,6 @@ int main(void)
     RUN_TEST(test_a_take_up_that_began_reads_back);
     RUN_TEST(test_a_question_puts_out_its_own_kind);
     RUN_TEST(test_questions_that_nobody_asked_read_as_not_known);
+    RUN_TEST(test_what_a_request_carries);
     return UNITY_END();
 }
