@@ -66,10 +66,65 @@ static void test_what_a_block_of_ours_tells(void)
     }
 }
 
+static brace_store_state_t steps(uint32_t count)
+{
+    brace_store_state_t state = BRACE_STORE_BUSY;
+    for (uint32_t i = 0; i < count && state == BRACE_STORE_BUSY; i++) {
+        state = brace_store_step(&store);
+    }
+    return state;
+}
+
+/* A slot that holds no set of this firmware needs no mark against it: nothing is written before it is erased. One that
+ * holds such a set gets a mark first. */
+static void test_only_a_set_of_ours_is_marked_before_its_erase(void)
+{
+    for (uint32_t update = 0; update < 3u; update++) {
+        brace_parameters_t set;
+        uint32_t steps_taken = 0;
+        brace_parameters_default(&set);
+        if (update == 0u) {
+            TEST_ASSERT_EQUAL(BRACE_PARAMETERS_DEFAULT, brace_store_start(&store, &fake.hal, &set));
+        }
+        const uint32_t erases = fake.calls[BRACE_FAKE_NVM_ERASE], writes = fake.calls[BRACE_FAKE_NVM_WRITE];
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_store_offer(&store, &set));
+        while (fake.calls[BRACE_FAKE_NVM_ERASE] == erases && steps_taken++ < 1000u) {
+            TEST_ASSERT_EQUAL(BRACE_STORE_BUSY, brace_store_step(&store));
+        }
+        TEST_ASSERT_EQUAL(erases + 1u, fake.calls[BRACE_FAKE_NVM_ERASE]);
+        TEST_ASSERT_EQUAL(update == 2u, fake.calls[BRACE_FAKE_NVM_WRITE] != writes);
+        TEST_ASSERT_EQUAL(BRACE_STORE_DONE, steps(1000));
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_store_take(&store, &set, NULL));
+    }
+}
+
+/* What has failed is forgotten when something else begins. */
+static void test_a_failure_is_told_until_the_next_request(void)
+{
+    brace_parameters_t set;
+    brace_store_status_t status;
+    (void)brace_store_start(&store, &fake.hal, &set);
+    set.limb.femur_mm = -1.0f;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_store_offer(&store, &set));
+    TEST_ASSERT_EQUAL(BRACE_STORE_FAILED, steps(1000));
+    brace_store_status(&store, &status);
+    TEST_ASSERT_EQUAL(BRACE_STORE_E_REFUSED, status.failure);
+    brace_parameters_default(&set);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_store_offer(&store, &set));
+    for (int is_done = 0; is_done < 2; is_done++) {
+        brace_store_status(&store, &status);
+        TEST_ASSERT_EQUAL(BRACE_STORE_FINE, status.failure);
+        TEST_ASSERT_EQUAL(BRACE_OK, status.refusal);
+        TEST_ASSERT_EQUAL(BRACE_STORE_DONE, steps(1000));
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_a_block_ends_before_the_marks);
     RUN_TEST(test_what_a_block_of_ours_tells);
+    RUN_TEST(test_only_a_set_of_ours_is_marked_before_its_erase);
+    RUN_TEST(test_a_failure_is_told_until_the_next_request);
     return UNITY_END();
 }
