@@ -287,6 +287,21 @@ static void test_a_rate_that_no_frame_follows(void)
     }
 }
 
+/* A set without rates ends what the set before it sent. */
+static void test_a_set_without_rates_tells_no_values(void)
+{
+    brace_controller_t *rates = &app.controller.parameters.in_force.controller;
+    start(100);
+    rates->stiffness_hz = rates->posture_hz = rates->load_hz = 0;
+    app.controller.snapshot[app.controller.newest].parameter_crc ^= 1u;
+    for (int i = 0; i < 5; i++) { /* each port sees it, and frames that had been due leave */
+        (void)done();
+    }
+    for (int i = 0; i < 50; i++) {
+        TEST_ASSERT_EQUAL(WIRE_NOTHING, done());
+    }
+}
+
 /* Frames of measured values that a tick tells on the bus, beside heartbeat and emergency. */
 static uint32_t values_told_on_bus(void)
 {
@@ -345,6 +360,7 @@ int main(void)
     RUN_TEST(test_process_data_count);
     RUN_TEST(test_each_frame_at_its_rate);
     RUN_TEST(test_a_rate_that_no_frame_follows);
+    RUN_TEST(test_a_set_without_rates_tells_no_values);
     RUN_TEST(test_a_snapshot_is_not_told_after_the_bus_was_off);
     RUN_TEST(test_another_set_counts_once_at_each_port);
     RUN_TEST(test_answers_go_first_for_a_while);
