@@ -82,6 +82,35 @@ static void test_idle_time_counts_from_the_start_and_from_each_request(void)
     TEST_ASSERT_EQUAL_UINT32(0, parameter_job_wait_ms(&job));
 }
 
+/* The set in force is taken from the store once more: it is as stored again. While the store is at work that is not
+ * asked for a second time, and what it does goes on. */
+static void test_a_set_that_has_changed_in_memory_is_taken_from_the_store(void)
+{
+    static parameter_job_t job;
+    const brace_parameters_t stored = bench_parameters();
+    brace_parameters_t other = stored;
+    parameter_job_start(&job, &fake.hal);
+    job.in_force.limb.femur_mm = 1.0f;
+    job.comes_in_force = false;
+    parameter_job_reload(&job);
+    TEST_ASSERT_TRUE(parameter_job_is_busy(&job));
+    TEST_ASSERT_FALSE(parameter_job_is_fresh(&job));
+    int count = 0;
+    while (!parameter_job_step(&job) && count++ < 1000) {
+        parameter_job_reload(&job);
+    }
+    TEST_ASSERT_TRUE(count < 1000 && job.comes_in_force);
+    TEST_ASSERT_EQUAL_MEMORY(&stored, &job.in_force, sizeof stored);
+    TEST_ASSERT_EQUAL_HEX32(brace_parameters_crc(&stored), job.crc);
+    other.limb.femur_mm = 190.0f;
+    TEST_ASSERT_EQUAL(BRACE_OK, parameter_job_commit(&job, &other));
+    parameter_job_reload(&job);
+    TEST_ASSERT_TRUE(parameter_job_is_fresh(&job));
+    for (count = 0; !parameter_job_step(&job) && count < 1000; count++) {
+    }
+    TEST_ASSERT_EQUAL_MEMORY(&other, &job.in_force, sizeof other);
+}
+
 /* A master may be silent for 130 ms, or for as long as the board's HAL says. */
 static void test_how_long_a_master_may_be_silent(void)
 {
@@ -350,6 +379,7 @@ int main(void)
     RUN_TEST(test_a_fault_from_before_configuration_has_no_K_after_it);
     RUN_TEST(test_what_was_staged_ends_when_it_comes_in_force);
     RUN_TEST(test_idle_time_counts_from_the_start_and_from_each_request);
+    RUN_TEST(test_a_set_that_has_changed_in_memory_is_taken_from_the_store);
     RUN_TEST(test_how_long_a_master_may_be_silent);
     RUN_TEST(test_faults_are_told_before_the_first_tick);
     return UNITY_END();
