@@ -141,15 +141,22 @@ static void test_limbs_whose_cross_vanishes_at_the_folded_knee_alone(void)
          2.194319e-5f, 0.01736364f},
         {61.5889f, 359.412f, {3.17069e-4f, 2.87292e-4f, 0, 0, 0, 0}, {0.0117317f, 4.06091e-4f, 0, 0, 0, 0},
          2.84498e-6f, 0}};
-    for (uint32_t i = 0; i < sizeof row / sizeof *row; i++) {
+    for (uint32_t i = 0; i < 2u * sizeof row / sizeof *row; i++) {
+        const uint32_t which = i / 2u;
+        const float times = i % 2u == 0u ? 1.0f : 256.0f; /* the same limb, far softer */
+        const float base_mm_per_n = times * row[which].base_mm_per_n;
         brace_limb_t limb = sample_limb[SAMPLE_PAPER];
-        limb.femur_mm = row[i].femur_mm;
-        limb.tibia_mm = row[i].tibia_mm;
-        limb.link[BRACE_FEMUR] = row[i].femur;
-        limb.link[BRACE_TIBIA] = row[i].tibia;
-        limb.joint[BRACE_FEMUR].compliance_rad_per_n_mm = row[i].hip_rad_per_n_mm;
+        limb.femur_mm = row[which].femur_mm;
+        limb.tibia_mm = row[which].tibia_mm;
+        limb.link[BRACE_FEMUR] = row[which].femur;
+        limb.link[BRACE_TIBIA] = row[which].tibia;
+        for (int link = BRACE_FEMUR; link <= BRACE_TIBIA; link++) {
+            limb.link[link].axial_mm_per_n *= times;
+            limb.link[link].bending_mm_per_n *= times;
+        }
+        limb.joint[BRACE_FEMUR].compliance_rad_per_n_mm = times * row[which].hip_rad_per_n_mm;
         limb.joint[BRACE_TIBIA].compliance_rad_per_n_mm = 0.0f;
-        limb.base = (brace_base_t){row[i].base_mm_per_n, row[i].base_mm_per_n, 0};
+        limb.base = (brace_base_t){base_mm_per_n, base_mm_per_n, 0};
         TEST_ASSERT_EQUAL(BRACE_OK, brace_planar_collapse(&limb, &planar));
         for (int j = -31; j <= 31; j++) {
             expect_reference(&limb, 0.3f, (float)(j * PI / 31.0));
