@@ -245,8 +245,8 @@ static void test_shifts_of_the_search(void)
     }
 }
 
-/* The unit of the search has room for the largest of all words, whichever that is and whatever its sign. What grows with
- * the square of the load counts 16 times. */
+/* The unit of the search has room for the largest of all words, whichever that is and whatever its sign. What grows
+ * with the square of the load counts 16 times. */
 static void test_each_word_counts_in_the_unit_of_the_search(void)
 {
     fixed_rest_t rest = {.root_softens = 0};

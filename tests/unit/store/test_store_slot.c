@@ -119,8 +119,8 @@ static void test_a_failure_is_told_until_the_next_request(void)
     }
 }
 
-/* A slot holds a block's room and all its marks, to the last byte, and is written in units of 1, 2, 4 or 8 bytes. On any
- * other memory there is no store, and a request says so. */
+/* A slot holds a block's room and all its marks, to the last byte, and is written in units of 1, 2, 4 or 8 bytes. On
+ * any other memory there is no store, and a request says so. */
 static void test_a_memory_that_fits(void)
 {
     static const struct {
