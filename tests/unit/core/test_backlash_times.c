@@ -1,4 +1,5 @@
 /* How long a joint with play stays in each state and each phase, to the tick, and which sample is too late. */
+#include "backlash/backlash_table.h"
 #include "brace/backlash.h"
 #include "close.h"
 
@@ -134,6 +135,27 @@ static void a_preload_is_verified_for_its_time(void)
     }
 }
 
+/* Whatever a sample shows has its effect in the tick that shows it. Only where nothing is shown does a state end by its
+ * time. What a take-up came to is said by its own phases alone. */
+static void what_is_shown_counts_at_once(void)
+{
+    int timed = 0, results = 0;
+    for (int state = 0; state < BRACE_BACKLASH_STATE_COUNT + BRACE_TAKEUP_PHASE_COUNT; state++) {
+        const bool is_state = state < BRACE_BACKLASH_STATE_COUNT;
+        const transitions_t *from =
+            is_state ? &backlash_states[state] : &takeup_phases[state - BRACE_BACKLASH_STATE_COUNT];
+        for (int i = 0; i < from->count; i++) {
+            const transition_t *row = &from->rows[i];
+            TEST_ASSERT_EQUAL(row->facts == (uint32_t)FACT_ALWAYS, row->after_us != 0u);
+            TEST_ASSERT_FALSE(is_state && row->result != 0);
+            timed += row->after_us != 0u;
+            results += row->result != 0;
+        }
+    }
+    TEST_ASSERT_EQUAL(3, timed);
+    TEST_ASSERT_TRUE(results > 10);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -142,5 +164,6 @@ int main(void)
     RUN_TEST(a_flank_is_remembered_for_a_quarter_of_a_second);
     RUN_TEST(a_crossing_lasts_for_two_seconds);
     RUN_TEST(a_preload_is_verified_for_its_time);
+    RUN_TEST(what_is_shown_counts_at_once);
     return UNITY_END();
 }
