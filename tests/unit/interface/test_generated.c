@@ -335,6 +335,19 @@ static void test_a_question_is_its_request_s_fields(void)
         const bool picks = question->codes > 1u;
         TEST_ASSERT_TRUE(question->codes == 1u || question->codes == 2u);
         TEST_ASSERT_EQUAL(picks, question->code[1] != 0u);
+        if (picks) { /* 0: the knee points up */
+            const bool is_loaded = question->code[0] == BRACE_REQUEST_K_UNDER_LOAD_AT_TIP_KNEE_UP;
+            TEST_ASSERT_EQUAL(is_loaded ? BRACE_REQUEST_K_UNDER_LOAD_AT_TIP_KNEE_UP : BRACE_REQUEST_K_AT_TIP_KNEE_UP,
+                              question->code[0]);
+            TEST_ASSERT_EQUAL(is_loaded ? BRACE_REQUEST_K_UNDER_LOAD_AT_TIP_KNEE_DOWN : BRACE_REQUEST_K_AT_TIP_KNEE_DOWN,
+                              question->code[1]);
+        }
+        for (uint32_t o = 0; o < q; o++) { /* answers lie in the same values, or in others */
+            const brace_question_t *other = &brace_questions[o];
+            TEST_ASSERT_TRUE(other->answer_first == question->answer_first ||
+                             other->answer_first >= question->answer_first + question->answer_count ||
+                             question->answer_first >= other->answer_first + other->answer_count);
+        }
         for (uint32_t i = 0; i < question->codes; i++) {
             TEST_ASSERT_EQUAL(values_of[question->code[i]].asked, question->fields);
             TEST_ASSERT_EQUAL(values_of[question->code[i]].answered, question->answer_count);
