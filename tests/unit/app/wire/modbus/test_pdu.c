@@ -326,12 +326,17 @@ static void test_keyed_commands_need_key_and_value(void)
     for (uint32_t i = 0; i < sizeof row / sizeof *row; i++) {
         const uint32_t at = BRACE_REGISTER_COMMANDS + row[i].place / 2u;
         refused(write_value(at, row[i].value), 16, MODBUS_E_VALUE);
+        refused(write_value(at, 0xc0de0000u), 16, MODBUS_E_VALUE);
         refused(write_value(at, 0xc0de0000u | 9u), 16, MODBUS_E_VALUE);
         refused(write_value(at, 0xc0df0000u | row[i].value), 16, MODBUS_E_VALUE);
         TEST_ASSERT_EQUAL(BRACE_MODE_MONITOR, brace_app_mode(&app));
     }
     TEST_ASSERT_EQUAL(5, write_value(BRACE_REGISTER_COMMANDS + row[0].place / 2u, 0xc0de0000u | row[0].value).count);
     TEST_ASSERT_EQUAL(BRACE_MODE_CONFIGURATION, brace_app_mode(&app));
+    brace_store_status_t store;
+    TEST_ASSERT_EQUAL(5, write_value(BRACE_REGISTER_COMMANDS + row[2].place / 2u, 0xc0de0001u).count);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_store_status(&app, &store));
+    TEST_ASSERT_EQUAL(BRACE_STORE_E_NOTHING, store.failure); /* it was asked to go back, and there is nothing */
 }
 
 /* One register of a value may be read alone: its upper or its lower half, in every area. */
@@ -342,7 +347,7 @@ static void test_half_a_value_is_read_alone(void)
         uint32_t first, values;
     } area[] = {{4, 0, 20},
                 {3, BRACE_REGISTER_COMMANDS, sizeof(brace_commands_t) / 4u},
-                {3, 0, 40}};
+                {3, 0, BRACE_PARAMETER_NUMBERS}};
     for (uint32_t i = 0; i < sizeof area / sizeof *area; i++) {
         uint32_t differs = 0;
         for (uint32_t place = 0; place < area[i].values; place++) {
