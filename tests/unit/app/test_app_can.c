@@ -1,6 +1,7 @@
 /* Heartbeat and emergency on CAN: who speaks, what and when; a bus that goes off, a bus that is flooded. */
 #include "app_bench.h"
 #include "brace/can_messages.h"
+#include "brace/refusals.h"
 
 void setUp(void)
 {
@@ -218,6 +219,36 @@ static void test_frames_for_nobody_are_counted_and_a_flood_is_borne(void)
     TEST_ASSERT_TRUE(frame_with(0x705, 1100, &frame)); /* its heart beats on */
 }
 
+/* A request that is refused is known nevertheless, whatever the reason is; and so is one that is answered. */
+static void test_only_a_request_that_does_not_exist_is_unknown(void)
+{
+    static const struct {
+        brace_can_frame_t frame;
+        int32_t status;
+    } row[] = {
+        {{.id = 0x605, .length = 8, .data = {BRACE_REQUEST_IDENTIFY, 1}}, BRACE_OK},
+        {{.id = 0x605, .length = 8, .data = {BRACE_REQUEST_K_AT_POSTURE, 1, 0, 0, 0x80, 0, 0, 0x80}},
+         BRACE_E_NOT_FINITE},
+        {{.id = 0x605, .length = 8, .data = {BRACE_REQUEST_SET_MODE, 1}}, BRACE_REFUSED_KEY},
+        {{.id = 0x605, .length = 8, .data = {0, 1}}, BRACE_REFUSED_UNKNOWN}};
+    for (uint32_t i = 0; i < sizeof row / sizeof *row; i++) {
+        brace_can_frame_t answer = {.id = 0};
+        const uint32_t before = counters().frames_unknown;
+        TEST_ASSERT_TRUE(brace_fake_frame_arrives(&fake, &row[i].frame));
+        TEST_ASSERT_TRUE(frame_with(0x585, 10, &answer));
+        TEST_ASSERT_EQUAL(row[i].status == BRACE_OK, answer.data[0] < 0xe0u);
+        if (row[i].status != BRACE_OK) {
+            brace_can_refusal_t refusal;
+            brace_can_unpack_refusal(answer.data, &refusal);
+            TEST_ASSERT_EQUAL(row[i].status, refusal.status);
+        }
+        TEST_ASSERT_EQUAL_UINT32(before + (row[i].status == BRACE_REFUSED_UNKNOWN), counters().frames_unknown);
+        ticks(10);
+        while (brace_fake_frame_take(&fake, &answer)) { /* an answer's other parts */
+        }
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -233,5 +264,6 @@ int main(void)
     RUN_TEST(test_bus_off_is_a_fault_recovery_is_tried_and_K_stays_valid);
     RUN_TEST(test_a_port_that_is_closed_has_no_owner);
     RUN_TEST(test_frames_for_nobody_are_counted_and_a_flood_is_borne);
+    RUN_TEST(test_only_a_request_that_does_not_exist_is_unknown);
     return UNITY_END();
 }

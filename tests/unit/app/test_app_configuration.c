@@ -82,6 +82,35 @@ static void test_idle_time_counts_from_the_start_and_from_each_request(void)
     TEST_ASSERT_EQUAL_UINT32(0, parameter_job_wait_ms(&job));
 }
 
+/* The set in force is taken from the store once more: it is as stored again. While the store is at work that is not
+ * asked for a second time, and what it does goes on. */
+static void test_a_set_that_has_changed_in_memory_is_taken_from_the_store(void)
+{
+    static parameter_job_t job;
+    const brace_parameters_t stored = bench_parameters();
+    brace_parameters_t other = stored;
+    parameter_job_start(&job, &fake.hal);
+    job.in_force.limb.femur_mm = 1.0f;
+    job.comes_in_force = false;
+    parameter_job_reload(&job);
+    TEST_ASSERT_TRUE(parameter_job_is_busy(&job));
+    TEST_ASSERT_FALSE(parameter_job_is_fresh(&job));
+    int count = 0;
+    while (!parameter_job_step(&job) && count++ < 1000) {
+        parameter_job_reload(&job);
+    }
+    TEST_ASSERT_TRUE(count < 1000 && job.comes_in_force);
+    TEST_ASSERT_EQUAL_MEMORY(&stored, &job.in_force, sizeof stored);
+    TEST_ASSERT_EQUAL_HEX32(brace_parameters_crc(&stored), job.crc);
+    other.limb.femur_mm = 190.0f;
+    TEST_ASSERT_EQUAL(BRACE_OK, parameter_job_commit(&job, &other));
+    parameter_job_reload(&job);
+    TEST_ASSERT_TRUE(parameter_job_is_fresh(&job));
+    for (count = 0; !parameter_job_step(&job) && count < 1000; count++) {
+    }
+    TEST_ASSERT_EQUAL_MEMORY(&other, &job.in_force, sizeof other);
+}
+
 /* A master may be silent for 130 ms, or for as long as the board's HAL says. */
 static void test_how_long_a_master_may_be_silent(void)
 {
@@ -161,6 +190,51 @@ static void test_a_set_that_cannot_be_is_refused(void)
     TEST_ASSERT_EQUAL_STRING("geometry.femur_mm", brace_parameter_key(store.wrong_index));
     TEST_ASSERT_EQUAL_HEX32(crc, now()->parameter_crc);
     TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_leave(&app));
+}
+
+/* A commit of another set than was named is counted as refused. Whatever else a store is asked for is not, however it
+ * ends, also when such a commit came before it. */
+static void test_only_a_set_that_is_not_the_one_named_is_counted(void)
+{
+    brace_parameters_t p = bench_parameters();
+    const uint32_t *refused = &app.controller.parameters.commits_refused;
+    uint32_t word, wrong_index;
+    p.limb.femur_mm = 190.0f;
+    memcpy(&word, &p.limb.femur_mm, sizeof word);
+    for (int before = 0; before < 2; before++) {
+        const uint32_t count = (uint32_t)before;
+        setUp();
+        ticks(5);
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_enter(&app));
+        if (before != 0) {
+            TEST_ASSERT_EQUAL(BRACE_OK, brace_app_parameters_stage(
+                                            &app, brace_parameter_number(BRACE_PARAMETER_GEOMETRY_FEMUR_MM), 1, &word));
+            TEST_ASSERT_EQUAL(BRACE_OK, brace_app_parameters_commit_named(&app, brace_parameters_crc(&p) ^ 1u,
+                                                                          &wrong_index));
+            ticks(1000);
+            TEST_ASSERT_EQUAL(BRACE_E_CHECKSUM, app.controller.parameters.store.refusal);
+            TEST_ASSERT_EQUAL_UINT32(count, *refused);
+        }
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_app_parameters_rollback(&app)); /* there is nothing to go back to */
+        ticks(5);
+        TEST_ASSERT_EQUAL_UINT32(count, *refused);
+        fake.nvm_stuck = 0x04; /* the memory does not keep it */
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_app_parameters_commit(&app, &p));
+        ticks(1000);
+        TEST_ASSERT_EQUAL_UINT32(count, *refused);
+        fake.nvm_stuck = 0;
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_app_parameters_commit(&app, &p)); /* it comes in force */
+        ticks(1000);
+        TEST_ASSERT_EQUAL_HEX32(brace_parameters_crc(&p), app.controller.parameters.crc);
+        TEST_ASSERT_EQUAL_UINT32(count, *refused);
+        p.limb.tibia_mm = -1.0f; /* no limb is like that */
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_app_parameters_commit(&app, &p));
+        ticks(5);
+        TEST_ASSERT_EQUAL(BRACE_E_PARAMETER, app.controller.parameters.store.refusal);
+        TEST_ASSERT_EQUAL_UINT32(count, *refused);
+        p = bench_parameters();
+        p.limb.femur_mm = 190.0f;
+    }
 }
 
 static void test_a_memory_that_does_not_keep_is_a_fault_and_the_old_set_stays(void)
@@ -297,6 +371,7 @@ int main(void)
     RUN_TEST(test_parameters_are_stored_in_configuration_only);
     RUN_TEST(test_a_committed_set_is_in_force_and_survives_a_restart_and_can_be_taken_back);
     RUN_TEST(test_a_set_that_cannot_be_is_refused);
+    RUN_TEST(test_only_a_set_that_is_not_the_one_named_is_counted);
     RUN_TEST(test_a_memory_that_does_not_keep_is_a_fault_and_the_old_set_stays);
     RUN_TEST(test_a_faulty_controller_can_still_be_configured);
     RUN_TEST(test_an_erase_in_configuration_is_no_late_tick);
@@ -304,6 +379,7 @@ int main(void)
     RUN_TEST(test_a_fault_from_before_configuration_has_no_K_after_it);
     RUN_TEST(test_what_was_staged_ends_when_it_comes_in_force);
     RUN_TEST(test_idle_time_counts_from_the_start_and_from_each_request);
+    RUN_TEST(test_a_set_that_has_changed_in_memory_is_taken_from_the_store);
     RUN_TEST(test_how_long_a_master_may_be_silent);
     RUN_TEST(test_faults_are_told_before_the_first_tick);
     return UNITY_END();

@@ -148,8 +148,8 @@ static void test_who_answers(void)
 static void test_device_identification(void)
 {
     const uint8_t stream[] = {43, 14, 1, 0}, single[] = {43, 14, 4, 2}, none[] = {43, 14, 4, 3},
-                  other[] = {43, 13, 0, 0};
-    const uint8_t bad[] = {43, 14, 5, 0}, later[] = {43, 14, 2, 1};
+                  other[] = {43, 13, 0, 0}, longer[] = {43, 14, 1, 0, 0};
+    const uint8_t bad[] = {43, 14, 5, 0}, zero[] = {43, 14, 0, 0}, later[] = {43, 14, 2, 1};
     reply_t reply = line_asks(UNIT, stream, 4);
     static const char all[] =
         "\x2b\x0e\x01\x81\0\0\x03" "\0\x05" "Brace" "\x01\x0f" "limb controller" "\x02\x05" "0.1.0";
@@ -163,7 +163,9 @@ static void test_device_identification(void)
     refused(line_asks(UNIT, none, 4), 43, 2);
     refused(line_asks(UNIT, other, 4), 43, 1);
     refused(line_asks(UNIT, bad, 4), 43, 3);
+    refused(line_asks(UNIT, zero, 4), 43, 3);
     refused(line_asks(UNIT, stream, 3), 43, 3);
+    refused(line_asks(UNIT, longer, 5), 43, 3);
     refused(line_asks(UNIT, stream, 1), 43, 1);
 }
 

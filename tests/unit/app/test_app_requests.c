@@ -184,6 +184,22 @@ static void test_a_commit_that_comes_too_soon(void)
     TEST_ASSERT_EQUAL(BRACE_REFUSED_EARLY, told.last_refusal);
 }
 
+/* The reason of the last refusal is told, whoever was refused and whatever for; what is taken leaves it. */
+static void test_the_last_refusal_is_told(void)
+{
+    const brace_who_t owner = {BRACE_ASKER_CAN, 1}, other = {BRACE_ASKER_MODBUS_TCP, 2};
+    brace_session_report_t told;
+    brace_app_session(&app, &told);
+    TEST_ASSERT_EQUAL(BRACE_OK, told.last_refusal);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_life(&app, owner, NULL));
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_may_command(&app, BRACE_COMMAND_MOVES, owner, NULL, NULL, 0));
+    TEST_ASSERT_EQUAL(BRACE_REFUSED_OWNED, brace_app_life(&app, other, NULL));
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_life(&app, owner, NULL));
+    brace_app_session(&app, &told);
+    TEST_ASSERT_EQUAL(BRACE_REFUSED_OWNED, told.last_refusal);
+    TEST_ASSERT_EQUAL(1, told.strangers);
+}
+
 /* Each bound of each joint's ceiling, at it and just beyond: the parameter that passes it is named. */
 static void test_each_ceiling_of_the_board(void)
 {
@@ -223,6 +239,7 @@ int main(void)
     RUN_TEST(test_configuration_asked_for_again_goes_on);
     RUN_TEST(test_each_fault_is_cleared_alone);
     RUN_TEST(test_a_commit_that_comes_too_soon);
+    RUN_TEST(test_the_last_refusal_is_told);
     RUN_TEST(test_each_ceiling_of_the_board);
     return UNITY_END();
 }

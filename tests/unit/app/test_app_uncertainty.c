@@ -287,6 +287,24 @@ static void test_of_a_limb_in_space_the_coxa_joint_s_load_counts_beside_a_sensor
                      told().k_zz_n_per_mm > 1.01f * by_parameters().k_zz_n_per_mm);
 }
 
+/* A limb that is turned as a whole, and its load with it, is as uncertain as before: also where the stiff axis of one K
+ * points up and that of the other down, which is the same way. */
+static void test_a_limb_that_is_turned_is_as_uncertain(void)
+{
+    const float half_turn_rad = 3.14159265f;
+    parameters.drive[BRACE_FEMUR].motor_friction_n_mm = parameters.drive[BRACE_TIBIA].motor_friction_n_mm = 2000.0f;
+    start_carrying(-2000.0f, 1500.0f);
+    const brace_stiffness_sigma_t sigma = told();
+    const float upright_rad = 0.5f * half_turn_rad - now()->stiffness.engaged.stiff_axis_rad;
+    for (int i = -20; i <= 20; i++) {
+        const float turn_rad = upright_rad + 0.01f * (float)i, theta1_rad = 1.0f + turn_rad;
+        fake.joint[BRACE_FEMUR].sample.motor_rad = theta1_rad > 3.0f ? theta1_rad - half_turn_rad : theta1_rad;
+        ticks(100);
+        ASSERT_CLOSE(sigma.stiff_axis_rad, told().stiff_axis_rad, 1e-3 + 1e-2 * (double)sigma.stiff_axis_rad);
+        ASSERT_CLOSE(sigma.lambda_max_n_per_mm, told().lambda_max_n_per_mm, 1e-2 * (double)sigma.lambda_max_n_per_mm);
+    }
+}
+
 static void test_asking_changes_nothing(void)
 {
     static uint8_t before[sizeof app];
@@ -327,6 +345,7 @@ int main(void)
     RUN_TEST(test_a_joint_that_may_stand_anywhere_in_its_gap_counts_with_the_angles);
     RUN_TEST(test_a_newest_load_without_an_equilibrium_leaves_all_open);
     RUN_TEST(test_of_a_limb_in_space_the_coxa_joint_s_load_counts_beside_a_sensor);
+    RUN_TEST(test_a_limb_that_is_turned_is_as_uncertain);
     RUN_TEST(test_asking_changes_nothing);
     RUN_TEST(test_without_a_valid_K_there_is_nothing_to_tell);
     return UNITY_END();

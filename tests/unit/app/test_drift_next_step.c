@@ -31,6 +31,10 @@ static void test_while_it_watches_growing_evidence_asks_for_a_test(void)
     job.has_outlook = true;
     job.outlook.steps_needed[BRACE_DRIFT_FEMUR] = 1;
     TEST_ASSERT_EQUAL(BRACE_DRIFT_NEXT_REPEAT_TEST, drift_job_next_step(&job));
+    job.outlook.steps_needed[BRACE_DRIFT_FEMUR] = 64; /* as many as a long test has */
+    TEST_ASSERT_EQUAL(BRACE_DRIFT_NEXT_REPEAT_TEST, drift_job_next_step(&job));
+    job.outlook.steps_needed[BRACE_DRIFT_FEMUR] = 65;
+    TEST_ASSERT_EQUAL(BRACE_DRIFT_NEXT_TEST_ANOTHER_POSTURE, drift_job_next_step(&job));
     job.outlook.steps_needed[BRACE_DRIFT_FEMUR] = 100000;
     TEST_ASSERT_EQUAL(BRACE_DRIFT_NEXT_TEST_ANOTHER_POSTURE, drift_job_next_step(&job));
     job.report.cause = BRACE_DRIFT_UNEXPLAINED; /* shows anywhere */

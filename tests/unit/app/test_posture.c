@@ -31,6 +31,19 @@ void setUp(void)
 
 void tearDown(void) {}
 
+/* Before the first sample nobody knows where the limb stands. */
+static void test_a_start_knows_no_posture(void)
+{
+    memset(&posture, 1, sizeof posture);
+    posture_start(&posture);
+    TEST_ASSERT_FALSE(posture.has_levers);
+    TEST_ASSERT_FALSE(posture.is_inside_travel);
+    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
+        TEST_ASSERT_TRUE(isnan(posture.theta_rad[i]) && isnan(posture.unbent_rad[i]));
+        TEST_ASSERT_FALSE(posture.is_measured[i]);
+    }
+}
+
 static void test_a_tip_force_and_the_loads_that_it_makes_are_one(void)
 {
     static const float angles[][2] = {{1.0f, 1.4f}, {0.2f, 0.6f}, {-0.5f, 2.0f}, {1.5f, -1.0f}};
@@ -249,6 +262,7 @@ static void test_angles_that_are_none_give_no_levers(void)
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(test_a_start_knows_no_posture);
     RUN_TEST(test_a_tip_force_and_the_loads_that_it_makes_are_one);
     RUN_TEST(test_weights_hang_where_they_are);
     RUN_TEST(test_where_the_levers_do_not_allow_it_no_force_is_told);

@@ -320,7 +320,7 @@ static void advance_to(double from_rad, double to_rad, int ticks)
     }
 }
 
-/*/* Travel and time of a take-up count from where and when it begins. What was said to the one before is forgotten. */
+/* Travel and time of a take-up count from where and when it begins. What was said to the one before is forgotten. */
 static void each_takeup_begins_anew(void)
 {
     noise_n_mm = 0.0;

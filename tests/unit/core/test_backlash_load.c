@@ -75,6 +75,27 @@ static void the_slow_mean_is_the_quiet_one(void)
     TEST_ASSERT_TRUE((double)joint.slow_spread_n_mm > 2.0 * sigma);
 }
 
+/* The slow mean that starts anew takes over all that the fast one knows: the load, its spread, and how far friction may
+ * hide it. */
+static void a_slow_mean_begins_anew_as_the_fast_one_stands(void)
+{
+    int times = 0, with_another_width = 0;
+    double motor_rad = 0.0;
+    begin(0.0, 1000.0);
+    for (int i = 0; i < 600; i++) {
+        const float before_n_mm = joint.slow_width_n_mm;
+        motor_rad += i > 300 ? 1e-4 : 0.0;
+        observe(motor_rad, i < 320 ? 1000.0 : 3000.0); /* the motor turns, and a load comes */
+        if (joint.slow_spread_n_mm == joint.fast_sigma_n_mm) {
+            ASSERT_CLOSE(joint.fast_n_mm, joint.slow_n_mm, 0.0);
+            ASSERT_CLOSE(joint.fast_width_n_mm, joint.slow_width_n_mm, 0.0);
+            times++;
+            with_another_width += fabsf(joint.slow_width_n_mm - before_n_mm) > 20.0f;
+        }
+    }
+    TEST_ASSERT_TRUE(times >= 2 && with_another_width >= 2);
+}
+
 /* What has not been seen to move has no direction, whatever was there before. */
 static void a_start_has_no_direction(void)
 {
@@ -223,7 +244,9 @@ static void an_expected_load_narrows_what_is_shown(void)
         float expected_n_mm, off_n_mm;
         int flank;
     } row[] = {{150.0f, 100.0f, 1}, {-150.0f, 100.0f, -1}, {0.0f, 100.0f, 0}, {90.0f, 100.0f, 0},
-               {-90.0f, 100.0f, 0}, {1e4f, 10.0f, 0},      {-1e4f, 10.0f, 0}};
+               {-90.0f, 100.0f, 0}, {1e4f, 10.0f, 0},      {-1e4f, 10.0f, 0},
+               {100.05f, 100.0f, 1}, {-100.05f, 100.0f, -1}, {99.95f, 100.0f, 0}, {-99.95f, 100.0f, 0},
+               {100.0f, 100.0f, 0},  {-100.0f, 100.0f, 0}}; /* a load that may be zero shows no flank */
     for (uint32_t i = 0; i < sizeof row / sizeof *row; i++) {
         brace_backlash_sample_t sample = sample_of(0.0, 100.0);
         TEST_ASSERT_EQUAL_INT(0, backlash_load_told(&joint, &sample, 0.7f));
@@ -359,7 +382,6 @@ static brace_backlash_out_t tick_at(double motor_rad, double torque_n_mm)
     return out;
 }
 
-/* The link's place in its gap stays known in every state but FAULT. After FAULT the link may be anywhere. */
 /* Ticks until a take-up of a motor that meets nothing is given up for its time. */
 static int ticks_of_takeup(uint32_t time_max_us)
 {
@@ -383,6 +405,7 @@ static void a_takeup_has_its_time_to_the_microsecond(void)
     TEST_ASSERT_INT_WITHIN(1, 50, count);
 }
 
+/* The link's place in its gap stays known in every state but FAULT. After FAULT the link may be anywhere. */
 static void only_a_fault_forgets_where_the_link_is(void)
 {
     int states = 0, last = -1;
@@ -437,6 +460,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(a_first_sample_is_the_load_and_proves_nothing);
     RUN_TEST(the_slow_mean_is_the_quiet_one);
+    RUN_TEST(a_slow_mean_begins_anew_as_the_fast_one_stands);
     RUN_TEST(a_start_has_no_direction);
     RUN_TEST(friction_is_known_while_the_motor_turns);
     RUN_TEST(a_motor_stands_after_eight_ticks);

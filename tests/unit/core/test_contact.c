@@ -299,6 +299,28 @@ static void bad_stiffness_is_refused(void)
     expect_refused_stiffness(bad, BRACE_E_RANGE);
 }
 
+/* A K may be as soft as 1e-12 N/mm, and that is taken. Where K is round, rounding may put its eigenvalues in the wrong
+ * order by a millionth of themselves, and no more. */
+static void the_eigenvalues_have_their_bounds(void)
+{
+    const float least = 1e-12f, more = 1.0f + 1e-6f;
+    const struct {
+        float lambda_min, lambda_max;
+        brace_status_t status;
+    } row[] = {{least, 2.0f, BRACE_OK},
+               {nextafterf(least, 0.0f), 2.0f, BRACE_E_RANGE},
+               {2.0f * more, 2.0f, BRACE_OK},
+               {nextafterf(2.0f * more, 3.0f), 2.0f, BRACE_E_RANGE},
+               {2.1f, 2.0f, BRACE_E_RANGE}};
+    for (uint32_t i = 0; i < sizeof row / sizeof *row; i++) {
+        brace_stiffness_t k = stiffness_of(0.5, 2.0, 0.3);
+        brace_displacement_t sag;
+        k.lambda_min_n_per_mm = row[i].lambda_min;
+        k.lambda_max_n_per_mm = row[i].lambda_max;
+        TEST_ASSERT_EQUAL_INT(row[i].status, brace_contact_sag(&k, (brace_force_t){1.0f, 1.0f}, &sag));
+    }
+}
+
 static void bad_input_is_refused_and_touches_nothing(void)
 {
     const brace_stiffness_t good = stiffness_of(0.5, 2.0, 0.3);
@@ -394,6 +416,7 @@ int main(void)
     RUN_TEST(the_normal_is_made_one);
     RUN_TEST(the_choice_of_stiffness);
     RUN_TEST(bad_stiffness_is_refused);
+    RUN_TEST(the_eigenvalues_have_their_bounds);
     RUN_TEST(bad_input_is_refused_and_touches_nothing);
     RUN_TEST(limits_are_inclusive);
     RUN_TEST(the_first_refusal_is_told);

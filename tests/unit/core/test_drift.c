@@ -393,6 +393,7 @@ static void test_an_alarm_stays_until_reset(void)
     TEST_ASSERT_EQUAL(BRACE_OK, brace_drift_reset(&drift));
     TEST_ASSERT_EQUAL(BRACE_DRIFT_WATCHING, report().state);
     TEST_ASSERT_EQUAL_FLOAT(0.0f, report().evidence);
+    TEST_ASSERT_EQUAL(BRACE_DRIFT_UNEXPLAINED, report().cause); /* nothing to explain is left */
 }
 
 static void test_one_wild_reading_is_no_alarm(void)

@@ -442,6 +442,28 @@ static void test_each_number_of_a_reading_has_its_bounds(void)
     expect_bounds(bounds, 7, &sound, sizeof sound, read);
 }
 
+/* K is taken as it is, also where its axes lie along x and z; what is no number is refused in it too. */
+static void test_the_model_s_K_must_be_numbers(void)
+{
+    static const float xz[] = {0.0f, NAN, INFINITY, -INFINITY};
+    const brace_drift_reading_t sound = {postures[0][0], postures[0][1], 0.1f, 0.2f, 1.0f, 2.0f, 1.0f};
+    for (int i = 0; i < 4; i++) {
+        brace_stiffness_t k = stiffness_of(&believed, 0);
+        k.k_xz_n_per_mm = xz[i];
+        TEST_ASSERT_EQUAL(i == 0 ? BRACE_OK : BRACE_E_NOT_FINITE, brace_drift_step(&drift, &believed, &k, &sound));
+    }
+}
+
+/* Numbers far out of range are finite nevertheless, however many there are, and are refused as out of range. */
+static void test_numbers_far_out_are_out_of_range(void)
+{
+    const float far = 1e30f;
+    const brace_drift_reading_t reading = {far, far, far, far, far, far, far};
+    brace_stiffness_t k = stiffness_of(&believed, 0);
+    k.k_xz_n_per_mm = far;
+    TEST_ASSERT_EQUAL(BRACE_E_RANGE, brace_drift_step(&drift, &believed, &k, &reading));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -449,6 +471,8 @@ int main(void)
     RUN_TEST(test_a_report_is_of_the_likeliest_cause);
     RUN_TEST(test_each_number_of_a_setup_has_its_bounds);
     RUN_TEST(test_each_number_of_a_reading_has_its_bounds);
+    RUN_TEST(test_the_model_s_K_must_be_numbers);
+    RUN_TEST(test_numbers_far_out_are_out_of_range);
     RUN_TEST(test_it_learns_and_watches_as_the_filter_does);
     RUN_TEST(test_what_is_known_wanders);
     return UNITY_END();

@@ -218,6 +218,27 @@ static void test_a_link_s_turns_on_the_way_out(void)
     TEST_ASSERT_TRUE(within > 60 * TIMES && beyond > 60 * TIMES);
 }
 
+/* The base turns by at most 1 rad, also where the coxa turns back so far that what is turned behind it is less. */
+static void test_the_base_turns_by_a_radian_at_most(void)
+{
+    const fixed_commanded_t commanded = {{1 << 30, 0}, {1 << 30, 0}};
+    const fixed_factors_t factors = {.coxa.z.per_pivot_q27 = 1 << 27, .base_yields_q26 = word(1.5, 26)};
+    const brace_space_fixed_pose_t now = {.coxa = {0, 0, word(0.2, 29)}};
+    for (int sign = -1; sign <= 1; sign += 2) {
+        for (int is_beyond = 0; is_beyond < 2; is_beyond++) {
+            const double turn_rad = sign * (is_beyond != 0 ? 1.0001 : 0.9999);
+            const brace_space_fixed_pose_t drives = {.base = word(turn_rad / 1.5, 27)},
+                                           turned_back = {.coxa = {0, 0, sign * now.coxa.z}};
+            brace_space_fixed_pose_t by;
+            noted_t noted = 0u;
+            fixed_solve_straight(&factors, &drives, &turned_back, &commanded, &by, &noted);
+            TEST_ASSERT_DOUBLE_WITHIN(1e-6, turn_rad, number(by.base, 29));
+            TEST_ASSERT_DOUBLE_WITHIN(1e-6, -0.2 * sign, number(by.coxa.z, 29));
+            TEST_ASSERT_EQUAL(is_beyond != 0, is_refused(noted));
+        }
+    }
+}
+
 /* The springs at a link's end: each turns its arm by a quarter at most, and the link's axial spring gives a quarter of
  * the unit of length. The spring yields by a quarter for a force of 1. */
 static void test_the_springs_at_a_link_s_end(void)
@@ -321,6 +342,7 @@ int main(void)
     RUN_TEST(test_entries_of_a_matrix);
     RUN_TEST(test_a_coordinate_that_is_driven);
     RUN_TEST(test_a_link_s_turns_on_the_way_out);
+    RUN_TEST(test_the_base_turns_by_a_radian_at_most);
     RUN_TEST(test_the_springs_at_a_link_s_end);
     RUN_TEST(test_compliances_under_the_load_taken_many_times);
     RUN_TEST(test_a_pivot_of_nothing_counts_alike_in_both);

@@ -1,6 +1,7 @@
 /* The integer path's elimination in the plane, beside the same elimination in double precision: the same numbers, and
  * a refusal where one of them leaves its word, by the bounds that fixed_vec.h names. */
 #include <math.h>
+#include <string.h>
 
 #pragma GCC diagnostic ignored "-Wunused-function" /* this suite does not call all functions of the header */
 #include "loaded/fixed_buckling.h"
@@ -244,6 +245,27 @@ static void test_shifts_of_the_search(void)
     }
 }
 
+/* The unit of the search has room for the largest of all words, whichever that is and whatever its sign. What grows
+ * with the square of the load counts 16 times. */
+static void test_each_word_counts_in_the_unit_of_the_search(void)
+{
+    fixed_rest_t rest = {.root_softens = 0};
+    int32_t *const words[] = {&rest.resists.rr, &rest.resists.ra, &rest.resists.rb, &rest.resists.aa,
+                              &rest.resists.ab, &rest.resists.bb, &rest.end_resists, &rest.root_softens,
+                              &rest.end_softens};
+    for (uint32_t i = 0; i < sizeof words / sizeof *words; i++) {
+        const uint32_t times = i < 7u ? 1u : 16u;
+        const int32_t size = 0x00765432;
+        memset(&rest, 0, sizeof rest);
+        *words[i] = size;
+        TEST_ASSERT_EQUAL_HEX32((uint32_t)size * times, fixed_sizes_of(&rest));
+        if (i < 7u) {
+            *words[i] = -size;
+            TEST_ASSERT_EQUAL_HEX32((uint32_t)size - 1u, fixed_sizes_of(&rest));
+        }
+    }
+}
+
 /* A parabola through three determinants: at 1, at the load that is the root of two times that, and at one below, which
  * is no load, or 1, 2 or 4 half octaves less. A step of Newton's method from the chord's root leaves the square of how
  * far the root is from there. Nothing lies outside the two loads. */
@@ -323,6 +345,7 @@ int main(void)
     RUN_TEST(test_a_wide_product);
     RUN_TEST(test_a_step_bends_no_link_too_far);
     RUN_TEST(test_shifts_of_the_search);
+    RUN_TEST(test_each_word_counts_in_the_unit_of_the_search);
     RUN_TEST(test_the_root_of_a_parabola);
     RUN_TEST(test_a_step_from_the_chord_s_root);
     return UNITY_END();

@@ -25,6 +25,7 @@ static void test_rows_are_the_single_function_s(void)
         TEST_ASSERT_EQUAL_FLOAT(single1_rad, theta1_rad[i]);
         TEST_ASSERT_EQUAL_FLOAT(single2_rad, theta2_rad[i]);
     }
+    TEST_ASSERT_EQUAL(0, brace_kinematics_inverse_batch(limb, 0, x_mm, z_mm, knee, theta1_rad, theta2_rad));
     TEST_ASSERT_TRUE(isnan(theta1_rad[2]) && isnan(theta2_rad[2]) && isnan(theta1_rad[3]) && isnan(theta2_rad[3]));
 }
 

@@ -123,6 +123,47 @@ static void test_limbs_whose_cross_has_no_zero(void)
     TEST_ASSERT_GREATER_THAN(100, taken);
 }
 
+/* Links whose softer way is turned by a right angle, or that yield along themselves alone: cross is a multiple of the
+ * square of cos h, and vanishes at the folded knee only. What rounding leaves beside it is dropped. */
+static void test_limbs_whose_cross_vanishes_at_the_folded_knee_alone(void)
+{
+    static const float right = 1.57079633f;
+    static const struct {
+        float femur_mm, tibia_mm;
+        brace_link_t femur, tibia;
+        float hip_rad_per_n_mm, base_mm_per_n;
+    } row[] = {
+        {277.37f, 284.38f, {8.21e-3f, 0.318f, -right, 0, 0, 0}, {0.382f, 0.301f, 0, 0, 0, 0}, 3.5e-5f, 3.9e-4f},
+        {129.3708f, 123.8373f, {0, 1.236917e-3f, 0, 0, 0, 1.0f}, {2.198443e-4f, 0.2701192f, -right, 0, 0, 0}, 0, 0},
+        {155.677f, 101.1211f, {1.585603e-4f, 0.09022907f, -right, 0, 0, 0}, {3.106798e-3f, 0, 0, 0, 0, 0},
+         6.233817e-5f, 0.08798388f},
+        {178.3619f, 178.3619f, {8.301299e-4f, 0, right, 0, 0, 1.0f}, {6.222959e-4f, 0.2208137f, right, 0, 0, 0},
+         2.194319e-5f, 0.01736364f},
+        {61.5889f, 359.412f, {3.17069e-4f, 2.87292e-4f, 0, 0, 0, 0}, {0.0117317f, 4.06091e-4f, 0, 0, 0, 0},
+         2.84498e-6f, 0}};
+    for (uint32_t i = 0; i < 2u * sizeof row / sizeof *row; i++) {
+        const uint32_t which = i / 2u;
+        const float times = i % 2u == 0u ? 1.0f : 256.0f; /* the same limb, far softer */
+        const float base_mm_per_n = times * row[which].base_mm_per_n;
+        brace_limb_t limb = sample_limb[SAMPLE_PAPER];
+        limb.femur_mm = row[which].femur_mm;
+        limb.tibia_mm = row[which].tibia_mm;
+        limb.link[BRACE_FEMUR] = row[which].femur;
+        limb.link[BRACE_TIBIA] = row[which].tibia;
+        for (int link = BRACE_FEMUR; link <= BRACE_TIBIA; link++) {
+            limb.link[link].axial_mm_per_n *= times;
+            limb.link[link].bending_mm_per_n *= times;
+        }
+        limb.joint[BRACE_FEMUR].compliance_rad_per_n_mm = times * row[which].hip_rad_per_n_mm;
+        limb.joint[BRACE_TIBIA].compliance_rad_per_n_mm = 0.0f;
+        limb.base = (brace_base_t){base_mm_per_n, base_mm_per_n, 0};
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_planar_collapse(&limb, &planar));
+        for (int j = -31; j <= 31; j++) {
+            expect_reference(&limb, 0.3f, (float)(j * PI / 31.0));
+        }
+    }
+}
+
 static void test_a_base_that_yields_equally_is_in_it(void)
 {
     brace_limb_t limb = sample_limb[SAMPLE_TILTED];
@@ -251,6 +292,7 @@ int main(void)
     RUN_TEST(test_close_to_straight_and_folded);
     RUN_TEST(test_soft_springs);
     RUN_TEST(test_limbs_whose_cross_has_no_zero);
+    RUN_TEST(test_limbs_whose_cross_vanishes_at_the_folded_knee_alone);
     RUN_TEST(test_a_base_that_yields_equally_is_in_it);
     RUN_TEST(test_a_round_compliance_has_some_axis_and_finite_numbers);
     RUN_TEST(test_turning_the_limb_turns_k);

@@ -321,6 +321,16 @@ static void test_a_structure_beyond_its_words_is_not_kept(void)
     TEST_ASSERT_FALSE(is_kept(&fixed));
 }
 
+/* Each entry is the sine and the cosine of its 64th of a turn, to the last place. */
+static void test_the_table_is_sine_and_cosine(void)
+{
+    for (int i = 0; i < 64; i++) {
+        const double angle_rad = i * (2.0 * PI / 64.0), one = (double)BRACE_FIXED_ONE;
+        TEST_ASSERT_DOUBLE_WITHIN(0.501, one * sin(angle_rad), (double)brace_fixed_sincos[i].sin_q31);
+        TEST_ASSERT_DOUBLE_WITHIN(0.501, one * cos(angle_rad), (double)brace_fixed_sincos[i].cos_q31);
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -337,6 +347,7 @@ int main(void)
     RUN_TEST(test_null_is_refused_and_nothing_touched);
     RUN_TEST(test_what_it_cannot_serve_is_refused_and_nothing_touched);
     RUN_TEST(test_slender_limbs_are_flagged_where_the_error_grows);
+    RUN_TEST(test_the_table_is_sine_and_cosine);
     RUN_TEST(test_seed_table_holds_what_it_says);
     RUN_TEST(test_cell_table_points_where_its_cells_are);
     RUN_TEST(test_judging_does_not_depend_on_units);

@@ -102,6 +102,7 @@ static void test_a_part_says_which_it_is(void)
         const uint8_t data[8] = {9, (uint8_t)part, 7, 7, 7, 7, 7, 7};
         TEST_ASSERT_EQUAL(part, brace_can_space_part(data));
         TEST_ASSERT_EQUAL(part, brace_can_load_part(data));
+        TEST_ASSERT_EQUAL(part, brace_can_load_across_part(data));
     }
 }
 

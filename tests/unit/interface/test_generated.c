@@ -318,6 +318,64 @@ static void test_ranges_of_the_limb_are_in_its_order(void)
     TEST_ASSERT_TRUE(BRACE_RANGE_JOINT_GAP_RAD_MIN >= 0.0f && BRACE_RANGE_JOINT_GAP_RAD_MAX <= 0.5f);
 }
 
+/* A question over Modbus writes the fields of its request, those of the request that is asked before, and which of two
+ * requests it is; its answer's values follow one another. Each command that is not known at first belongs to one
+ * question, and each value of an answer to one at least. */
+static void test_a_question_is_its_request_s_fields(void)
+{
+#define ROW(CODE, name) [CODE] = {sizeof(brace_##name##_request_t) / 4u, sizeof(brace_##name##_answer_t) / 4u},
+    static const struct {
+        uint32_t asked, answered;
+    } values_of[32] = {BRACE_REQUESTS(ROW)};
+#undef ROW
+    enum { COMMANDS = sizeof(brace_commands_t) / 4, ANSWERS = sizeof(brace_answered_t) / 4 };
+    uint32_t questions_of[COMMANDS] = {0}, answers_of[ANSWERS] = {0};
+    for (uint32_t q = 0; q < (uint32_t)BRACE_QUESTION_COUNT; q++) {
+        const brace_question_t *question = &brace_questions[q];
+        const bool picks = question->codes > 1u;
+        TEST_ASSERT_TRUE(question->codes == 1u || question->codes == 2u);
+        TEST_ASSERT_EQUAL(picks, question->code[1] != 0u);
+        if (picks) { /* 0: the knee points up */
+            const bool is_loaded = question->code[0] == BRACE_REQUEST_K_UNDER_LOAD_AT_TIP_KNEE_UP;
+            const uint32_t plain[] = {BRACE_REQUEST_K_AT_TIP_KNEE_UP, BRACE_REQUEST_K_AT_TIP_KNEE_DOWN};
+            const uint32_t loaded[] = {BRACE_REQUEST_K_UNDER_LOAD_AT_TIP_KNEE_UP,
+                                       BRACE_REQUEST_K_UNDER_LOAD_AT_TIP_KNEE_DOWN};
+            for (int i = 0; i < 2; i++) {
+                TEST_ASSERT_EQUAL(is_loaded ? loaded[i] : plain[i], question->code[i]);
+            }
+        }
+        for (uint32_t o = 0; o < q; o++) { /* answers lie in the same values, or in others */
+            const brace_question_t *other = &brace_questions[o];
+            TEST_ASSERT_TRUE(other->answer_first == question->answer_first ||
+                             other->answer_first >= question->answer_first + question->answer_count ||
+                             question->answer_first >= other->answer_first + other->answer_count);
+        }
+        for (uint32_t i = 0; i < question->codes; i++) {
+            TEST_ASSERT_EQUAL(values_of[question->code[i]].asked, question->fields);
+            TEST_ASSERT_EQUAL(values_of[question->code[i]].answered, question->answer_count);
+        }
+        TEST_ASSERT_EQUAL(question->begin_code != 0u ? values_of[question->begin_code].asked : 0u,
+                          question->begin_fields);
+        TEST_ASSERT_EQUAL(question->begin_fields + question->fields + picks, question->count);
+        for (uint32_t i = 0; i < question->count; i++) {
+            TEST_ASSERT_LESS_THAN(COMMANDS, question->first + i);
+            questions_of[question->first + i]++;
+        }
+        for (uint32_t i = 0; i < question->answer_count; i++) {
+            TEST_ASSERT_LESS_THAN(ANSWERS, question->answer_first + i);
+            answers_of[question->answer_first + i]++;
+        }
+    }
+    for (uint32_t i = 0; i < COMMANDS; i++) {
+        uint32_t word;
+        memcpy(&word, (const uint8_t *)&brace_commands_unknown + 4u * i, sizeof word);
+        TEST_ASSERT_EQUAL(word != 0u, questions_of[i]);
+    }
+    for (uint32_t i = 0; i < ANSWERS; i++) {
+        TEST_ASSERT_GREATER_THAN(0, answers_of[i]);
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -334,5 +392,6 @@ int main(void)
     RUN_TEST(test_names_and_sentences);
     RUN_TEST(test_causes_of_a_drift_are_those_of_the_core);
     RUN_TEST(test_ranges_of_the_limb_are_in_its_order);
+    RUN_TEST(test_a_question_is_its_request_s_fields);
     return UNITY_END();
 }

@@ -10,7 +10,7 @@ enum { SLOT_BYTES = 8192, IDENTITY = 0x1234 };
 static struct {
     uint8_t bytes[2][SLOT_BYTES];
     bool read_refused, write_refused, write_lost;
-    uint32_t calls, misuse, writes_until_refused;
+    uint32_t calls, misuse, writes_until_refused, reads_until_refused;
 } memory;
 
 static brace_hal_t hal;
@@ -21,7 +21,7 @@ static int32_t memory_read(void *context, uint32_t slot, uint32_t offset, uint8_
 {
     (void)context;
     memory.calls++;
-    if (memory.read_refused) {
+    if (memory.read_refused || (memory.reads_until_refused != 0u && --memory.reads_until_refused == 0u)) {
         return BRACE_HAL_E_DEVICE;
     }
     memcpy(bytes, memory.bytes[slot] + offset, count);
@@ -200,6 +200,37 @@ static void test_each_write_refused_in_turn(void)
     }
 }
 
+/* A scan ends at the first read that the memory refuses, be it once only: what it has found so far counts, and nothing
+ * more is written there. */
+static void test_each_read_refused_in_turn(void)
+{
+    const uint32_t pieces = BRACE_JOURNAL_PIECES;
+    for (uint32_t refused = 1; refused <= 3u * pieces; refused++) {
+        const uint32_t whole = (refused - 1u) / pieces;
+        setUp();
+        for (uint8_t i = 1; i <= 3u; i++) {
+            TEST_ASSERT_EQUAL(BRACE_JOURNAL_READY, keep(i));
+        }
+        memory.reads_until_refused = refused;
+        TEST_ASSERT_EQUAL(whole == 0u ? -1 : (int)whole, restart(0, IDENTITY));
+        TEST_ASSERT_EQUAL_UINT32(0, brace_journal_room(&journal));
+        tearDown();
+    }
+}
+
+/* It says with its last piece that it is at its end, and reads each piece once. */
+static void test_a_scan_says_when_it_is_done(void)
+{
+    uint32_t scans = 1;
+    brace_journal_open(&journal, &hal, 0, IDENTITY);
+    memory.calls = 0;
+    while (brace_journal_scan(&journal, &state)) {
+        scans++;
+    }
+    TEST_ASSERT_EQUAL_UINT32((SLOT_BYTES - BRACE_JOURNAL_AT) / BRACE_JOURNAL_PIECE_BYTES, scans);
+    TEST_ASSERT_EQUAL_UINT32(scans, memory.calls);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -209,5 +240,7 @@ int main(void)
     RUN_TEST(test_half_a_record_does_not_hide_the_one_behind_it);
     RUN_TEST(test_a_memory_that_refuses_or_does_not_keep);
     RUN_TEST(test_each_write_refused_in_turn);
+    RUN_TEST(test_each_read_refused_in_turn);
+    RUN_TEST(test_a_scan_says_when_it_is_done);
     return UNITY_END();
 }

@@ -53,7 +53,6 @@ void session_end(session_t *session)
 static void open_for(session_t *session, brace_who_t who)
 {
     session->is_open = true;
-    session->has_hung_up = false;
     session->owner = who;
 }
 

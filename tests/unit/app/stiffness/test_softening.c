@@ -148,6 +148,16 @@ static void test_a_step_comes_every_second_tick(void)
     TEST_ASSERT_FALSE(softening_is_overdue(&softening));
 }
 
+/* What has no tick to spare waits for the next even one, until it is overdue. */
+static void test_a_step_that_was_put_off_is_due_every_second_tick(void)
+{
+    softening_work(&softening, &model, &parameters.limb, unbent_rad);
+    for (int i = 1; i <= 8; i++) {
+        step(true, false);
+        TEST_ASSERT_EQUAL(i % 2 == 0, softening_is_due(&softening));
+    }
+}
+
 static void test_near_its_buckling_the_limb_is_flagged(void)
 {
     softening.factor = 2.9f;
@@ -164,6 +174,7 @@ int main(void)
     RUN_TEST(test_a_search_is_of_its_own_load);
     RUN_TEST(test_a_factor_grows_old);
     RUN_TEST(test_a_step_comes_every_second_tick);
+    RUN_TEST(test_a_step_that_was_put_off_is_due_every_second_tick);
     RUN_TEST(test_near_its_buckling_the_limb_is_flagged);
     return UNITY_END();
 }

@@ -190,6 +190,26 @@ static void test_a_torque_that_swings(void)
     }
 }
 
+/* An angle has stood once it has been seen to stand for 250 ms, to the microsecond, since it moved last. */
+static void test_an_angle_stands_after_a_quarter_of_a_second(void)
+{
+    joint_t *joint = &joints.joint[BRACE_FEMUR];
+    for (uint32_t less_us = 0; less_us < 2u; less_us++) {
+        setUp();
+        looks(3);
+        joint->sample.motor_rad += 0.1f;
+        joint->sample.link_rad = 1.0f;
+        TEST_ASSERT_FALSE(look(LOOK_US)); /* it moves, and stands from here on */
+        joint->sample.link_rad = 1.1f;    /* away from its motor */
+        for (uint32_t i = 0; i < 4u; i++) {
+            joint->sample.torque_n_mm += 1.0f;
+            TEST_ASSERT_FALSE(look(LOOK_US));
+        }
+        TEST_ASSERT_EQUAL(less_us == 0u, look(LOOK_US - less_us));
+        TEST_ASSERT_TRUE(look(1));
+    }
+}
+
 /* The link's encoder moves away from a motor that stands, by more than 5 mrad, the gap and the yield of the spring. */
 static void test_a_link_that_leaves_its_motor(void)
 {
@@ -267,6 +287,7 @@ int main(void)
     RUN_TEST(test_a_load_that_is_not_felt);
     RUN_TEST(test_a_load_on_the_tibia_joint_that_is_not_felt);
     RUN_TEST(test_a_torque_that_swings);
+    RUN_TEST(test_an_angle_stands_after_a_quarter_of_a_second);
     RUN_TEST(test_a_link_that_leaves_its_motor);
     RUN_TEST(test_a_torque_that_nothing_holds);
     RUN_TEST(test_a_mean_that_begins_does_not_swing);

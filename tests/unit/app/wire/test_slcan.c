@@ -75,6 +75,21 @@ static bool say(const char *text, const char *answer, brace_can_frame_t *frame)
     return came;
 }
 
+/* A frame ends a look: those behind it come with the next ones, in their order. */
+static void test_frames_that_come_together_are_taken_one_by_one(void)
+{
+    static const char text[] = "O\rt1230\rt1240\rt1250\r";
+    memcpy(to_node, text, sizeof text - 1u);
+    to_count = sizeof text - 1u;
+    for (uint32_t id = 0x123; id <= 0x125u; id++) {
+        brace_can_frame_t frame = {.id = 0};
+        TEST_ASSERT_TRUE(slcan_receive(&slcan, &hal, &frame));
+        TEST_ASSERT_EQUAL_HEX32(id, frame.id);
+    }
+    brace_can_frame_t none;
+    TEST_ASSERT_FALSE(slcan_receive(&slcan, &hal, &none));
+}
+
 static void test_commands_are_answered_as_an_adapter_answers_them(void)
 {
     static const char *const said[][2] = {
@@ -267,6 +282,7 @@ static void test_replies_that_find_no_room_are_lost_whole(void)
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(test_frames_that_come_together_are_taken_one_by_one);
     RUN_TEST(test_commands_are_answered_as_an_adapter_answers_them);
     RUN_TEST(test_a_frame_comes_as_it_was_sent);
     RUN_TEST(test_frames_that_are_none_are_refused);

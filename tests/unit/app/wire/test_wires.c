@@ -264,6 +264,78 @@ static void test_another_set_counts_once_at_each_port(void)
     TEST_ASSERT_EQUAL(WIRE_NOTHING, done());
 }
 
+/* Over CAN FD no frame follows the posture's rate. It neither makes the controller take snapshots that nobody gets nor
+ * moves the rate of those that leave. */
+static void test_a_rate_that_no_frame_follows(void)
+{
+    static const struct {
+        uint32_t stiffness_hz, posture_hz, period_us;
+    } row[] = {{0, 50, 0}, {30, 100, 33333}, {20, 0, 50000}};
+    for (uint32_t i = 0; i < sizeof row / sizeof *row; i++) {
+        brace_parameters_t p = bench_parameters();
+        p.controller.can_fd_bit_rate = 2000000;
+        p.controller.stiffness_hz = row[i].stiffness_hz;
+        p.controller.posture_hz = row[i].posture_hz;
+        p.controller.load_hz = 0;
+        bench_board();
+        fake.can_takes_fd = true;
+        bench_store(&p);
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_app_start(&app, &fake.hal));
+        ticks(50);
+        TEST_ASSERT_EQUAL_UINT32(2000000, app.wires.can.bus.setup.fd_bit_rate);
+        TEST_ASSERT_EQUAL_UINT32(row[i].period_us, app.wires.can.bus_port.process.period_us);
+    }
+}
+
+/* A set without rates ends what the set before it sent. */
+static void test_a_set_without_rates_tells_no_values(void)
+{
+    brace_controller_t *rates = &app.controller.parameters.in_force.controller;
+    start(100);
+    rates->stiffness_hz = rates->posture_hz = rates->load_hz = 0;
+    app.controller.snapshot[app.controller.newest].parameter_crc ^= 1u;
+    for (int i = 0; i < 5; i++) { /* each port sees it, and frames that had been due leave */
+        (void)done();
+    }
+    for (int i = 0; i < 50; i++) {
+        TEST_ASSERT_EQUAL(WIRE_NOTHING, done());
+    }
+}
+
+/* Frames of measured values that a tick tells on the bus, beside heartbeat and emergency. */
+static uint32_t values_told_on_bus(void)
+{
+    brace_can_frame_t frame;
+    uint32_t count = 0;
+    while (brace_fake_frame_take(&fake, &frame)) {
+        count += frame.id != BRACE_CAN_ID_HEARTBEAT + NODE && frame.id != BRACE_CAN_ID_EMERGENCY + NODE;
+    }
+    return count;
+}
+
+/* What has not left before the bus goes off is not told when it is back: it would be old by then. */
+static void test_a_snapshot_is_not_told_after_the_bus_was_off(void)
+{
+    const process_t *process = &app.wires.can.bus_port.process;
+    start_at(1, 1, 0);
+    const uint32_t room = fake.can_room, taken_us = process->taken_us;
+    empty_the_ports();
+    fake.can_room = 0;
+    for (int i = 0; i < 1100 && process->taken_us == taken_us; i++) {
+        ticks(1);
+    }
+    TEST_ASSERT_NOT_EQUAL(0, process->due);
+    fake.can_health.bus_off = true;
+    ticks(20);
+    fake.can_health.bus_off = false;
+    fake.can_room = room;
+    for (int i = 0; i < 200; i++) { /* the next snapshot is due much later */
+        ticks(1);
+        TEST_ASSERT_EQUAL_UINT32(0, values_told_on_bus());
+    }
+    TEST_ASSERT_FALSE(app.wires.can.bus.is_off);
+}
+
 /* In a tick with an answer no process data leave; after sixteen such ticks, one frame does. */
 static void test_answers_go_first_for_a_while(void)
 {
@@ -287,6 +359,9 @@ int main(void)
     RUN_TEST(test_an_answer_that_is_late);
     RUN_TEST(test_process_data_count);
     RUN_TEST(test_each_frame_at_its_rate);
+    RUN_TEST(test_a_rate_that_no_frame_follows);
+    RUN_TEST(test_a_set_without_rates_tells_no_values);
+    RUN_TEST(test_a_snapshot_is_not_told_after_the_bus_was_off);
     RUN_TEST(test_another_set_counts_once_at_each_port);
     RUN_TEST(test_answers_go_first_for_a_while);
     return UNITY_END();

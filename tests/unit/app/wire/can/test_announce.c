@@ -114,6 +114,13 @@ static void test_every_change_of_the_mode_is_told_once(void)
     app.controller.mode.now = BRACE_MODE_FAULT;
     app.controller.faults.now = BRACE_FAULT_MEMORY; /* faults first */
     (void)emergency();
+    announce_sent(&announce, &tick, BRACE_CAN_ID_EMERGENCY);
+    brace_can_frame_t frame;
+    brace_can_heartbeat_t told;
+    TEST_ASSERT_TRUE(announce_next(&announce, &tick, &frame)); /* a heartbeat tells those that there are, too */
+    brace_can_unpack_heartbeat(frame.data, &told);
+    TEST_ASSERT_EQUAL_HEX32(BRACE_FAULT_MEMORY & 0x3fffu, told.faults & 0x3fffu);
+    app.controller.faults.now = 0;
     announce_skip(&announce, &tick); /* a channel that has just opened is not told earlier changes */
     TEST_ASSERT_TRUE(is_silent());
 }

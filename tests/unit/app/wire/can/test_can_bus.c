@@ -161,6 +161,20 @@ static void test_a_set_up_that_failed_is_tried_again(void)
     TEST_ASSERT_EQUAL(before + 3u, setups);
 }
 
+/* Two seconds lie between two tries, to the microsecond. */
+static void test_a_set_up_is_not_tried_a_microsecond_early(void)
+{
+    setup_status = classic_status = BRACE_HAL_E_DEVICE;
+    start(0, 5);
+    const uint32_t before = setups;
+    for (uint32_t i = 0; i < 3u; i++) {
+        can_bus_watch(&bus, &hal, 1999999);
+        TEST_ASSERT_EQUAL(before + i, setups);
+        can_bus_watch(&bus, &hal, 1);
+        TEST_ASSERT_EQUAL(before + 1u + i, setups);
+    }
+}
+
 static void test_a_board_without_can_is_asked_once(void)
 {
     classic_status = BRACE_HAL_E_UNSUPPORTED;
@@ -292,6 +306,7 @@ int main(void)
     RUN_TEST(test_without_a_part_of_the_door_there_is_no_bus);
     RUN_TEST(test_classic_frames_rather_than_silence);
     RUN_TEST(test_a_set_up_that_failed_is_tried_again);
+    RUN_TEST(test_a_set_up_is_not_tried_a_microsecond_early);
     RUN_TEST(test_a_board_without_can_is_asked_once);
     RUN_TEST(test_health_is_told_every_ten_milliseconds);
     RUN_TEST(test_health_is_not_asked_for_a_microsecond_early);

@@ -4,6 +4,7 @@
 
 #include "modbus_master.h"
 #include "brace/questions.h"
+#include "wire/modbus/command.h"
 #include "wire/modbus/pdu.h"
 #include "wire/modbus/refusal.h"
 #include "wire/modbus/write.h"
@@ -314,6 +315,82 @@ static void test_questions_that_nobody_asked_read_as_not_known(void)
     }
 }
 
+/* What nobody must write by mistake needs its key above and its value below; neither is enough. */
+static void test_keyed_commands_need_key_and_value(void)
+{
+    static const struct {
+        uint32_t place, value;
+    } row[] = {{offsetof(brace_commands_t, set_mode), BRACE_MODE_CONFIGURATION},
+               {offsetof(brace_commands_t, commit), 1},
+               {offsetof(brace_commands_t, rollback), 1}};
+    for (uint32_t i = 0; i < sizeof row / sizeof *row; i++) {
+        const uint32_t at = BRACE_REGISTER_COMMANDS + row[i].place / 2u;
+        refused(write_value(at, row[i].value), 16, MODBUS_E_VALUE);
+        refused(write_value(at, 0xc0de0000u), 16, MODBUS_E_VALUE);
+        refused(write_value(at, 0xc0de0000u | 9u), 16, MODBUS_E_VALUE);
+        refused(write_value(at, 0xc0df0000u | row[i].value), 16, MODBUS_E_VALUE);
+        TEST_ASSERT_EQUAL(BRACE_MODE_MONITOR, brace_app_mode(&app));
+    }
+    TEST_ASSERT_EQUAL(5, write_value(BRACE_REGISTER_COMMANDS + row[0].place / 2u, 0xc0de0000u | row[0].value).count);
+    TEST_ASSERT_EQUAL(BRACE_MODE_CONFIGURATION, brace_app_mode(&app));
+    brace_store_status_t store;
+    TEST_ASSERT_EQUAL(5, write_value(BRACE_REGISTER_COMMANDS + row[2].place / 2u, 0xc0de0001u).count);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_store_status(&app, &store));
+    TEST_ASSERT_EQUAL(BRACE_STORE_E_NOTHING, store.failure); /* it was asked to go back, and there is nothing */
+}
+
+/* One register of a value may be read alone: its upper or its lower half, in every area. */
+static void test_half_a_value_is_read_alone(void)
+{
+    static const struct {
+        uint8_t function;
+        uint32_t first, values;
+    } area[] = {{4, 0, 20},
+                {3, BRACE_REGISTER_COMMANDS, sizeof(brace_commands_t) / 4u},
+                {3, 0, BRACE_PARAMETER_NUMBERS}};
+    for (uint32_t i = 0; i < sizeof area / sizeof *area; i++) {
+        uint32_t differs = 0;
+        for (uint32_t place = 0; place < area[i].values; place++) {
+            const uint32_t at = area[i].first + 2u * place;
+            const reply_t whole = read_asks(area[i].function, at, 2), upper = read_asks(area[i].function, at, 1),
+                          lower = read_asks(area[i].function, at + 1u, 1);
+            if (whole.count != 6u) {
+                continue; /* none is there */
+            }
+            TEST_ASSERT_EQUAL(4, upper.count);
+            TEST_ASSERT_EQUAL(4, lower.count);
+            if (area[i].function == 3) { /* what is measured may change meanwhile */
+                TEST_ASSERT_EQUAL_HEX8_ARRAY(whole.byte + 2, upper.byte + 2, 2);
+                TEST_ASSERT_EQUAL_HEX8_ARRAY(whole.byte + 4, lower.byte + 2, 2);
+            }
+            differs += memcmp(whole.byte + 2, whole.byte + 4, 2) != 0;
+        }
+        TEST_ASSERT_GREATER_THAN(0, differs);
+    }
+}
+
+/* A request over Modbus is of this tick and of the master that asks, and a seal is checked over all its bytes. */
+static void test_what_a_request_carries(void)
+{
+    const uint8_t pdu[] = {6, 0x40, 0, 0xc0, 0xde};
+    brace_seal_t seal = {.is_there = true};
+    brace_measured_t measured;
+    const modbus_server_t server = {.asker = BRACE_ASKER_MODBUS_TCP, .who = {BRACE_ASKER_MODBUS_TCP, 3}, .seal = &seal,
+                                    .pdu = pdu, .length = sizeof pdu};
+    const wire_tick_t tick = {.hal = &fake.hal, .app = &app, .measured = &measured, .now_us = 7};
+    const request_t request = modbus_request(&server, &tick);
+    TEST_ASSERT_EQUAL_PTR(&app, request.app);
+    TEST_ASSERT_EQUAL_PTR(&measured, request.measured);
+    TEST_ASSERT_EQUAL(BRACE_ASKER_MODBUS_TCP, request.asker);
+    TEST_ASSERT_EQUAL(BRACE_ASKER_MODBUS_TCP, request.who.port);
+    TEST_ASSERT_EQUAL(3, request.who.master);
+    TEST_ASSERT_EQUAL_PTR(&seal, request.seal);
+    TEST_ASSERT_EQUAL_PTR(pdu, request.bytes);
+    TEST_ASSERT_EQUAL(sizeof pdu, request.count);
+    TEST_ASSERT_NULL(request.asked_force); /* these are of CAN */
+    TEST_ASSERT_NULL(request.transfer);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -331,5 +408,8 @@ int main(void)
     RUN_TEST(test_a_take_up_that_began_reads_back);
     RUN_TEST(test_a_question_puts_out_its_own_kind);
     RUN_TEST(test_questions_that_nobody_asked_read_as_not_known);
+    RUN_TEST(test_keyed_commands_need_key_and_value);
+    RUN_TEST(test_half_a_value_is_read_alone);
+    RUN_TEST(test_what_a_request_carries);
     return UNITY_END();
 }
