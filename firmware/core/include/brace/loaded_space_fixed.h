@@ -28,10 +28,11 @@ void brace_loaded_space_fixed_collapse(const brace_loaded_space_t *loaded, brace
  *   BRACE_E_SINGULAR: also where something yields so much under this load, or is so softened by it, that a word does
  *     not hold it: where a joint or link would turn by 32 rad under the whole force at the whole reach, a joint, a link
  *     about itself or all before a joint turns by more than 1 rad, a spring moves by more than a quarter of the reach
- *     or, at the end of a beam, of about its length, a pivot is below 1/16 (the buckling factor is near 1), or a beam
- *     is shorter than a millionth of the limb. One of 600 random limbs within the promise is refused for that.
+ *     or, at the end of a beam, of about its length, a pivot is below 1/16 (the buckling factor is near 1), a beam is
+ *     shorter than a millionth of the limb, or the limb is not 1 mm to 1 km long. One of 600 random
+ *     limbs within the promise is refused for that.
  * No pointer may be null.
- * Cost on a Cortex-M3: 6,757 instructions, the same for every posture and load; stack at most 1,000 bytes. */
+ * Cost on a Cortex-M3: 6,441 instructions, the same for every posture and load; stack at most 1,000 bytes. */
 brace_status_t brace_loaded_space_fixed_settle(const brace_loaded_space_fixed_t *fixed, float theta1_rad,
                                                float theta2_rad, const brace_space_load_t *load,
                                                brace_space_fixed_rest_t *rest);
@@ -40,7 +41,7 @@ brace_status_t brace_loaded_space_fixed_settle(const brace_loaded_space_fixed_t 
  * returns BRACE_E_SINGULAR also where the least eigenvalue of C is below some 2e-7 of the largest.
  * Accuracy: as brace_loaded_space_stiffness, and at most 1e-4 of K's norm more for the rounding (600 random limbs). At
  *         no load K within 2e-7 of itself for each unit of C's condition number.
- * Cost on a Cortex-M3: 8,204 instructions, the same for every posture and load; stack at most 1,700 bytes. */
+ * Cost on a Cortex-M3: 7,611 instructions, the same for every posture and load; stack at most 1,700 bytes. */
 brace_status_t brace_loaded_space_fixed_stiffness(const brace_loaded_space_fixed_t *fixed,
                                                   const brace_space_fixed_rest_t *rest,
                                                   brace_space_result_t *result);
@@ -56,7 +57,7 @@ bool brace_loaded_space_fixed_buckling_step(const brace_loaded_space_fixed_t *fi
 
 /* As brace_loaded_space_in_plane and brace_loaded_space_turn, in integers; eigenvalues within 4e-7 of the largest one's
  * size. BRACE_E_SINGULAR also where K's largest entry is not within 1e-15 to 1e15, and where an eigenvalue is below
- * 4e-9 of it. Cost on a Cortex-M3: 202 and 1,623 instructions, the same for every K. */
+ * 4e-9 of it. Cost on a Cortex-M3: 202 and 1,555 instructions, the same for every K. */
 brace_status_t brace_loaded_space_fixed_in_plane(const brace_k3_t *k, brace_stiffness_t *plane);
 brace_status_t brace_loaded_space_fixed_turn(float theta0_rad, const brace_k3_t *k,
                                              brace_stiffness_spatial_t *stiffness);
