@@ -11,14 +11,7 @@
 
 #include "loaded_sizes.h"
 #include "ranged.h"
-
-#define PROVE(condition, claim)                                                                                        \
-    do {                                                                                                               \
-        enum { PROVED };                                                                                               \
-        if (!(condition)) {                                                                                            \
-            ranged::now.complain(claim);                                                                               \
-        }                                                                                                              \
-    } while (0)
+#include "ranged_text.h"
 
 /* --- the firmware's text with numbers, for samples ------------------------------------------------------------- */
 
@@ -64,11 +57,6 @@ namespace plain {
 /* --- and with ranges ------------------------------------------------------------------------------------------- */
 
 #define __builtin_clz(number) ranged::leading_zeros_of(number)
-
-/* A function that its own file calls: its definition, whose first parameter begins with a type, becomes text_..., and a
- * call of it becomes a stand-in's. */
-#define SECOND(first, second, ...) second
-#define PICK(...) SECOND(__VA_ARGS__)
 
 namespace firmware {
 
