@@ -1,5 +1,5 @@
-/* K in space in fixed point, whatever it is: its eigenvalues and axes in the plane and in the robot's frame. A product is
- * replaced by any number of its size. */
+/* K in space in fixed point, whatever it is: its eigenvalues and axes in the plane and in the robot's frame. A product
+ * is replaced by any number of its size. */
 #include "proof.h"
 #include "loaded_sizes.h"
 #include "fixed/fixed_inverse.h"
@@ -107,7 +107,7 @@ static int32_t any_times(int32_t a, int32_t b, int bits)
         PROVE(magnitude(a) <= SINE_MOST && b <= per, "a tangent");
         return any_within(PART_OF(30, 1.0002));
     }
-    PROVE(bits == 30 && magnitude(a) <= PART_OF(30, 1.0002) && magnitude(b) <= 1 << 29, "what goes from one to the other");
+    PROVE(bits == 30 && magnitude(a) <= PART_OF(30, 1.0002) && magnitude(b) <= 1 << 29, "what one gives the other");
     return any_within(PART_OF(29, 1.0003));
 }
 
