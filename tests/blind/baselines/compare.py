@@ -166,8 +166,9 @@ def section(
 given the tool's own noise, refitted base and catalogue: one whitened column per way of an effect, played on the plant,
 the base taken out ([tests/blind/baselines](../tests/blind/baselines)). Each was tuned with {made['trials']} random trials
 on the development set (`{made['command']}`), for naming, pairs and no false alarm in equal parts. Labels whose
-columns have a cosine above 0.9 with a chosen one are printed with it, as its class. An `unknown` comes from a chi
-squared test of what is left, its threshold tuned as well. On unseen configurations the chosen effects are fitted on
+columns have a cosine above 0.9 with a chosen one are printed with it, as its class. What instruments do (a lag,
+a rig that turns or yields) has no column here, so a baseline never takes it for what is hidden. An `unknown` comes
+from a chi squared test of what is left, its threshold tuned as well. On unseen configurations the chosen effects are fitted on
 the plant and played. The Gaussian process names nothing: it learns what the refitted limb leaves of the forces over
 posture, displacement and branch. All of them together took {median(seconds):.2f} s a case (median).""",
             _shares(us, them),
