@@ -169,8 +169,8 @@ on the development set (`{made['command']}`), for naming, pairs and no false ala
 columns have a cosine above 0.9 with a chosen one are printed with it, as its class. What instruments do (a lag,
 a rig that turns or yields) has no column here, so a baseline never takes it for what is hidden. An `unknown` comes
 from a chi squared test of what is left, its threshold tuned as well. On unseen configurations the chosen effects are
-fitted on the plant and played. The Gaussian process names nothing: it learns what the refitted limb leaves of the forces over
-posture, displacement and branch. All of them together took {median(seconds):.2f} s a case (median).""",
+fitted on the plant and played. The Gaussian process names nothing: it learns what the refitted limb leaves of the
+forces over posture, displacement and branch. All of them together took {median(seconds):.2f} s a case (median).""",
             _shares(us, them),
             "Paired: cases that only `brace diagnose` has right, to cases that only the baseline has; exact McNemar "
             "test, two-sided.",
