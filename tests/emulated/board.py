@@ -57,10 +57,10 @@ class Board:
         assert self._process.stdin is not None
         self._process.stdin.write(request.encode())
 
-    def until(self, pattern: str) -> list[str]:
+    def until(self, pattern: str, patience_s: float = PATIENCE_S) -> list[str]:
         """The lines up to the first that matches, which is the last."""
         lines: list[str] = []
-        end = time.monotonic() + PATIENCE_S
+        end = time.monotonic() + patience_s
         while time.monotonic() < end:
             try:
                 lines.append(self._lines.get(timeout=0.2))
@@ -70,7 +70,7 @@ class Board:
             if re.search(pattern, lines[-1]):
                 return lines
         raise AssertionError(
-            "\n".join([f"no line like {pattern!r} within {PATIENCE_S} s; there were:", *lines])
+            "\n".join([f"no line like {pattern!r} within {patience_s:g} s; there were:", *lines])
         )
 
     def processor_s(self) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import re
 import struct
 import time
@@ -252,12 +253,22 @@ def test_the_watchdog_says_where_it_hung() -> None:
         assert 2.5e6 <= time_us < 60e6
 
 
+def stiffness_asked_again(board: Board) -> str:
+    """The same where a question may be lost."""
+    for _ in range(10):
+        board.ask("k")
+        with contextlib.suppress(AssertionError):
+            return board.until("^k: ", 6.0)[-1]
+    raise AssertionError("no answer to ten questions")
+
+
 def test_a_flood_on_the_console_does_not_stop_the_ticks() -> None:
+    """A question right behind the flood may find no room, and nobody answers it."""
     with Board("mps2-an386", image("brace-mps2-an386")) as board:
         board.banner()
         before = number(stiffness(board), "tick")
         board.ask("x" * 20000)
-        assert number(stiffness(board), "tick") > before
+        assert number(stiffness_asked_again(board), "tick") > before
 
 
 @pytest.mark.parametrize("name", BOARDS)
