@@ -454,7 +454,6 @@ static void test_a_set_that_is_not_the_one_named(void)
     expect_after_start(BRACE_PARAMETERS_SLOT_A, 3);
 }
 
-/* Erases are counted, up to the greatest number. */
 /* Where the block and the marks will stand, each byte has to be blank after an erase. */
 static void test_a_byte_that_does_not_become_blank(void)
 {
@@ -485,6 +484,7 @@ static void test_a_block_is_spoilt_before_its_slot_is_erased(void)
     TEST_ASSERT_EQUAL(0, memory.erased_whole);
 }
 
+/* Erases are counted, up to the greatest number. */
 static void test_erases_are_counted(void)
 {
     update(1);
