@@ -29,8 +29,8 @@ experiment: over all single effects of s >= 12; where the tool proposes none tha
 counts. Outside the catalogue: bursts of interference told as single readings that stand out, and clamping or a
 zero that wanders told as a force at rest that differs from run to run, count as called unknown; any other trouble
 of the instruments told in place of what is hidden counts as misnamed. The generator hides none of the
-instruments' effects that the catalogue has (a lag, a rig that turns or yields, steps of gain or zero): where one of
-them explains a record as well as what is hidden, both are told, each with its part of the confidence."""
+instruments' effects that the catalogue has (a lag, a rig that turns or yields, steps of gain or zero). Where one of
+them explains a record as well as the hidden effect does, the tool tells both and divides the confidence."""
 
 TITLES = {"simulator": "# Blind benchmark", "finite": "# Blind benchmark at finite displacements"}
 FINITE = """The simulator of [blind.md](blind.md) assumes that no limb turns as it is displaced. Here its limbs, tests,

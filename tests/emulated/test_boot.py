@@ -254,7 +254,7 @@ def test_the_watchdog_says_where_it_hung() -> None:
 
 
 def stiffness_asked_again(board: Board) -> str:
-    """The same where a question may be lost."""
+    """The console's line about K; asks up to ten times, because the board may lose a question."""
     for _ in range(10):
         board.ask("k")
         with contextlib.suppress(AssertionError):
@@ -263,7 +263,7 @@ def stiffness_asked_again(board: Board) -> str:
 
 
 def test_a_flood_on_the_console_does_not_stop_the_ticks() -> None:
-    """A question right behind the flood may find no room, and nobody answers it."""
+    """The board has no room for a question that comes right behind the flood, so the test asks again."""
     with Board("mps2-an386", image("brace-mps2-an386")) as board:
         board.banner()
         before = number(stiffness(board), "tick")

@@ -66,8 +66,9 @@ class Line:
         return heard
 
     def ask(self, pdu: bytes, unit: int = 1) -> bytes:
-        """The answer's PDU, however slowly it comes; nothing may come before it. An emulated board whose machine stood
-        still for the pause before takes the question for more of the frame before it, so it is asked again."""
+        """The answer's PDU, however slowly it comes; nothing may come before it. An emulated board notices no
+        pause during which its emulator stood still. It takes the question for the end of the broken frame before, so
+        this asks once more."""
         frame = bytes((unit,)) + pdu
         self.say(frame + crc(frame))
         heard, end = b"", time.monotonic() + PATIENCE_S

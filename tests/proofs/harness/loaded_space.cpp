@@ -499,8 +499,8 @@ static bool any_is_settled(uint32_t first2_q25, uint32_t second2_q25)
     return std::find(answers.begin(), answers.end(), true) != answers.end();
 }
 
-/* A pivot counts in the determinant also where what comes after it is refused. So what is noted from here on tells
- * nothing of the numbers up to here. */
+/* The firmware uses the determinant also of a run that is refused later. So the numbers made up to this pivot must be
+ * right without any note that comes after it: from here on no note bounds them. */
 template <class OVERLOAD> void any_determinant(OVERLOAD *overload, uint32_t pivot_q20, bool is_negative)
 {
     text_determinant(overload, pivot_q20, is_negative);

@@ -137,7 +137,7 @@ public:
     std::set<std::string> places;
     std::size_t complaint_count = 0;
     wide_t noted_limit = 0;
-    std::size_t first_to_learn_of = 0; /* what is noted tells nothing of numbers made before */
+    std::size_t first_to_learn_of = 0; /* notes bound no number before this one */
     bool is_exact = false;
     std::vector<std::size_t> broken; /* single numbers that break what is known of them */
     /* Within each_way: */

@@ -184,7 +184,7 @@ static void test_a_commit_that_comes_too_soon(void)
     TEST_ASSERT_EQUAL(BRACE_REFUSED_EARLY, told.last_refusal);
 }
 
-/* The reason of the last refusal is told, whoever was refused and whatever for; what is taken leaves it. */
+/* The controller tells why it last refused a request, of any client and kind. An accepted request keeps that reason. */
 static void test_the_last_refusal_is_told(void)
 {
     const brace_who_t owner = {BRACE_ASKER_CAN, 1}, other = {BRACE_ASKER_MODBUS_TCP, 2};

@@ -77,7 +77,7 @@ INLINE int32_t overload_softened(int32_t yields_q14, int32_t entry_q24, fixed_ov
 {
     const int64_t more = (int64_t)yields_q14 * entry_q24;
     note(noted, brace_high_word(more), 16);
-    overload->is_refused = is_refused(*noted); /* this pivot, too, may be another one */
+    overload->is_refused = is_refused(*noted); /* before this pivot counts */
     const int32_t pivot = plus(1 << 20, shifted(more, 18));
     const uint32_t magnitude = magnitude_of(pivot);
     const uint32_t size = magnitude < OVERLOAD_PIVOT_LEAST_Q20 ? OVERLOAD_PIVOT_LEAST_Q20 : magnitude;

@@ -74,7 +74,7 @@ static inline bool is_weight_kept(const brace_loaded_space_fixed_t *fixed)
            (right > 63 || ((uint64_t)(uint32_t)fixed->beyond_coxa_q31 * 384u) >> right <= most_q8);
 }
 
-/* The unit of length is a limb's, so that K and what moves are floats. */
+/* The unit of length is bounded, so that a float holds K and the tip's displacement. */
 static inline bool is_space_kept(const brace_loaded_space_fixed_t *fixed)
 {
     const int64_t lengths = (int64_t)fixed->coxa.length_q28 + fixed->femur.length_q28 + fixed->tibia.length_q28;
