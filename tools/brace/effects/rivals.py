@@ -6,6 +6,7 @@ whether the cause explains the record as well (brace.diagnose.loading.rivals).""
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import inf
 
 ROTATION, CROSSTALK = "sensor_rotation@sensor", "sensor_crosstalk@sensor"
 FEMUR_ZERO, KNEE_ZERO = "joint_zero_offset@joint.femur", "joint_zero_offset@joint.tibia"
@@ -17,12 +18,15 @@ FEMUR_LINK, TIBIA_LINK = "link_compliance_error@link.femur", "link_compliance_er
 
 @dataclass(frozen=True)
 class Size:
-    """A number of a rival: its key in diagnosis.json (seldom one of limb.toml), its unit, how far a fit may turn it."""
+    """A number of a rival: its key in diagnosis.json (seldom one of limb.toml), its unit, how far a fit may turn it.
+    `plausible_times` the `usual` size is rare; what is larger needs evidence to match."""
 
     key: str
     unit: str
     low: float
     high: float
+    usual: float = inf
+    plausible_times: float = 10.0
 
 
 @dataclass(frozen=True)
@@ -36,6 +40,7 @@ class RivalCause:
     same_because     why the record shows no difference, as the rest of a sentence that begins with "because"
     would_tell       the measurement that shows it, as an order
     twin             the effect of the catalogue that does the same to every reading ("" where there is none)
+    rarer            than an effect of the catalogue it is, before a record is seen
     """
 
     name: str
@@ -48,6 +53,7 @@ class RivalCause:
     same_because: str
     would_tell: str
     twin: str = ""
+    rarer: float = 3.0  # whoever plans a test looks at rig and instruments first, and at the limb because of the test
 
     @property
     def label(self) -> str:
@@ -97,6 +103,7 @@ RIVAL_CAUSES: tuple[RivalCause, ...] = (
         would_tell="put a dial gauge on the base (dataset columns base_x_mm, base_z_mm): it moves with a base that "
         "yields and stands still where the rig does",
         twin=BASE,
+        rarer=1.0,  # rigs yield as often as bases do
     ),
     RivalCause(
         "rig_rotation",
@@ -159,7 +166,7 @@ INSTRUMENT_TROUBLES: tuple[RivalCause, ...] = (
         "lag", "sensor", "a sensor that reads late",
         "the forces are read a while after the displacements of the same row",
         "load once more with twice the dwell: a lag shows half as much, play as much as before",
-        Size("sensor.lag_s", "s", -1e3, 1e3),
+        Size("sensor.lag_s", "s", -1e3, 1e3, usual=0.1),
     ),
     _trouble(
         "gain_step", "sensor", "a sensor whose gain stepped",
