@@ -6,7 +6,6 @@ whether the cause explains the record as well (brace.diagnose.loading.rivals).""
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import inf
 
 ROTATION, CROSSTALK = "sensor_rotation@sensor", "sensor_crosstalk@sensor"
 FEMUR_ZERO, KNEE_ZERO = "joint_zero_offset@joint.femur", "joint_zero_offset@joint.tibia"
@@ -18,15 +17,12 @@ FEMUR_LINK, TIBIA_LINK = "link_compliance_error@link.femur", "link_compliance_er
 
 @dataclass(frozen=True)
 class Size:
-    """A number of a rival: its key in diagnosis.json (seldom one of limb.toml), its unit, how far a fit may turn it.
-    `plausible_times` the `usual` size is rare; what is larger needs evidence to match."""
+    """A number of a rival: its key in diagnosis.json (seldom one of limb.toml), its unit, how far a fit may turn it."""
 
     key: str
     unit: str
     low: float
     high: float
-    usual: float = inf
-    plausible_times: float = 10.0
 
 
 @dataclass(frozen=True)
@@ -166,7 +162,7 @@ INSTRUMENT_TROUBLES: tuple[RivalCause, ...] = (
         "lag", "sensor", "a sensor that reads late",
         "the forces are read a while after the displacements of the same row",
         "load once more with twice the dwell: a lag shows half as much, play as much as before",
-        Size("sensor.lag_s", "s", -1e3, 1e3, usual=0.1),
+        Size("sensor.lag_s", "s", -1e3, 1e3),
     ),
     _trouble(
         "gain_step", "sensor", "a sensor whose gain stepped",
