@@ -219,7 +219,16 @@ def test_a_lag_is_no_noise_of_a_record_without_repeats(tmp_path: Path, limb: Pat
     do as well if what the lag makes were noise."""
     found = spoiled(tmp_path / "record", limb, lambda columns: reads_late(columns, 0.48), values={}, repeats=1)
     assert found.effects[0].label == "lag@sensor"
-    assert found.effects[0].confidence > 0.9
+    assert found.effects[0].confidence > 0.8
+
+
+def test_play_goes_before_a_lag_that_reads_the_same(tmp_path: Path, limb: Path) -> None:
+    """Equal steps hide the difference. Before a record is seen a lag is three times rarer, so that it is named second;
+    it has not been told, and so neither is sure."""
+    found = spoiled(tmp_path / "record", limb, lambda columns: None, values={"contact.play_mm": 0.05})
+    said = {effect.label: effect.confidence for effect in found.effects}
+    assert list(said)[:2] == ["contact_play@contact", "lag@sensor"]
+    assert said["contact_play@contact"] == pytest.approx(3.0 * said["lag@sensor"], rel=0.2) and sum(said.values()) < 1.0
 
 
 def test_an_effect_is_named_beside_a_trouble(tmp_path: Path, limb: Path) -> None:
