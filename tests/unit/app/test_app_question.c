@@ -179,6 +179,9 @@ static void test_what_was_in_work_is_forgotten_with_the_rest(void)
     TEST_ASSERT_TRUE(question_job_work(job, &inputs, 1));
     question_job_forget(job);
     TEST_ASSERT_FALSE(question_job_work(job, &inputs, 1));
+    brace_k_question_t odd; /* whatever its words are, nobody has answered it */
+    memset(&odd, 0xff, sizeof odd);
+    TEST_ASSERT_EQUAL(BRACE_APP_LATER, question_job_ask(job, BRACE_ASKER_CAN, &odd, &answer));
     TEST_ASSERT_EQUAL(BRACE_APP_LATER, question_job_ask(job, BRACE_ASKER_CAN, &second, &answer));
     for (int i = 0; i < 2; i++) {
         TEST_ASSERT_EQUAL(BRACE_APP_LATER, question_job_ask(job, BRACE_ASKER_CAN, &second, &answer));

@@ -47,9 +47,10 @@ static void step(bool is_counted, bool may_work)
 /* Before the first search nothing is known, and nothing that is not known is a number. */
 static void test_a_start_knows_nothing(void)
 {
-    memset(&softening, 0, sizeof softening);
+    memset(&softening, 0x5a, sizeof softening);
     softening_start(&softening);
     TEST_ASSERT_TRUE(isnan(softening.factor));
+    TEST_ASSERT_EQUAL_HEX32(0, softening.unloaded.flags); /* there is nothing that a flag could doubt */
     TEST_ASSERT_TRUE(isnan(softening.unloaded.k_xx_n_per_mm));
     TEST_ASSERT_TRUE(isnan(softening.unloaded.stiff_axis_rad));
     TEST_ASSERT_TRUE(isnan(softening.unloaded_across_n_per_mm));

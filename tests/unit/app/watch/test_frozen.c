@@ -152,6 +152,21 @@ static void test_a_load_that_is_not_felt(void)
     }
 }
 
+/* A joint's own friction hides a load beside the motor's, and so does the part of it that grows with the load: with
+ * 4 * (40 + 25 + 0.05 of the load) + 12 * (5 + 0.1 * 100) and a fifth of the load the bound is 733 N mm. */
+static void test_the_joint_s_friction_hides_a_load(void)
+{
+    parameters.sensor.noise_n = 0.1f;
+    parameters.drive[BRACE_FEMUR].coulomb_n_mm = 25.0f;
+    parameters.drive[BRACE_FEMUR].coulomb_per_load_ratio = 0.05f;
+    press(0.0f);
+    TEST_ASSERT_FALSE(others_move(BRACE_FEMUR, 3, 0.0f));
+    press(7.3f);
+    TEST_ASSERT_FALSE(others_move(BRACE_FEMUR, 30, 0.0f));
+    press(7.36f);
+    TEST_ASSERT_TRUE(others_move(BRACE_FEMUR, 5, 0.0f));
+}
+
 /* Each joint's sensor noise comes by its own lever. */
 static void test_a_load_on_the_tibia_joint_that_is_not_felt(void)
 {
@@ -285,6 +300,7 @@ int main(void)
     RUN_TEST(test_told_to_move);
     RUN_TEST(test_a_look_counts_for_a_while);
     RUN_TEST(test_a_load_that_is_not_felt);
+    RUN_TEST(test_the_joint_s_friction_hides_a_load);
     RUN_TEST(test_a_load_on_the_tibia_joint_that_is_not_felt);
     RUN_TEST(test_a_torque_that_swings);
     RUN_TEST(test_an_angle_stands_after_a_quarter_of_a_second);
