@@ -106,12 +106,21 @@ static void test_limbs_whose_cross_has_no_zero(void)
         {57.0f, 339.89267f, 190.062073f,
          {SAMPLE_COXA, {0.000199050832f, 0, 0.290568858f, 0, 0, 0.0375759341f}, {0.00231902068f, 0, 0, 0, 0, 0}},
          {{0, 0, 0}, {1.02772839e-8f, 0, 0}, {2.26146938e-7f, 0, 0}},
-         {0.099118337f, 0.099118337f, 9.43714713e-6f}, SAMPLE_TRUST}};
+         {0.099118337f, 0.099118337f, 9.43714713e-6f}, SAMPLE_TRUST},
+        {57.0f, 112.32048f, 269.501892f, /* cross is larger at the folded knee than at the straight one */
+         {SAMPLE_COXA, {0.000739535782f, 0.000793574785f, 0.413384825f, 0, 0, 1.0f},
+          {0.158013433f, 0.000146886756f, -0.472988665f, 0, 0, 0.13802582f}},
+         {{0, 0, 0}, {0, 0, 0}, {3.51434246e-5f, 0, 0}}, {0, 0, 0}, SAMPLE_TRUST},
+        {57.0f, 76.062233f, 76.062233f,
+         {SAMPLE_COXA, {0.36697498f, 0.20090574f, -0.210052192f, 0, 0, 0},
+          {0.000748627703f, 0.337607712f, 0.532165229f, 0, 0, 0}},
+         {{0, 0, 0}, {2.96964827e-5f, 0, 0}, {8.24372546e-6f, 0, 0}}, {0, 0, 0}, SAMPLE_TRUST}};
+    enum { LIMBS = sizeof limbs / sizeof *limbs };
     brace_limb_t limb;
     int taken = 0;
-    for (int i = 0; i < 300; i++) { /* these, and their neighbours, which round otherwise */
-        limb = limbs[i % 2];
-        limb.femur_mm *= 1.0f + 1e-3f * (float)(i / 2);
+    for (int i = 0; i < 150 * LIMBS; i++) { /* these, and their neighbours, which round otherwise */
+        limb = limbs[i % LIMBS];
+        limb.femur_mm *= 1.0f + 1e-3f * (float)(i / LIMBS);
         if (brace_planar_collapse(&limb, &planar) != BRACE_OK) {
             continue; /* the general path serves it */
         }

@@ -22,7 +22,7 @@ void setUp(void)
 
 void tearDown(void) {}
 
-/* A word from least to most is kept; one less and one more are not. A bound at the word's own end has nothing beyond. */
+/* A word from least to most is kept; one less and one more are not, if a word holds them. */
 static void expect_bounds(int32_t *word, int64_t least, int64_t most)
 {
     const int32_t was = *word;

@@ -440,6 +440,21 @@ static void test_modes_are_told_and_refused(void)
     TEST_ASSERT_EQUAL(BRACE_MODE_LOADING_TEST, answer.set_mode.mode);
 }
 
+/* From CONFIGURATION a request leads back, through a new start, and nowhere else. */
+static void test_configuration_leads_back_alone(void)
+{
+    to_configuration();
+    for (uint32_t mode = BRACE_MODE_START; mode <= BRACE_MODE_FAULT + 1u; mode++) {
+        asked.set_mode.mode = mode;
+        if (mode != BRACE_MODE_MONITOR && mode != BRACE_MODE_CONFIGURATION) {
+            refuses(BRACE_E_RANGE, BRACE_MODE_CONFIGURATION, BRACE_REQUEST_SET_MODE);
+        }
+    }
+    asked.set_mode.mode = BRACE_MODE_MONITOR;
+    takes(BRACE_REQUEST_SET_MODE);
+    TEST_ASSERT_EQUAL(BRACE_MODE_START, answer.set_mode.mode);
+}
+
 static void test_entries_are_staged_and_read(void)
 {
     const uint32_t femur = brace_parameter_number(BRACE_PARAMETER_GEOMETRY_FEMUR_MM);
@@ -707,6 +722,7 @@ int main(void)
     RUN_TEST(test_what_has_no_K_says_what_the_K_of_now_is_worth);
     RUN_TEST(test_what_the_K_of_now_means_at_the_contact);
     RUN_TEST(test_modes_are_told_and_refused);
+    RUN_TEST(test_configuration_leads_back_alone);
     RUN_TEST(test_entries_are_staged_and_read);
     RUN_TEST(test_what_no_limb_has_is_refused);
     RUN_TEST(test_an_upload_needs_its_mode_its_size_and_its_order);
