@@ -270,6 +270,54 @@ static void test_the_straight_limb_part_by_part(void)
     TEST_ASSERT_TRUE(told > 30 * TIMES);
 }
 
+/* How far a coordinate's numbers may be apart: roundings of q24 and q26, over all the pivots beyond it. */
+#define FREEDOM_WITHIN 5e-5
+
+/* unit: what the coordinate is counted in, 1 rad or a spring's arm [mm] */
+static void expect_freedom(const freedom_t *wanted, const fixed_freedom_t *is, double unit)
+{
+    const double yields = (double)wanted->yields * force_unit_n * length_unit_mm / (unit * unit);
+    const double within = FREEDOM_WITHIN * (1.0 + yields);
+    expect3(within, wanted->follows, is->follows, RANGES.ratio, unit);
+    TEST_ASSERT_DOUBLE_WITHIN(within, yields, ldexp((double)is->yields_q26, -26));
+}
+
+static void expect_link_freedoms(const link_freedoms_t *wanted, const fixed_link_freedoms_t *is, uint32_t arm_shift,
+                                 bool is_last)
+{
+    const double arm_mm = ldexp(length_unit_mm, -(int)arm_shift);
+    expect_freedom(&wanted->across, &is->across, arm_mm);
+    expect_freedom(&wanted->sideways, &is->sideways, arm_mm);
+    expect3(FREEDOM_WITHIN, wanted->by_across, is->by_across, RANGES.ratio, arm_mm);
+    expect3(FREEDOM_WITHIN, wanted->by_sideways, is->by_sideways, RANGES.ratio, arm_mm);
+    expect_freedom(&wanted->y, &is->y, 1.0);
+    expect_freedom(&wanted->z, &is->z, 1.0);
+    expect(FREEDOM_WITHIN, wanted->z_by_y, is->z_by_y, RANGES.ratio, 1.0);
+    if (!is_last) {
+        expect_freedom(&wanted->x, &is->x, 1.0);
+        expect(FREEDOM_WITHIN, wanted->y_by_x, is->y_by_x, RANGES.ratio, 1.0);
+        expect(FREEDOM_WITHIN, wanted->z_by_x, is->z_by_x, RANGES.ratio, 1.0);
+    }
+}
+
+/* Each coordinate's compliance when those beyond it are eliminated, and how these follow it. */
+static void expect_freedoms(void)
+{
+    freedoms_t wanted;
+    fixed_freedoms_t is;
+    noted_t noted = 0u;
+    (void)eliminate_limb(&loaded, &rest, &wanted);
+    fixed_eliminate_limb(&fixed, &words, NULL, &is, &noted);
+    TEST_ASSERT_FALSE(is_refused(noted));
+    expect_link_freedoms(&wanted.tibia, &is.tibia, fixed.tibia.arm_shift, true);
+    expect_link_freedoms(&wanted.femur, &is.femur, fixed.femur.arm_shift, false);
+    expect_link_freedoms(&wanted.coxa, &is.coxa, fixed.coxa.arm_shift, false);
+    expect_freedom(&wanted.knee, &is.knee, 1.0);
+    expect_freedom(&wanted.hip, &is.hip, 1.0);
+    expect_freedom(&wanted.yaw, &is.yaw, 1.0);
+    expect(FREEDOM_WITHIN * 10.0, wanted.base_yields, is.base_yields_q26, 26, 1.0 / (force_unit_n * length_unit_mm));
+}
+
 /* K at the same turns and the same bent links. */
 static void test_K_at_one_pose(void)
 {
@@ -297,6 +345,7 @@ static void test_K_at_one_pose(void)
             continue;
         }
         told++;
+        expect_freedoms();
         const float of_a[6] = {a.k.xx_n_per_mm, a.k.xy_n_per_mm, a.k.xz_n_per_mm,
                                a.k.yy_n_per_mm, a.k.yz_n_per_mm, a.k.zz_n_per_mm};
         const float of_b[6] = {b.k.xx_n_per_mm, b.k.xy_n_per_mm, b.k.xz_n_per_mm,
