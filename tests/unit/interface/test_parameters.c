@@ -261,6 +261,11 @@ static void test_what_members_say_together(void)
     parameters.controller.tick_us = 2000;
     parameters.controller.age_limit_us = 1999;
     expect_fault(BRACE_PARAMETER_CONTROLLER_AGE_LIMIT_US);
+    parameters.controller.tick_us = 2000;
+    parameters.controller.age_limit_us = 1999;
+    parameters.drive[2].angle_max_rad = parameters.drive[2].angle_min_rad;
+    parameters.drive[1].torque_bias_n_mm = 9000.0f;
+    expect_fault(BRACE_PARAMETER_MOTOR_FEMUR_TORQUE_BIAS_N_MM); /* of several it is the first */
     parameters.controller.can_bit_rate = 0;
     expect_fault(BRACE_PARAMETER_CONTROLLER_CAN_BIT_RATE);
     parameters.controller.can_bit_rate = 500001;

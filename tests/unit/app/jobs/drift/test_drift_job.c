@@ -228,7 +228,8 @@ static void test_a_memory_that_fails_is_told(void)
     for (int i = 0; i < 40; i++) {
         TEST_ASSERT_FALSE(drift_job_work(&job, &inputs));
     }
-    start(false);
+    drift_job_configure(&job, true); /* another set, and its own memory */
+    work(3);
     TEST_ASSERT_FALSE(job.memory_failed);
     inputs.origin = BRACE_PARAMETERS_DEFAULT;
     start(true);

@@ -255,6 +255,22 @@ static void test_the_way_back_is_tried_ever_more_rarely(void)
     recovers_after(wait_ms, 2);
 }
 
+/* Ticks that do not divide a wait: the first one at its end or after it. */
+static void test_the_way_back_does_not_wait_for_an_even_tick(void)
+{
+    health.bus_off = true;
+    watch(9);
+    for (uint32_t wait_us = 125000; wait_us <= 1000000u; wait_us *= 2u) {
+        const uint32_t before = recoveries;
+        uint32_t us = 0;
+        while (recoveries == before && us < 2u * wait_us) {
+            can_bus_watch(&bus, &hal, 700);
+            us += 700u;
+        }
+        TEST_ASSERT_TRUE(us >= wait_us && us <= wait_us + 1400u); /* it has to see first that it is off */
+    }
+}
+
 static void test_what_is_not_taken_is_tried_again_and_what_is_refused_is_counted(void)
 {
     TEST_ASSERT_TRUE(sends());
@@ -311,6 +327,7 @@ int main(void)
     RUN_TEST(test_health_is_told_every_ten_milliseconds);
     RUN_TEST(test_health_is_not_asked_for_a_microsecond_early);
     RUN_TEST(test_the_way_back_is_tried_ever_more_rarely);
+    RUN_TEST(test_the_way_back_does_not_wait_for_an_even_tick);
     RUN_TEST(test_what_is_not_taken_is_tried_again_and_what_is_refused_is_counted);
     RUN_TEST(test_a_frame_has_come_or_none);
     return UNITY_END();
