@@ -8,11 +8,11 @@ enum { TICK_US = 1000, FAULT_TICKS = 20, CROSSING_TICKS = 2000, REMEMBERED_TICKS
 
 static brace_backlash_t joint;
 static brace_backlash_out_t out;
-static uint32_t now_us;
+static uint32_t now_us, tick_us;
 
-void setUp(void)
+static void start(uint32_t with_tick_us)
 {
-    const brace_backlash_params_t params = {.tick_us = TICK_US, .gap_rad = (float)GAP_RAD, .friction_n_mm = 200.0f,
+    const brace_backlash_params_t params = {.tick_us = with_tick_us, .gap_rad = (float)GAP_RAD, .friction_n_mm = 200.0f,
                                             .friction_tolerance_ratio = 0.2f, .inertia_n_mm_s2_per_rad = 20.0f,
                                             .torque_range_n_mm = 8000.0f, .torque_noise_n_mm = 40.0f,
                                             .torque_bias_n_mm = 80.0f, .angle_step_rad = 2e-5f,
@@ -21,7 +21,13 @@ void setUp(void)
                                                        .rate_rad_per_s = 0.1f, .time_max_us = 3000000,
                                                        .verify_us = VERIFY_TICKS * TICK_US}};
     now_us = 0;
+    tick_us = with_tick_us;
     TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_backlash_init(&joint, &params));
+}
+
+void setUp(void)
+{
+    start(TICK_US);
 }
 
 void tearDown(void) {}
@@ -37,7 +43,7 @@ static brace_status_t sample_after(uint32_t after_us, double motor_rad, double t
 static void stand(double motor_rad, double torque_n_mm, int ticks)
 {
     for (int i = 0; i < ticks; i++) {
-        TEST_ASSERT_EQUAL_INT(BRACE_OK, sample_after(TICK_US, motor_rad, torque_n_mm));
+        TEST_ASSERT_EQUAL_INT(BRACE_OK, sample_after(tick_us, motor_rad, torque_n_mm));
     }
 }
 
@@ -63,6 +69,19 @@ static void a_fault_lasts_for_twenty_milliseconds(void)
     TEST_ASSERT_EQUAL_INT(BRACE_E_NOT_FINITE, sample_after(TICK_US, (double)NAN, 3000.0));
     stays_for(FAULT_TICKS, 0.0, 3000.0);
     TEST_ASSERT_EQUAL_INT(BRACE_BACKLASH_UNKNOWN, out.state);
+}
+
+/* Its time is up after twenty milliseconds, and not a microsecond before: seven of these ticks are 19,999 us. */
+static void a_fault_lasts_to_the_microsecond(void)
+{
+    start(2857);
+    stand(0.0, 3000.0, 100);
+    TEST_ASSERT_EQUAL_INT(BRACE_E_NOT_FINITE, sample_after(tick_us, (double)NAN, 3000.0));
+    stays_for(8, 0.0, 3000.0);
+    start(2858);
+    stand(0.0, 3000.0, 100);
+    TEST_ASSERT_EQUAL_INT(BRACE_E_NOT_FINITE, sample_after(tick_us, (double)NAN, 3000.0));
+    stays_for(7, 0.0, 3000.0);
 }
 
 /* A sample may come four ticks after the one before, and no microsecond later. */
@@ -135,6 +154,23 @@ static void a_preload_is_verified_for_its_time(void)
     }
 }
 
+/* Its time is up to the microsecond, too: 41 of the first of these ticks are 99,999 us. */
+static void a_preload_is_verified_to_the_microsecond(void)
+{
+    for (int more_us = 0; more_us < 2; more_us++) {
+        int count = 0;
+        start(2439u + (uint32_t)more_us);
+        stand(0.0, 3000.0, 150);
+        TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_takeup_request(&joint, 1));
+        stand(0.0, 3000.0, 2);
+        for (; out.phase == BRACE_TAKEUP_VERIFY; count++) {
+            stand(0.0, 3000.0, 1);
+        }
+        TEST_ASSERT_EQUAL_INT(BRACE_TAKEUP_DONE, out.takeup);
+        TEST_ASSERT_EQUAL_INT(43 - more_us, count);
+    }
+}
+
 /* Whatever a sample shows has its effect in the tick that shows it. Only where nothing is shown does a state end by its
  * time. What a take-up came to is said by its own phases alone. */
 static void what_is_shown_counts_at_once(void)
@@ -160,10 +196,12 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(a_fault_lasts_for_twenty_milliseconds);
+    RUN_TEST(a_fault_lasts_to_the_microsecond);
     RUN_TEST(a_sample_may_be_late_by_three_ticks);
     RUN_TEST(a_flank_is_remembered_for_a_quarter_of_a_second);
     RUN_TEST(a_crossing_lasts_for_two_seconds);
     RUN_TEST(a_preload_is_verified_for_its_time);
+    RUN_TEST(a_preload_is_verified_to_the_microsecond);
     RUN_TEST(what_is_shown_counts_at_once);
     return UNITY_END();
 }
