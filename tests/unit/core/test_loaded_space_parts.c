@@ -155,8 +155,14 @@ static void test_a_bent_limb_part_by_part(void)
                                        word((double)loaded.tibia.weight_n / force_unit_n, 30)};
         brace_space_pose_t drives;
         brace_space_fixed_pose_t drive_words;
+        rest.coxa.own_n = vec3(1.0f, 2.0f, 3.0f);
+        words.coxa.own_q30 = fixed3(1, 2, 3);
         see_forces(&loaded, rest.tip_n, rest.down, &rest);
         fixed_see_forces(&parts, words_of(rest.tip_n, force_unit_n, 30), words_of(rest.down, 1.0, 30), &words);
+        const vec3_t none_n = {0.0f, 0.0f, 0.0f}; /* the base bears the coxa link's weight */
+        const fixed3_t none = {0, 0, 0};
+        TEST_ASSERT_EQUAL_MEMORY(&none_n, &rest.coxa.own_n, sizeof none_n);
+        TEST_ASSERT_EQUAL_MEMORY(&none, &words.coxa.own_q30, sizeof none);
         bend_limb(&loaded, &rest, &curls, true, &drives);
         fixed_bend_limb(&fixed, &words, &curl_words, true, &drive_words, &noted);
         TEST_ASSERT_FALSE(is_refused(noted));
