@@ -333,6 +333,18 @@ static void test_a_C_below_its_least_trace_is_refused(void)
     }
 }
 
+/* An angle in turns of 2^32, rounded down. The factor is right to a quarter of its last place, which the largest angle
+ * makes an eighth of a unit. */
+static void test_an_angle_in_turns(void)
+{
+    const double per_q28 = 16.0 / 6.283185307179586;
+    for (int64_t angle = INT32_MIN; angle <= INT32_MAX; angle += 1000003) {
+        const double off = (double)brace_turn_from_q28((int32_t)angle) - (double)angle * per_q28;
+        const double within_turn = off - 0x1p32 * floor(off / 0x1p32 + 0.5);
+        TEST_ASSERT_TRUE(within_turn > -1.125 && within_turn < 0.125);
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -346,6 +358,7 @@ int main(void)
     RUN_TEST(test_a_sum_is_lost_from_its_room_on);
     RUN_TEST(test_products_are_noted_from_their_most_on);
     RUN_TEST(test_pivots_are_noted_outside_their_range);
+    RUN_TEST(test_an_angle_in_turns);
     RUN_TEST(test_the_inverse_in_space);
     RUN_TEST(test_a_minor_that_is_negative_by_a_last_place_is_refused);
     RUN_TEST(test_entries_that_words_would_drop_are_refused);
