@@ -27,18 +27,23 @@ def refusal(what: str, why: str, way: str) -> UsageError:
     return UsageError(what, why=why, next_step=way)
 
 
-def _split(text: str) -> tuple[float, str]:
+def _split(text: str, example: str) -> tuple[float, str]:
+    """A number and its unit's text; a refusal shows `example`."""
     match = _NUMBER.fullmatch(text)
     if match and match.group(2).startswith(","):
         raise refusal(f"{text!r} has a decimal comma", "the decimal sign is a point", text.replace(",", "."))
     if not match:
-        raise refusal(f"{text!r} is not a number with a unit", "a number comes first", "e.g. 20arcmin")
+        raise refusal(f"{text!r} is not a number with a unit", "a number comes first", f"e.g. {example}")
     return float(match.group(1)), match.group(2)
+
+
+def _no_angle(text: str, unit_text: str) -> str:
+    return f"{text!r}: {unit_text!r} is not a unit of angle" if unit_text else f"{text!r}: in which unit?"
 
 
 def length_mm(text: str) -> float:
     """A length; mm where no unit is said."""
-    value, unit_text = _split(text)
+    value, unit_text = _split(text, "185 or 0.185m")
     unit = unit_of(unit_text) if unit_text else unit_of("mm")
     if unit is None or unit.quantity != "length":
         raise refusal(f"{text!r}: {unit_text!r} is not a unit of length", "mm, cm, m or in", "e.g. 185 or 0.185m")
@@ -52,7 +57,7 @@ def length_mm(text: str) -> float:
 
 def offset_mm(text: str) -> float:
     """A distance that may be small or none."""
-    value, unit_text = _split(text)
+    value, unit_text = _split(text, "57")
     unit = unit_of(unit_text) if unit_text else unit_of("mm")
     if unit is None or unit.quantity != "length" or not 0.0 <= unit.factor * value <= LENGTH_MM[1]:
         raise refusal(f"{text!r} is not a distance between axes", f"0 to {LENGTH_MM[1]:g} mm", "e.g. 57")
@@ -63,12 +68,13 @@ def play_rad(text: str) -> float:
     """The full play of a gear; its unit must be said."""
     if text.strip().lower() in ("none", "0"):
         return 0.0
-    value, unit_text = _split(text)
+    value, unit_text = _split(text, "20arcmin")
     unit = unit_of(unit_text)
     if unit is None or unit.quantity != "angle":
         raise refusal(
-            f"{text!r}: in which unit?", "a play is told in arcmin, deg or rad", f"{value:g}deg or {value:g}arcmin"
-        )
+            _no_angle(text, unit_text), "a play is told in arcmin, deg or rad",
+            "20arcmin or 0.3deg" if unit_text else f"{value:g}deg or {value:g}arcmin",
+        )  # fmt: skip
     found = unit.factor * value
     if found < 0.0 or found > PLAY_MOST_RAD:
         raise refusal(
@@ -81,10 +87,13 @@ def play_rad(text: str) -> float:
 
 def angle_rad(text: str) -> float:
     """A joint's angle; its unit must be said."""
-    value, unit_text = _split(text)
+    value, unit_text = _split(text, "-60deg")
     unit = unit_of(unit_text)
     if unit is None or unit.quantity != "angle":
-        raise refusal(f"{text!r}: in which unit?", "an angle is told in deg or rad", f"{value:g}deg or {value:g}rad")
+        raise refusal(
+            _no_angle(text, unit_text), "an angle is told in deg or rad",
+            "e.g. -60deg or -1.05rad" if unit_text else f"{value:g}deg or {value:g}rad",
+        )  # fmt: skip
     if abs(unit.factor * value) > 2 * math.pi:
         raise refusal(f"{text!r} is more than a turn", "a joint of a limb turns once at most", f"{value:g}deg?")
     return unit.factor * value
@@ -107,7 +116,7 @@ def joint(text: str) -> Joint:
         return Joint(1e-3 / GUESSED_N_M_PER_RAD, GUESSED_REL, f"a servo of {GUESSED_N_M_PER_RAD:g} N m/rad", True)
     if said == "rigid":
         return Joint(0.0, 0.0, "rigid")
-    value, unit = _split(text)
+    value, unit = _split(text, "'60 N m/rad', or: unknown")
     unit = re.sub(r"[\s*\u00b7()]", "", unit).lower()
     per_rad = {"": 1.0, "nm/rad": 1.0, "nmm/rad": 1e-3, "knm/rad": 1e3, "nm/deg": 180 / math.pi,
                "nm/\u00b0": 180 / math.pi,
