@@ -38,6 +38,7 @@ OF_THE_LIMB = [
     ("femur_mm = 185.0", 'femur_mm = "185"', "it must be a number, not text"),
     ("femur_mm = 185.0\n", "", "geometry.femur_mm is missing"),
     ("femur_mm", "femur_length", "unknown key geometry.femur_length"),
+    ("[joint.femur]\n", "[joint.femur]\nstiffness = 60\n", "try: known here: compliance_rad_per_n_mm, "),
     ("[link.femur]", "[link.fermur]", "did you mean [link.femur]?"),
     ("bending_mm_per_n = 0.06", "bending = 0.06", "did you mean link.femur.bending_mm_per_n?"),
     ("[joint.tibia]", "[joint.knee]", "unknown table [joint.knee]"),
@@ -145,7 +146,13 @@ def test_files_in_the_wrong_order(brace: Brace, tmp_path: Path) -> None:
     record = write_loading(tmp_path / "record", loading_rows())
     readable(brace("k", "--model", record / "meta.toml", *POSTURE), 3, "where a limb model is wanted")
     fitted = brace("identify", limb(tmp_path), "--model", limb(tmp_path), "--out", tmp_path / "f.toml")
-    readable(fitted, 3, "no such dataset")
+    readable(fitted, 3, "no such dataset", "name the folder")
+    inside = brace("diagnose", record / "data.csv", "--model", limb(tmp_path), "--out", tmp_path / "found")
+    readable(inside, 3, f"name its folder: {record}")
+    table = tmp_path / "my table.csv"
+    (record / "data.csv").rename(table)
+    alone = brace("diagnose", table, "--model", limb(tmp_path), "--out", tmp_path / "found")
+    readable(alone, 3, f"brace import '{table}' --out DIR")
     readable(brace("k", "--model", tmp_path / "limbs.toml", *POSTURE), 3, "did you mean")
     readable(brace("diagnos", record), 2, "did you mean diagnose?")
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import shlex
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -100,22 +101,28 @@ class Meta:
         return float(toml.number(self.values, key))
 
 
+def _instead(named: Path) -> str:
+    """What to try where a dataset's folder should stand."""
+    beside = [entry.name for entry in named.parent.iterdir()][:1000] if named.parent.is_dir() else []
+    near = did_you_mean(named.name, beside)
+    if near and near != named.name:
+        return f"did you mean {named.parent / near}?"
+    if named.is_file() and "meta.toml" in beside:
+        return f"name its folder: {named.parent}"
+    if named.is_file() and named.suffix.lower() != ".toml":
+        return f"brace import {shlex.quote(str(named))} --out DIR makes a dataset of a table"
+    return "name the folder"
+
+
 def read_meta(folder: Path) -> Meta:
     """Reads and checks FOLDER/meta.toml."""
     if not folder.is_dir():
         reason = "it is a file" if folder.exists() else "it does not exist"
-        near = (
-            did_you_mean(folder.name, [entry.name for entry in folder.parent.iterdir()][:1000])
-            if folder.parent.is_dir()
-            else ""
-        )
         raise BadFileError(
             "no such dataset",
             where=str(folder),
             why=f"a dataset is a folder with meta.toml and data.csv; {reason}",
-            next_step=(
-                f"did you mean {folder.parent / near}?" if near and near != folder.name else "name the folder"
-            ),
+            next_step=_instead(folder),
         )
     if not (folder / "meta.toml").exists():
         only_csv = (folder / "data.csv").exists()
@@ -123,7 +130,12 @@ def read_meta(folder: Path) -> Meta:
             "no meta.toml in this folder" if only_csv else "no dataset in this folder",
             where=str(folder),
             why="a dataset is a folder with meta.toml and data.csv; meta.toml says what kind of record data.csv is",
-            next_step="add one: docs/datasets.md shows what it says" if only_csv else "check the path",
+            next_step=(
+                "add one: docs/datasets.md shows what it says; or "
+                f"brace import {shlex.quote(str(folder / 'data.csv'))} --out DIR makes a dataset of it"
+                if only_csv
+                else "check the path"
+            ),
         )
     document = toml.read(folder / "meta.toml", WHAT)
     _refuse_misspelt(document)

@@ -105,6 +105,7 @@ def _flatten(content: Mapping[str, object], prefix: str = "") -> Iterable[tuple[
             yield dotted, value
 
 
+_LIKE_ELSEWHERE = 0.8  # a key of another table is meant only where the whole name is so like it
 _KINDS = {"geometry": "limb model", "configuration": "rig file", "kind": "dataset's meta.toml"}
 """What a file is that has such a key."""
 
@@ -144,7 +145,7 @@ def _unknown(
     table, _, leaf = name.rpartition(".")
     siblings = {key.rpartition(".")[2]: key for key in known if key.rpartition(".")[0] == table}
     near = did_you_mean(leaf, siblings)
-    better = siblings[near] if near else did_you_mean(name, known)
+    better = siblings[near] if near else did_you_mean(name, known, _LIKE_ELSEWHERE)
     if table and table not in tables:
         near_table = _near_table(table, tables)
         return BadFileError(
