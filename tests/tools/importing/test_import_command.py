@@ -351,3 +351,37 @@ def test_a_column_of_remarks_that_labview_names_alone(brace: Brace, tmp_path: Pa
     done = brace("import", table, "--out", tmp_path / "out", "--yes")
     assert done.code == 0, done.err
     assert load_dataset(tmp_path / "out")["fz_n"] == pytest.approx(range(6))
+
+
+def test_a_column_that_is_no_known_one_is_asked_for_its_unit_at_once(brace: Brace, tmp_path: Path) -> None:
+    """Whoever answers every ? of the draft is asked nothing more."""
+    twice = loading("t [s],theta1 [deg],theta2 [deg],dx [mm],dz [mm],F [N],F")
+    path, mapping = saved(tmp_path, twice), tmp_path / "m.toml"
+    assert brace("import", path, "--draft", mapping).code == 0
+    draft = mapping.read_text()
+    assert 'unit = "N"  # it counts unless' in draft and 'unit = "?"  # it counts unless' in draft
+    for answer in ("fx_n", "fz_n"):
+        draft = draft.replace('is = "?"', f'is = "{answer}"', 1)
+    mapping.write_text(draft.replace('unit = "?"', 'unit = "N"'))
+    done = brace("import", path, "--mapping", mapping, "--out", tmp_path / "out")
+    assert done.code == 0, done.err
+
+
+def test_an_ignored_column_or_one_without_a_unit_is_not_asked_for_one(brace: Brace, tmp_path: Path) -> None:
+    rows, mapping = loading(LOADING + ",Fy").splitlines(), tmp_path / "m.toml"
+    path = saved(tmp_path, "\n".join([rows[0], *(row + ",0.01" for row in rows[1:])]))
+    assert brace("import", path, "--draft", mapping).code == 0
+    mapping.write_text(mapping.read_text().replace('is = "?"', 'is = "ignore"'))
+    assert 'unit = "?"' in mapping.read_text()
+    done = brace("import", path, "--mapping", mapping, "--out", tmp_path / "out")
+    assert done.code == 0, done.err
+
+
+def test_rows_that_could_not_be_read_are_named_where_the_rest_is_refused(brace: Brace, tmp_path: Path) -> None:
+    """Every second time is written in another way: what is left of the runs moves along no axis."""
+    r = Record()
+    mixed = [cell if row % 2 else f"10:00:{row:02d}" for row, cell in enumerate(shown(r["t"]))]
+    path = saved(tmp_path, loading(t=mixed))
+    refused = brace("import", path, "--out", tmp_path / "out", "--yes")
+    assert refused.code in (0, 3), refused.err
+    assert "rows left out: 't [s]': 10:00:00 (1)" in refused.err, refused.err

@@ -163,7 +163,6 @@ def _confirmed(table: MappingTable, arguments: argparse.Namespace) -> MappingTab
 def _open(table: MappingTable, arguments: argparse.Namespace) -> UsageError:
     questions = table.questions
     name = arguments.mapping or "mapping.toml"
-    files = " ".join([*map(str, arguments.files), *(f"--dbc {path}" for path in arguments.dbc)])
     if not questions:
         return UsageError(
             "the table above is a guess that nobody has confirmed",
@@ -177,8 +176,8 @@ def _open(table: MappingTable, arguments: argparse.Namespace) -> UsageError:
         why=questions[0],
         next_step=f"answer each ? in {name}"
         if arguments.mapping
-        else f"brace import {files} --draft {name}; answer each ? in it (what stands in no column: --set NAME=VALUE, "
-        f"too); then --mapping {name} --out DIR",
+        else f"the same command with --draft {name}; answer each ? in it (what stands in no column: --set NAME=VALUE, "
+        f"too); then the same with --mapping {name} --out DIR",
     )
 
 

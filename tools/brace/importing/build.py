@@ -42,10 +42,14 @@ def build(parts: Sequence[Part], mapping: MappingTable) -> Built:
     notes = [f"{part.path.name}: {note}" for part in parts for note in part.notes]
     tables = [_converted(part, mapping, notes) for part in parts]
     conversions = _conversions(mapping)
-    if mapping.kind == "loading":
-        columns, extra = assembled_loading(tables, mapping, notes)
-    else:
-        columns, extra = _stacked(tables, mapping, notes), {}
+    try:
+        if mapping.kind == "loading":
+            columns, extra = assembled_loading(tables, mapping, notes)
+        else:
+            columns, extra = _stacked(tables, mapping, notes), {}
+    except BadFileError as error:  # rows that could not be read may be why
+        error.why = "; ".join([error.why, *(note for note in notes if "rows left out" in note)])
+        raise
     files = list(dict.fromkeys(part.path for part in parts))
     meta: dict[str, object] = {"format": 1, "kind": mapping.kind, "title": ", ".join(path.name for path in files)[:200]}
     meta |= {name: dict(content) for name, content in mapping.meta.items()}

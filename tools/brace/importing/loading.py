@@ -345,7 +345,10 @@ def _without_single_blanks(joined: Columns, run: np.ndarray, notes: list[str]) -
         whole = np.isin(run, [number for number in np.unique(run[blank]) if blank[run == number].all()])
         single = blank & ~whole & ~drop
         if single.any():
-            notes.append(f"{int(single.sum())} rows left out: {name} is blank in them and not in all of their run")
+            count = int(single.sum())
+            notes.append(
+                f"{count} row{'s' if count > 1 else ''} left out: {name} is blank there and not in all of the run"
+            )
         drop |= single
     if not drop.any():
         return joined, run

@@ -144,6 +144,8 @@ def to_toml(table: MappingTable) -> str:
         lines.append(f"is = {is_text}" + (f"  # {use.why}" if use.why else ""))
         if use.used and OPEN not in use.targets and any(quantity.get(target) for target in use.targets):
             lines += [f"unit = {_value(use.unit)}", f"sign = {_value(OPEN) if use.sign == OPEN else use.sign}"]
+        elif OPEN in use.targets:
+            lines.append(f"unit = {_value(use.unit or OPEN)}  # it counts unless is = \"ignore\"")
         if use.offset:
             lines.append(f"offset = {use.offset!r}")
         if use.relative != "no":
@@ -218,7 +220,7 @@ def _column(document: toml.Document, at: str, entry: dict[str, object], kind: st
     for target in targets:
         _target(document, f"{at}.is", target, (*TARGETS[kind], IGNORE, OPEN))
     quantity = {TARGETS[kind].get(str(target), "") for target in targets} - {""}
-    unit = str(entry.get("unit", OPEN if quantity else ""))
+    unit = str(entry.get("unit", OPEN)) if quantity or OPEN in targets else ""
     if quantity and unit != OPEN:
         _unit(document, f"{at}.unit", unit, quantity.pop())
     sign = str(entry.get("sign", 1))
