@@ -296,3 +296,14 @@ def test_a_cluster_without_workers_is_told_in_time(
     with cluster(0) as address:
         outcome = brace("diagnose", *fleet, "--out", tmp_path / "out", "--scheduler", address)
     assert outcome.code == 4 and "no workers" in outcome.err and "dask worker" in outcome.err
+
+
+def test_a_faulty_record_is_not_counted_as_a_limb_that_differs() -> None:
+    from brace.diagnose.fleet.overview import Line, _sentence
+
+    def line(name: str, verdict: str) -> Line:
+        return Line(name, {"verdict": verdict, "gap": None})
+
+    lines = [line("a", "data_fault"), line("b", "effect"), line("c", "none")]
+    assert _sentence(lines, 0) == "1 of 3 limbs differs from its model; b most. 1 record is faulty."
+    assert _sentence(lines[:1], 1) == "0 of 1 limb differ from their model. 1 record is faulty. 1 could not be diagnosed."

@@ -127,12 +127,15 @@ def page(outcomes: Sequence[Outcome]) -> str:
 
 
 def _sentence(lines: Sequence[Line], broken: int) -> str:
-    off = [line for line in lines if line.data["verdict"] != "none"]
+    faulty = sum(line.data["verdict"] == "data_fault" for line in lines)
+    off = [line for line in lines if line.data["verdict"] not in ("none", "data_fault")]
     said = f"{len(off)} of {len(lines)} limb{'s' if len(lines) != 1 else ''} differ from their model"
     if len(off) == 1:
         said = said.replace("differ from their", "differs from its")
     if off:
         said += f"; {off[0].name} most"
+    if faulty:
+        said += f". {faulty} {'records are' if faulty > 1 else 'record is'} faulty"
     return said + (f". {broken} could not be diagnosed." if broken else ".")
 
 
