@@ -132,7 +132,8 @@ def _replaced(line: str, shown: str) -> str:
     if not found:
         return line  # the caller's reading back finds it out
     before, old, gap, comment = found.groups()
-    return f"{before}{shown}{gap or '  '}{comment}" if comment else f"{before}{shown}  # was {old.strip()}"
+    said = comment.removeprefix("#").strip() if comment else ""  # of the old value, so that it stands behind it
+    return f"{before}{shown}{gap or '  '}# was {old.strip()}" + (f": {said}" if said else "")
 
 
 def _shown(name: str, value: Any) -> str:
