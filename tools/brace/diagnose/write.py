@@ -12,6 +12,7 @@ from typing import Any
 
 from brace.dataset import Dataset
 from brace.diagnose import plain_words
+from brace.diagnose.already import sentences
 from brace.diagnose.diagnosis import Diagnosis, GapPair, Interval, NamedEffect
 from brace.diagnose.export import export
 from brace.diagnose.provenance import Provenance, provenance
@@ -44,8 +45,16 @@ def contents(
     from brace.diagnose.report.page import page
 
     origin = provenance(dataset, believed_text)
-    exported = export(found, believed, believed_text, _header(found, origin))
-    found = replace(found, model=exported.model, notes=(*found.notes, *exported.notes))
+    header = _header(found, origin)
+    if believed is None:
+        header.append("no model was given: only the tested joint is of the record; all else is an example limb's")
+    exported = export(found, believed, believed_text, header)
+    found = replace(
+        found,
+        model=exported.model,
+        sentence=" ".join([found.sentence, *sentences(believed, found)]),
+        notes=(*found.notes, *exported.notes),
+    )
     is_exported = believed is None or exported.model.values != believed.values
     data = as_json(found, origin, is_exported)
     files = {

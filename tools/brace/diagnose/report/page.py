@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from brace.dataset import Dataset
 from brace.diagnose import plain_words as words
+from brace.diagnose.already import only_sizes
 from brace.diagnose.beside import beside
 from brace.diagnose.diagnosis import Diagnosis, NamedEffect
 from brace.diagnose.export import changed
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     from brace.diagnose.provenance import Provenance
 
 MOST_FAULTS, MOST_CANDIDATES = 60, 14
+MOST_SURE = 0.999  # of what is told from a number of played tests
 
 
 def page(
@@ -28,10 +30,10 @@ def page(
     faulty = found.verdict == "data_fault"
 
     def gap() -> str:
-        return _gap(found, seen)
+        return _gap(believed, found, seen)
 
     with beside(gap, gap, processes if found.gap is not None else 1) as closed:
-        where, how_far = _where(found, seen), closed()
+        where, how_far = _where(believed, found, seen), closed()
     parts = [
         _top(believed, found, origin),
         _faults(found) if faulty else "",
@@ -46,7 +48,19 @@ def page(
         html.section("Notes", html.bullets(found.notes)),
         _origin(found, origin),
     ]
-    return html.document(f"{origin.name}: {words.verdict(found)}", "\n".join(part for part in parts if part))
+    headline = _headline(believed, found)
+    return html.document(f"{origin.name}: {headline}", "\n".join(part for part in parts if part))
+
+
+def _headline(believed: LimbModel | None, found: Diagnosis) -> str:
+    if found.verdict == "effect" and only_sizes(believed, found):
+        return "What the model has is of another size in the record, and it has a name"
+    return words.verdict(found)
+
+
+def _before(believed: LimbModel | None) -> str:
+    """What the record is compared with first."""
+    return "the model as given" if believed is not None else "a spring alone, fitted"
 
 
 def _top(believed: LimbModel | None, found: Diagnosis, origin: Provenance) -> str:
@@ -65,20 +79,20 @@ def _top(believed: LimbModel | None, found: Diagnosis, origin: Provenance) -> st
             tiles.append(html.tile(arrow, f"gap before and after, {where}"))
         else:
             tiles.append(
-                html.tile(f"{words.number(ends[0] or 0.0)} {unit}", f"gap of the model as given, {where}")
+                html.tile(f"{words.number(ends[0] or 0.0)} {unit}", f"gap of {_before(believed)}, {where}")
             )
         tiles.append(
-            html.tile(f"{words.number(gap.noise_floor)} {unit}", "noise floor: no model can be nearer")
+            html.tile(f"{words.number(gap.noise_floor)} {unit}", "noise floor: what the readings’ noise leaves of any model")
         )
     inside = f'<div class="tiles">{"".join(tiles)}</div>' if tiles else ""
     return (
         f'<header style="--accent:var(--{found.verdict})">\n<h1>{text(origin.name)} · {text(limb)}</h1>\n'
-        f'<span class="badge">{text(words.verdict(found))}</span>\n'
+        f'<span class="badge">{text(_headline(believed, found))}</span>\n'
         f'<p class="lead">{text(found.sentence)}</p>\n{inside}\n</header>'
     )
 
 
-def _where(found: Diagnosis, seen: View | None) -> str:
+def _where(believed: LimbModel | None, found: Diagnosis, seen: View | None) -> str:
     rows = [
         [text(spot.where), f"{words.number(spot.size)} {text(_unit(found))}", text(_chance(spot.p))]
         for spot in found.localised
@@ -94,7 +108,7 @@ def _where(found: Diagnosis, seen: View | None) -> str:
         from brace.diagnose.report import pictures
 
         whose = (
-            "The model as given"
+            _capital(_before(believed))
             if seen.refitted is None
             else "The model refitted within its calibration’s trust"
         )
@@ -127,7 +141,9 @@ def _missing(believed: LimbModel | None, found: Diagnosis) -> str:
         if not effect.parameters:
             rows.append([_named(effect), "", "", "", ""])
     head = ("effect", "key of limb.toml", "value", "90 % interval", "before")
-    title = "What was missing" if found.verdict == "effect" else "What it could be"
+    title = "What it could be"
+    if found.verdict == "effect":
+        title = "What is of another size" if only_sizes(believed, found) else "What was missing"
     meanings = [
         f"{words.effect(effect.name)[0].upper()}{words.effect(effect.name)[1:]}: "
         f"{words.meaning(effect.name)}."
@@ -182,7 +198,7 @@ def _shown(model: LimbModel, key: str) -> str:
     return f"{value:.5g}" if isinstance(value, float) else str(value)
 
 
-def _gap(found: Diagnosis, seen: View | None) -> str:
+def _gap(believed: LimbModel | None, found: Diagnosis, seen: View | None) -> str:
     if found.gap is None:
         return ""
     from brace.diagnose.report import pictures
@@ -191,7 +207,7 @@ def _gap(found: Diagnosis, seen: View | None) -> str:
     if seen is not None:
         if seen.kind != "stiffness_table":
             parts.append(
-                html.picture(pictures.loops(seen), "The runs where the model as given was furthest off.")
+                html.picture(pictures.loops(seen), f"The runs where {_before(believed)} was furthest off.")
             )
         parts.append(
             html.picture(
@@ -200,7 +216,9 @@ def _gap(found: Diagnosis, seen: View | None) -> str:
                 "What was held out took no part in choosing or fitting.",
             )
         )
-    parts.append(html.picture(pictures.steps(found.gap), "The gap after each thing that was added."))
+    parts.append(
+        html.picture(pictures.steps(found.gap, _before(believed)), "The gap after each thing that was added.")
+    )
     if found.held_out:
         lead = "The model fitted to the rest of the record predicts the part that was held out:"
         items = [words.held_out(part, found.gap.unit) for part in found.held_out]
@@ -236,7 +254,7 @@ def _apart(found: Diagnosis) -> str:
     ]
     if parts:
         parts.insert(
-            0, html.paragraph("This record cannot tell these from each other; each explains it as well.")
+            0, html.paragraph("In this record these leave nearly the same trace. How likely each is stands above.")
         )
     if found.members:
         parts.append(_members(found))
@@ -275,7 +293,7 @@ def _next(found: Diagnosis) -> str:
         parts.append(
             html.paragraph(
                 f"It would tell apart: {'; '.join(labels)}. It would succeed with a probability of "
-                f"{words.percent(after.power)} and takes about {words.number(after.minutes)} minutes."
+                f"{words.percent(min(after.power, MOST_SURE))} and takes about {words.number(after.minutes)} minutes."
             )
         )
     if after.rig_toml:

@@ -101,9 +101,9 @@ def gap(view: View, found: Gap) -> str:
     return svg(figure, "gap")
 
 
-def steps(found: Gap) -> str:
-    """The gap as one thing after the other was added to the model; the noise floor below."""
-    stages = [("the model as given", found.before), *((step.added, step.gap) for step in found.steps)]
+def steps(found: Gap, first: str) -> str:
+    """The gap of `first`, then as one thing after the other was added to it; the noise floor below."""
+    stages = [(first, found.before), *((step.added, step.gap) for step in found.steps)]
     if stages[-1][1] != found.after:
         stages.append(("the model as written", found.after))
     names = [words if len(words) < 60 else words[:57] + "…" for words, _ in stages]
