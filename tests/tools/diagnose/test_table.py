@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import tomllib
 from pathlib import Path
 
 import numpy as np
@@ -60,7 +61,9 @@ def test_the_papers_table(paper_table: Path, paper_limb: Path) -> None:
     assert found.gap.before.held_out is not None and found.gap.after.held_out is not None
     assert found.gap.after.fitted < 0.2 * found.gap.before.fitted
     assert found.gap.after.held_out < 0.2 * found.gap.before.held_out
-    assert found.next_experiment is not None and "rig" in found.next_experiment.rig_toml
+    assert found.next_experiment is not None
+    rig = tomllib.loads(found.next_experiment.rig_toml)
+    assert rig["sensor"]["encoders"] and rig["sensor"]["base_gauge"], "as the action asks for"
 
 
 def test_a_table_that_the_limb_explains(tmp_path: Path, paper_limb: Path) -> None:

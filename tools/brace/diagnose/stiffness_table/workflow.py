@@ -318,5 +318,5 @@ def _next(could_be: Sequence[str]) -> NextExperiment:
         tuple(could_be[:4]),
         0.95,
         45.0,
-        _RIG.read_text(encoding="utf-8"),
+        _RIG.read_text(encoding="utf-8").replace("[sensor]\n", "[sensor]\nencoders = true\nbase_gauge = true\n"),
     )
