@@ -9,7 +9,8 @@ import pytest
 from handmade import GAP_KEY, by_hand, loading_record
 
 from brace.dataset import Dataset
-from brace.diagnose.diagnosis import Diagnosis
+from brace.diagnose import summary
+from brace.diagnose.diagnosis import Diagnosis, GapPair, HeldOut, Interval, NamedEffect
 from brace.diagnose.write import contents
 from brace.model import LimbModel
 
@@ -48,3 +49,28 @@ def test_without_a_model_nothing_was_given(made: Made) -> None:
     page = written.files["report.html"].decode()
     assert "gap of a spring alone, fitted" in page and "odel as given" not in page
     assert "# no model was given: only the tested joint is of the record" in written.files["limb.toml"].decode()
+
+
+def test_a_number_that_every_limb_has_is_another_one(made: Made) -> None:
+    dataset, believed, found = made
+    key = "joint.tibia.compliance_rad_per_n_mm"
+    softer = NamedEffect("joint_compliance", "joint.tibia", 0.97, {key: Interval(2.0e-5, 1.9e-5, 2.1e-5)}, 0.93)
+    written = contents(dataset, believed, "", replace(found, effects=(softer,)), report=False)
+    assert written.diagnosis.sentence == found.sentence
+
+
+def test_parts_that_were_predicted_are_not_denied(made: Made) -> None:
+    """Without a configuration to set aside, the record's parts are predicted from its rest all the same."""
+    dataset, believed, found = made
+    assert found.gap is not None
+    gap = replace(found.gap, before=GapPair(0.5, None), after=GapPair(0.1, None))
+    part = HeldOut("amplitude", "displacements above 1.5 mm", 0.11, 0.1, 0.4, True, 12.0)
+    page = contents(dataset, believed, "", replace(found, gap=gap, held_out=(part,))).files["report.html"].decode()
+    assert "No configuration or test could be held out" in page and "othing could be held out" not in page
+
+
+def test_a_class_is_listed_once(made: Made) -> None:
+    _, _, found = made
+    shared = replace(found, indistinguishable=(("a@b", "backlash@joint.tibia"),), could_be=("a@b", "c@d"))
+    told = list(summary.lines(shared))
+    assert "  one of     a@b, backlash@joint.tibia" in told and "  could be   c@d" in told

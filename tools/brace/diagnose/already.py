@@ -7,10 +7,15 @@ from brace.diagnose.diagnosis import Diagnosis, Interval, NamedEffect
 from brace.model import LimbModel
 from brace.model.keys import KEY_BY_NAME
 
+# Every limb has these numbers. The effect's own words say that they are others than believed.
+OTHER_THAN_BELIEVED = frozenset(
+    ("joint_compliance", "link_compliance_error", "link_length_error", "link_change", "joint_zero_offset", "sensor_gain")
+)
+
 
 def already(believed: LimbModel | None, effect: NamedEffect) -> dict[str, tuple[float, Interval]]:
     """By key: the size that the model has of this effect, and the one found. Empty where it has none of it."""
-    if believed is None:
+    if believed is None or effect.name in OTHER_THAN_BELIEVED:
         return {}
     return {
         key: (believed.number(key), held)

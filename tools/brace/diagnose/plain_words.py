@@ -30,7 +30,7 @@ _VERDICTS = {
     "effect": "Something is missing in the model, and it has a name",
     "none": "Model and measurement agree",
     "ambiguous": "Something is missing; this record cannot tell which of a few",
-    "unknown": "Something is missing that is not in the catalogue",
+    "unknown": "Something is missing that has no name here, or the record shows too little",
     "data_fault": "The record itself is faulty",
 }
 _UNITS = {"n": "N", "n_mm": "N mm", "n_per_mm": "N/mm"}

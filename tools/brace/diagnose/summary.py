@@ -33,8 +33,9 @@ def lines(found: Diagnosis) -> Iterator[str]:
         )
     if found.joint is not None:
         yield f"  joint      {'; '.join(words.joint_sizes(found.joint))}"
-    if found.could_be:
-        yield f"  could be   {', '.join(found.could_be)}"
+    told = {member for members in found.indistinguishable for member in members}
+    if further := [label for label in found.could_be if label not in told]:
+        yield f"  could be   {', '.join(further)}"
     for spot in found.localised[:3]:
         yield f"  where      {spot.where} (p = {words.number(spot.p)})"
     if found.gap is not None:

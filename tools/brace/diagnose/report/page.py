@@ -58,6 +58,11 @@ def _headline(believed: LimbModel | None, found: Diagnosis) -> str:
     return words.verdict(found)
 
 
+def _not_held_out(found: Diagnosis) -> str:
+    """Parts of the record may be predicted from its rest all the same."""
+    return "no configuration or test could be held out" if found.held_out else "nothing could be held out"
+
+
 def _before(believed: LimbModel | None) -> str:
     """What the record is compared with first."""
     return "the model as given" if believed is not None else "a spring alone, fitted"
@@ -73,7 +78,7 @@ def _top(believed: LimbModel | None, found: Diagnosis, origin: Provenance) -> st
         gap, unit = found.gap, words.unit(found.gap.unit)
         held = gap.before.held_out is not None and gap.after.held_out is not None
         ends = (gap.before.held_out, gap.after.held_out) if held else (gap.before.fitted, gap.after.fitted)
-        where = "on what took no part" if held else "on what was fitted; nothing could be held out"
+        where = "on what took no part" if held else f"on what was fitted; {_not_held_out(found)}"
         if found.verdict in ("effect", "ambiguous", "unknown"):
             arrow = f"{words.number(ends[0] or 0.0)} → {words.number(ends[1] or 0.0)} {unit}"
             tiles.append(html.tile(arrow, f"gap before and after, {where}"))
@@ -225,7 +230,7 @@ def _gap(believed: LimbModel | None, found: Diagnosis, seen: View | None) -> str
         parts.append(html.paragraph(lead) + html.bullets(items))
     if found.gap.after.held_out is None:
         parts.append(
-            html.paragraph("Nothing could be held out, so the gap after is one of fitting only.", "small")
+            html.paragraph(f"{_capital(_not_held_out(found))}, so the gap after is one of fitting only.", "small")
         )
     return html.section("The gap before and after", *parts)
 
