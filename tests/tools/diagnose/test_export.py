@@ -68,7 +68,8 @@ def test_comments_and_order_are_kept(tmp_path: Path) -> None:
     assert "femur_mm = 185.5      # was 185.0: measured twice" in lines
     assert "axial_mm_per_n = 0.0021  # was 0.002" in lines
     assert (
-        'link = "femur"        # was "tibia": which one' in lines and 'name = "odd # name"   # with a sign in it' in lines
+        'link = "femur"        # was "tibia": which one' in lines
+        and 'name = "odd # name"   # with a sign in it' in lines
     )
     assert lines[lines.index("compliance_rad_per_n_mm = 1.6e-5") + 1] == "gap_rad = 0.0061"
     assert lines[-5:] == [

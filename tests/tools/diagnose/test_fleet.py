@@ -306,4 +306,5 @@ def test_a_faulty_record_is_not_counted_as_a_limb_that_differs() -> None:
 
     lines = [line("a", "data_fault"), line("b", "effect"), line("c", "none")]
     assert _sentence(lines, 0) == "1 of 3 limbs differs from its model; b most. 1 record is faulty."
-    assert _sentence(lines[:1], 1) == "0 of 1 limb differ from their model. 1 record is faulty. 1 could not be diagnosed."
+    told = "0 of 1 limb differs from its model. 1 record is faulty. 1 could not be diagnosed."
+    assert _sentence(lines[:1], 1) == told

@@ -9,8 +9,11 @@ from brace.model.keys import KEY_BY_NAME
 
 # Every limb has these numbers. The effect's own words say that they are others than believed.
 OTHER_THAN_BELIEVED = frozenset(
-    ("joint_compliance", "link_compliance_error", "link_length_error", "link_change", "joint_zero_offset", "sensor_gain")
-)
+    (
+        "joint_compliance", "joint_zero_offset", "sensor_gain",
+        "link_change", "link_compliance_error", "link_length_error",
+    )
+)  # fmt: skip
 
 
 def already(believed: LimbModel | None, effect: NamedEffect) -> dict[str, tuple[float, Interval]]:

@@ -130,7 +130,7 @@ def _sentence(lines: Sequence[Line], broken: int) -> str:
     faulty = sum(line.data["verdict"] == "data_fault" for line in lines)
     off = [line for line in lines if line.data["verdict"] not in ("none", "data_fault")]
     said = f"{len(off)} of {len(lines)} limb{'s' if len(lines) != 1 else ''} differ from their model"
-    if len(off) == 1:
+    if len(off) == 1 or len(lines) == 1:
         said = said.replace("differ from their", "differs from its")
     if off:
         said += f"; {off[0].name} most"

@@ -87,7 +87,9 @@ def _top(believed: LimbModel | None, found: Diagnosis, origin: Provenance) -> st
                 html.tile(f"{words.number(ends[0] or 0.0)} {unit}", f"gap of {_before(believed)}, {where}")
             )
         tiles.append(
-            html.tile(f"{words.number(gap.noise_floor)} {unit}", "noise floor: what the readings’ noise leaves of any model")
+            html.tile(
+                f"{words.number(gap.noise_floor)} {unit}", "noise floor: what the readings’ noise leaves of any model"
+            )
         )
     inside = f'<div class="tiles">{"".join(tiles)}</div>' if tiles else ""
     return (
