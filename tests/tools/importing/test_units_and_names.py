@@ -120,3 +120,14 @@ def test_clock_times() -> None:
     assert numerals.clock_s("12:30:05.5") == 45005.5 and numerals.clock_s("01:00:00 PM") == 46800.0
     day = numerals.clock_s("12.03.2026 14:22:01,25") - numerals.clock_s("12.03.2026 14:22:00")
     assert day == pytest.approx(1.25) and math.isnan(numerals.clock_s("12.5"))
+
+
+@pytest.mark.parametrize(
+    "dates, days",
+    [(("12/03/2026", "13/03/2026"), 1), (("03/12/2026", "03/13/2026"), 1), (("11/12/2026", "12/12/2026"), 1),
+     (("12/11/2026", "12/12/2026"), 1), (("31/01/2026", "01/02/2026"), 1)],
+)  # fmt: skip
+def test_dates_of_a_column_are_of_one_form(dates: tuple[str, str], days: int) -> None:
+    """Read cell by cell, 12/03 was the third of December and 13/03 the thirteenth of March."""
+    first, last = numerals.clocks_s([f"{date} 00:00:01" for date in dates])
+    assert last - first == days * numerals.DAY_S

@@ -164,7 +164,7 @@ def _numbers(part: Part, use: ColumnUse, cells: Sequence[str], target: str) -> t
     """A column in our unit, and which entries are there and are no numbers (OVERLOAD)."""
     values = np.array([numerals.number(cell, part.decimal) for cell in cells])
     if target == "t_s" and np.isnan(values).all():
-        values = np.array([numerals.clock_s(cell) for cell in cells])
+        values = np.array(numerals.clocks_s(cells))
         values = values + np.cumsum(np.concatenate([[0.0], np.where(np.diff(values) < -43200.0, numerals.DAY_S, 0.0)]))
     values = _without_marks(values)
     unread = np.array([math.isnan(value) and not numerals.is_missing(cell) for value, cell in zip(values, cells)])

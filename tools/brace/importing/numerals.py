@@ -5,7 +5,7 @@ from __future__ import annotations
 import datetime
 import math
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 MISSING = frozenset(
     ("", "nan", "na", "n/a", "#n/a", "#nv", "null", "none", "nil", "-", "--", "---", "?", "1.#qnan", "1.#ind",
@@ -87,18 +87,33 @@ def number(text: str, decimal: str) -> float:
 
 def clock_s(text: str) -> float:
     """Seconds of a clock time or a date with time, since midnight or since the calendar's beginning; NaN otherwise."""
+    return clocks_s([text])[0]
+
+
+def clocks_s(texts: Sequence[str]) -> list[float]:
+    """The same of a column, whose dates are all of one form. 03/04 may be of March or of April: of the forms that read
+    the most dates it is the one in which they lie nearest to each other."""
+    clocks = [_clock(text) for text in texts]
+    dates = {date for date, _ in clocks if date}
+    readings = ({date: day for date in dates if (day := _day(date, form)) is not None} for form in _DATE)
+    days = min(readings, key=lambda read: (-len(read), max(read.values(), default=0) - min(read.values(), default=0)))
+    return [seconds + (DAY_S * days.get(date, math.nan) if date else 0.0) for date, seconds in clocks]
+
+
+def _clock(text: str) -> tuple[str, float]:
+    """The date as it is written, '' where there is none, and the seconds since midnight; NaN where it is no clock."""
     found = _CLOCK.fullmatch(text.strip())
     if not found:
-        return math.nan
+        return "", math.nan
     seconds = 3600.0 * int(found["h"]) + 60.0 * int(found["m"]) + float((found["s"] or "0").replace(",", "."))
     if found["half"]:
         seconds += (12 if found["half"].lower() == "pm" else 0) * 3600.0 - (12 * 3600.0 if int(found["h"]) == 12 else 0)
-    if not found["date"]:
-        return seconds
-    for form in _DATE:
-        try:
-            day = datetime.datetime.strptime(found["date"], form)
-        except ValueError:
-            continue
-        return day.toordinal() * DAY_S + seconds
-    return math.nan
+    return found["date"] or "", seconds
+
+
+def _day(date: str, form: str) -> int | None:
+    """The day in the calendar; None where the date is of another form."""
+    try:
+        return datetime.datetime.strptime(date, form).toordinal()
+    except ValueError:
+        return None
