@@ -61,8 +61,10 @@ def run(program: Path, counts: Path) -> None:
 
 
 def _documents(counts: Path) -> Iterator[dict[str, object]]:
-    """What gcov makes of a folder of counts, one document for each object."""
-    data = sorted(str(path.relative_to(counts)) for path in counts.rglob("*.gcda") if "firmware" in str(path))
+    """What gcov makes of a folder of counts, one document for each object: of the firmware, and of the suite itself,
+    which may include its headers."""
+    paths = (path.relative_to(counts) for path in counts.rglob("*.gcda"))
+    data = sorted(str(path) for path in paths if "firmware" in path.parts or path.parts[0] == "tests")
     if not data:
         return  # a suite of hal/ alone
     for name in data:

@@ -10,7 +10,8 @@
 //
 // The simulation samples the motors first, and then lets the limb settle under what happens in the tick. So K may be
 // right when the motors are sampled, and wrong a tick later, when the controller tells K. No motor's sensor could know
-// that. Such K are counted separately.
+// that. Such K are counted separately. So are those of the tick after it, where only the motors tell the load: in one
+// millisecond their inertia lets them move by next to nothing, so that their first sample is as before.
 // While a sensor is stuck or off by a constant, wrong K are counted apart and do not fail the run: before the
 // controller has detected the fault, it cannot know that the sensor is wrong.
 // Stopped by SIGINT or SIGTERM, it tells of what it has run. Exit code 0 when all is well.
@@ -225,10 +226,12 @@ private:
     std::array<Tenth, kTenths> tenths_;
     std::array<brace_app_counters_t, kLimbs> counters_{};
     std::array<bool, kLimbs> has_counters_{};
-    std::array<brace_node_truth_t, kLimbs> truth_before_{}; // of the tick before
+    std::array<brace_node_truth_t, kLimbs> truth_before_{};      // of the tick before
+    std::array<brace_node_truth_t, kLimbs> truth_two_before_{};  // of the one before that
     Told sensed_, unsensed_;
     std::uint64_t saved_ = 0;         // K that would be wrong were no more allowed than the parameters leave open
     std::uint64_t since_sampled_ = 0; // K that are wrong by what has happened since the motors were sampled
+    std::uint64_t not_moved_ = 0;     // and by what has happened a tick before, of which the motors have not yet moved
     std::array<std::uint32_t, kLimbs> denied_ticks_{}; // an open gap is not told for so long
     std::uint32_t gap_told_ticks_ = 0;                  // the longest
     std::clock_t since_ = std::clock();
@@ -257,6 +260,7 @@ void Soak::step(Tenth &tenth, double t_s)
             found_.answers_wrong += is_right ? 0u : 1u;
         }
         judge(tenth, limb, t_s);
+        truth_two_before_[limb] = truth_before_[limb];
         (void)brace_node_truth(node_.get(), static_cast<int>(limb), &truth_before_[limb]);
     }
     for (CanMaster &master : can_) {
@@ -310,8 +314,16 @@ void Soak::judge(Tenth &tenth, std::size_t limb, double t_s)
         return;
     }
     (agreed.is_sensed ? sensed_ : unsensed_).take(agreed);
-    if (agreed.share > 1.0 && agreement(limbs_[limb], truth_before_[limb], app).share <= 1.0) {
+    const auto was_right = [&](const brace_node_truth_t &then) {
+        const Agreement found = agreement(limbs_[limb], then, app);
+        return found.is_judged && found.share <= 1.0;
+    };
+    if (agreed.share > 1.0 && was_right(truth_before_[limb])) {
         ++since_sampled_;
+        return;
+    }
+    if (agreed.share > 1.0 && !agreed.is_sensed && was_right(truth_two_before_[limb])) {
+        ++not_moved_;
         return;
     }
     const bool is_open = (told.stiffness.now.flags & BRACE_FLAG_GAP_OPEN) != 0u;
@@ -411,7 +423,9 @@ int Soak::report(std::uint64_t ticks, std::uint64_t seed) const
     sensed_.report("load sensed at the tip");
     unsensed_.report("load by the joints");
     std::printf("K right only because the load's lag is told: %llu\n", number(saved_));
-    std::printf("K wrong only by what has happened since their motors were sampled: %llu\n", number(since_sampled_));
+    std::printf("K wrong only by what has happened since their motors were sampled: %llu; or a tick before, when the "
+                "motors had not yet moved: %llu\n",
+                number(since_sampled_), number(not_moved_));
     std::printf("an open gap was told after %u ticks at most\n", gap_told_ticks_);
     std::printf("wrong K %llu, gaps denied %llu, wrong answers %llu, late in the calm %llu, not back %llu, "
                 "counted in the calm %llu, watchdog resets %u\n",
