@@ -474,6 +474,82 @@ static void test_drives_are_told_no_more_than_the_board_allows(void)
     }
 }
 
+/* Slower than a take-up's own pace, so that the drives are behind what the take-up asks for. */
+static const brace_hal_ceiling_t slow_ceiling[3] = {{900.0f, -2.5f, 3.2f, 0.02f}, {900.0f, -2.5f, 3.2f, 0.02f},
+                                                    {900.0f, -2.5f, 3.2f, 0.02f}};
+
+static void goes_on_within_the_slow_ceiling(int count)
+{
+    float last_rad = offset_rad(BRACE_FEMUR);
+    for (int i = 0; i < count; i++) {
+        pass(1);
+        TEST_ASSERT_TRUE(fabsf(offset_rad(BRACE_FEMUR) - last_rad) <= 0.02f * 1e-3f * 1.001f);
+        last_rad = offset_rad(BRACE_FEMUR);
+    }
+}
+
+/* The way back is the firmware's, too, to its end. */
+static void test_the_way_back_is_no_faster_than_the_board_allows(void)
+{
+    uint8_t data[8];
+    fake.hal.ceiling = slow_ceiling;
+    begin_to_move();
+    goes_on_within_the_slow_ceiling(200);
+    const float reached_rad = offset_rad(BRACE_FEMUR);
+    TEST_ASSERT_TRUE(reached_rad > 0.003f);
+    make_let_go(data);
+    accepted_command(data);
+    TEST_ASSERT_TRUE(reached_rad - offset_rad(BRACE_FEMUR) < 5.0f * 0.02f * 1e-3f);
+    goes_on_within_the_slow_ceiling(1000);
+    TEST_ASSERT_EQUAL_FLOAT(0.0f, offset_rad(BRACE_FEMUR));
+    TEST_ASSERT_TRUE(isinf(fake.joint[BRACE_FEMUR].command.torque_limit_n_mm));
+}
+
+/* Whoever stops the limb stops it where it is, not where the take-up wanted it. */
+static void test_a_drive_that_is_behind_stands_too(void)
+{
+    uint8_t data[8];
+    for (int which = 0; which < 2; which++) {
+        start_limb(false, NULL);
+        fake.hal.ceiling = slow_ceiling;
+        begin_to_move();
+        goes_on_within_the_slow_ceiling(50);
+        if (which == 0) {
+            operator_lives = false; /* 130 ms, and the last sign of life may be 40 ms old */
+            goes_on_within_the_slow_ceiling(140);
+        } else {
+            make_write(COMMAND_ENTRY(stop), 0, 0, data);
+            says_as(other_token, data);
+            pass(2);
+        }
+        const float stopped_rad = offset_rad(BRACE_FEMUR);
+        for (int i = 0; i < 500; i++) {
+            pass(1);
+            TEST_ASSERT_EQUAL_FLOAT(stopped_rad, offset_rad(BRACE_FEMUR));
+        }
+    }
+}
+
+/* A bit of RAM flips while play is held: the set is made anew, the take-up with it, and the limb goes back at its pace. */
+static void test_a_flipped_bit_makes_no_jump(void)
+{
+    uint8_t data[8];
+    hold_the_femur();
+    const float held_rad = offset_rad(BRACE_FEMUR);
+    app.controller.parameters.in_force.limb.femur_mm += 8.0f;
+    float last_rad = held_rad;
+    for (int i = 0; i < 1000; i++) {
+        pass(1);
+        TEST_ASSERT_TRUE(fabsf(offset_rad(BRACE_FEMUR) - last_rad) <= 1.001e-4f);
+        last_rad = offset_rad(BRACE_FEMUR);
+    }
+    TEST_ASSERT_TRUE(held_rad > 0.005f);
+    TEST_ASSERT_EQUAL_FLOAT(0.0f, last_rad);
+    TEST_ASSERT_EQUAL(BRACE_MODE_MONITOR, now()->mode);
+    make_set_mode(BRACE_MODE_CONFIGURATION, data);
+    accepted_command(data);
+}
+
 static void test_every_heartbeat_and_answer_says_bench(void)
 {
     uint8_t data[8];
@@ -509,6 +585,9 @@ int main(void)
     RUN_TEST(test_seventy_commits_erase_once);
     RUN_TEST(test_no_parameter_passes_the_board_s_ceilings);
     RUN_TEST(test_drives_are_told_no_more_than_the_board_allows);
+    RUN_TEST(test_the_way_back_is_no_faster_than_the_board_allows);
+    RUN_TEST(test_a_drive_that_is_behind_stands_too);
+    RUN_TEST(test_a_flipped_bit_makes_no_jump);
     RUN_TEST(test_every_heartbeat_and_answer_says_bench);
     return UNITY_END();
 }

@@ -194,7 +194,7 @@ static void step_ownership(brace_app_t *app)
     controller_t *controller = &app->controller;
     ownership_t *ownership = &controller->ownership;
     const brace_hal_t *hal = controller->hal;
-    const bool tests = loading_runs(&controller->loading), takes_up = takeup_runs(&controller->takeup);
+    const bool tests = loading_runs(&controller->loading), takes_up = controller_takes_up(controller);
     parameter_job_age(&controller->parameters, controller->since_us);
     if (!tests && !takes_up && ownership_is_idle(ownership)) {
         return;
@@ -474,7 +474,7 @@ static void update_mode(controller_t *controller)
     const mode_inputs_t inputs = {.joints_are_sound = joints_plane_is_sound(&controller->joints),
                                   .faults = controller->faults.now,
                                   .tests = loading_runs(&controller->loading),
-                                  .takes_up = takeup_runs(&controller->takeup),
+                                  .takes_up = controller_takes_up(controller),
                                   .tick_us = controller->parameters.in_force.controller.tick_us};
     if (mode_update(&controller->mode, &inputs)) {
         loading_end(&controller->loading, BRACE_LOADING_E_LOST);
@@ -485,13 +485,15 @@ static void update_mode(controller_t *controller)
 static void command_drives(controller_t *controller)
 {
     drives_test_t test = {.runs = loading_runs(&controller->loading)};
+    /* A set that is made anew makes its take-ups anew, too: they know nothing of what the drives were told. */
+    const bool stands = controller->ownership.is_held || controller->parameters.comes_in_force;
     for (int i = 0; i < BRACE_LINK_COUNT && test.runs; i++) {
         test.offset_rad[i] = loading_offset_rad(&controller->loading, i);
         test.torque_limit_n_mm[i] = loading_torque_limit_n_mm(&controller->loading, i);
     }
     drives_command(&controller->drives, controller->hal, &controller->joints, &controller->flank,
-                   takeup_runs(&controller->takeup), &test, controller->parameters.in_force.controller.tick_us,
-                   &controller->counters.commands_failed);
+                   takeup_runs(&controller->takeup), &test, stands,
+                   controller->parameters.in_force.controller.tick_us, &controller->counters.commands_failed);
 }
 
 /* The snapshot is complete: it is the newest from here on. */

@@ -82,6 +82,12 @@ static inline const controller_t *controller_in(const struct brace_app *app)
 /* Is the connection of that master closed? */
 bool controller_has_hung_up(const controller_t *controller, brace_who_t who);
 
+/* Does a take-up add to the set-points, or what is left of one? */
+static inline bool controller_takes_up(const controller_t *controller)
+{
+    return takeup_runs(&controller->takeup) || controller->drives.is_going_back;
+}
+
 /* Takes back what was asked for and has not begun to move the limb. */
 static inline void controller_forget(controller_t *controller)
 {

@@ -98,7 +98,7 @@ brace_status_t brace_app_stop(brace_app_t *app)
         return BRACE_E_NULL;
     }
     controller_t *controller = controller_of(app);
-    if (!takeup_runs(&controller->takeup) && !loading_runs(&controller->loading)) {
+    if (!controller_takes_up(controller) && !loading_runs(&controller->loading)) {
         return BRACE_E_MODE;
     }
     if (ownership_stop(&controller->ownership)) {

@@ -178,7 +178,7 @@ brace_status_t brace_app_configuration_enter(brace_app_t *app)
         parameter_job_keep_open(&controller->parameters);
         return BRACE_OK;
     }
-    const bool moves = takeup_runs(&controller->takeup) || loading_runs(&controller->loading);
+    const bool moves = controller_takes_up(controller) || loading_runs(&controller->loading);
     if (moves || (mode != BRACE_MODE_MONITOR && mode != BRACE_MODE_FAULT)) {
         return BRACE_E_MODE;
     }

@@ -3,6 +3,7 @@
 #include <stddef.h>
 
 #define REFUSED_US 50000u /* a drive that starts anew may refuse for a while */
+#define BACK_RAD_PER_S 0.1f /* what a drive is behind is made up for as slowly as a drive's own way back: brace_hal.h */
 
 static brace_hal_joint_command_t command_of(const flank_joint_t *flank, const drives_test_t *test, int index)
 {
@@ -18,18 +19,26 @@ static brace_hal_joint_command_t command_of(const flank_joint_t *flank, const dr
     return command;
 }
 
-/* Within what the board allows, whatever the parameters say. */
-static void limit(const drives_t *drives, const brace_hal_ceiling_t *ceiling, uint32_t tick_us, int index,
-                  brace_hal_joint_command_t *command)
+/* How far a set-point may go in this tick [rad]. */
+static float way_rad(const brace_hal_ceiling_t *ceiling, bool is_behind, uint32_t tick_us)
 {
-    const float way_rad = ceiling[index].speed_most_rad_per_s * 1e-6f * (float)tick_us;
-    const float before_rad = drives->told_rad[index], offset_rad = command->offset_rad;
-    command->offset_rad = offset_rad > before_rad + way_rad   ? before_rad + way_rad
-                          : offset_rad < before_rad - way_rad ? before_rad - way_rad
-                                                              : offset_rad;
-    if (command->torque_limit_n_mm > ceiling[index].torque_most_n_mm) {
-        command->torque_limit_n_mm = ceiling[index].torque_most_n_mm;
+    const float own_rad_per_s = is_behind ? BACK_RAD_PER_S : __builtin_inff();
+    const float most_rad_per_s =
+        ceiling != NULL && ceiling->speed_most_rad_per_s < own_rad_per_s ? ceiling->speed_most_rad_per_s : own_rad_per_s;
+    return most_rad_per_s * 1e-6f * (float)tick_us;
+}
+
+/* Within what the board allows, whatever the parameters say. returns whether the drive is told what is asked for */
+static bool limit(const brace_hal_ceiling_t *ceiling, float before_rad, float way, brace_hal_joint_command_t *command)
+{
+    const float asked_rad = command->offset_rad;
+    command->offset_rad = asked_rad > before_rad + way   ? before_rad + way
+                          : asked_rad < before_rad - way ? before_rad - way
+                                                         : asked_rad;
+    if (ceiling != NULL && command->torque_limit_n_mm > ceiling->torque_most_n_mm) {
+        command->torque_limit_n_mm = ceiling->torque_most_n_mm;
     }
+    return command->offset_rad == asked_rad;
 }
 
 void drives_start(drives_t *drives)
@@ -41,29 +50,40 @@ void drives_start(drives_t *drives)
 }
 
 void drives_command(drives_t *drives, const brace_hal_t *hal, const joints_t *joints, const flank_t *flank,
-                    bool takes_up, const drives_test_t *test, uint32_t tick_us, uint32_t *commands_failed)
+                    bool takes_up, const drives_test_t *test, bool stands, uint32_t tick_us, uint32_t *commands_failed)
 {
     const bool moves = takes_up || test->runs;
-    bool refuse = false;
+    bool refuse = false, is_back = true;
     if (hal->joint_command == NULL || !(moves || drives->are_commanded)) {
         drives->refused_us = 0;
         return;
     }
     for (int i = 0; i < BRACE_LINK_COUNT; i++) {
         if (joints->joint[i].fitted) {
+            const brace_hal_ceiling_t *ceiling = hal->ceiling != NULL ? &hal->ceiling[i] : NULL;
             brace_hal_joint_command_t command = command_of(&flank->joint[i], test, i);
-            if (hal->ceiling != NULL && moves) {
-                limit(drives, hal->ceiling, tick_us, i, &command);
+            const float asked_rad = command.offset_rad;
+            const float way = stands ? 0.0f : way_rad(ceiling, !moves || drives->is_behind[i], tick_us);
+            const bool is_there = limit(ceiling, drives->told_rad[i], way, &command);
+            if (!moves && is_there) {
+                command.torque_limit_n_mm = __builtin_inff(); /* nothing is added: the drive's own limit holds again */
             }
-            drives->told_rad[i] = command.offset_rad;
-            drives->limit_n_mm[i] = command.torque_limit_n_mm;
-            if (hal->joint_command(hal->context, i, &command) != BRACE_HAL_OK) {
+            const bool is_told = hal->joint_command(hal->context, i, &command) == BRACE_HAL_OK;
+            if (is_told) {
+                drives->told_rad[i] = command.offset_rad;
+                drives->limit_n_mm[i] = command.torque_limit_n_mm;
+                is_back = is_back && is_there;
+            } else { /* it holds what it was told before, and goes back by itself when nobody tells it anything */
                 brace_count(commands_failed);
+                drives->told_rad[i] = moves ? drives->told_rad[i] : 0.0f;
                 refuse = true;
             }
+            drives->is_behind[i] =
+                drives->told_rad[i] != asked_rad && (stands || !is_told || drives->is_behind[i]);
         }
     }
-    drives->are_commanded = moves;
+    drives->is_going_back = !moves && !is_back;
+    drives->are_commanded = moves || drives->is_going_back;
     drives->refused_us = refuse ? drives->refused_us + tick_us : 0u;
 }
 

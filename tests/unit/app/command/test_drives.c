@@ -17,6 +17,7 @@ static brace_hal_t hal;
 static brace_hal_joint_command_t told[BRACE_LINK_COUNT];
 static uint32_t calls[BRACE_LINK_COUNT], failed;
 static int32_t answer;
+static bool stands;
 
 static int32_t command(void *context, int32_t joint_index, const brace_hal_joint_command_t *wanted)
 {
@@ -36,6 +37,7 @@ void setUp(void)
     joints.joint[BRACE_FEMUR].fitted = joints.joint[BRACE_TIBIA].fitted = true;
     failed = 0;
     answer = BRACE_HAL_OK;
+    stands = false;
     drives_start(&drives);
 }
 
@@ -43,7 +45,7 @@ void tearDown(void) {}
 
 static void tick(bool takes_up)
 {
-    drives_command(&drives, &hal, &joints, &flank, takes_up, &test, TICK_US, &failed);
+    drives_command(&drives, &hal, &joints, &flank, takes_up, &test, stands, TICK_US, &failed);
 }
 
 static void test_nothing_is_told_until_something_moves_and_all_is_taken_back(void)
@@ -62,11 +64,60 @@ static void test_nothing_is_told_until_something_moves_and_all_is_taken_back(voi
     TEST_ASSERT_EQUAL_FLOAT(0.01f, drives.told_rad[BRACE_FEMUR]);
     TEST_ASSERT_TRUE(isinf(told[BRACE_FEMUR].torque_limit_n_mm) && isinf(drives.limit_n_mm[BRACE_FEMUR]));
     flank.joint[BRACE_FEMUR].out.command_rad = 0.0f;
+    tick(true);
     tick(false); /* once more */
-    TEST_ASSERT_EQUAL(2, calls[BRACE_FEMUR]);
+    TEST_ASSERT_EQUAL(3, calls[BRACE_FEMUR]);
     TEST_ASSERT_EQUAL_FLOAT(0.0f, told[BRACE_FEMUR].offset_rad);
+    TEST_ASSERT_FALSE(drives.is_going_back);
     tick(false);
-    TEST_ASSERT_EQUAL(2, calls[BRACE_FEMUR]);
+    TEST_ASSERT_EQUAL(3, calls[BRACE_FEMUR]);
+}
+
+/* What a fault has left over goes back at 0.1 rad/s, as a drive's own command does that nobody repeats. */
+static void test_what_is_left_over_goes_back_slowly(void)
+{
+    flank.joint[BRACE_FEMUR].out.command_rad = 0.01f;
+    flank.joint[BRACE_TIBIA].out.command_rad = -0.01f;
+    tick(true);
+    flank.joint[BRACE_FEMUR].out.command_rad = flank.joint[BRACE_TIBIA].out.command_rad = 0.0f;
+    for (int i = 1; i <= 100; i++) { /* 0.1 mrad a tick */
+        TEST_ASSERT_EQUAL(i > 1, drives.is_going_back);
+        tick(false);
+        const float left_rad = 0.01f - 0.0001f * (float)i;
+        TEST_ASSERT_FLOAT_WITHIN(1e-6f, left_rad, told[BRACE_FEMUR].offset_rad);
+        TEST_ASSERT_FLOAT_WITHIN(1e-6f, -left_rad, told[BRACE_TIBIA].offset_rad);
+        if (i == 50) {
+            stands = true;
+            tick(false);
+            TEST_ASSERT_FLOAT_WITHIN(1e-6f, left_rad, told[BRACE_FEMUR].offset_rad);
+            stands = false;
+        }
+    }
+    tick(false);
+    const uint32_t all = calls[BRACE_FEMUR];
+    tick(false);
+    TEST_ASSERT_EQUAL_FLOAT(0.0f, told[BRACE_FEMUR].offset_rad);
+    TEST_ASSERT_FALSE(drives.is_going_back);
+    TEST_ASSERT_TRUE(calls[BRACE_FEMUR] <= all + 1u);
+}
+
+/* Nor does a drive that refuses hear what it is told: it holds what it was told last. */
+static void test_a_drive_that_refuses_was_not_told(void)
+{
+    flank.joint[BRACE_TIBIA].out.command_rad = 0.01f;
+    tick(true);
+    answer = BRACE_HAL_E_DEVICE;
+    flank.joint[BRACE_TIBIA].out.command_rad = 0.002f;
+    tick(true);
+    TEST_ASSERT_EQUAL_FLOAT(0.01f, drives.told_rad[BRACE_TIBIA]);
+    answer = BRACE_HAL_OK; /* it is back, and does not jump to what has been asked for meanwhile */
+    tick(true);
+    TEST_ASSERT_EQUAL_FLOAT(0.0099f, told[BRACE_TIBIA].offset_rad);
+    answer = BRACE_HAL_E_DEVICE;
+    flank.joint[BRACE_TIBIA].out.command_rad = 0.0f;
+    tick(false); /* nobody tells it anything any more: it goes back by itself */
+    TEST_ASSERT_FALSE(drives.is_going_back);
+    TEST_ASSERT_EQUAL_FLOAT(0.0f, drives.told_rad[BRACE_TIBIA]);
 }
 
 static void test_a_take_up_and_a_test_add_up_within_the_smaller_torque(void)
@@ -126,13 +177,46 @@ static void test_the_board_s_ceiling_bounds_speed_and_torque_both_ways(void)
         }
         TEST_ASSERT_EQUAL_FLOAT(0.0f, told[BRACE_FEMUR].offset_rad);
     }
-    /* what is taken back is taken back at once: nothing moves the limb then but its own drive */
+    /* what is left goes back within the ceiling, too; only then the drive's own limit holds again */
+    ceiling[BRACE_FEMUR].speed_most_rad_per_s = 0.05f;
     test.offset_rad[BRACE_FEMUR] = 0.002f;
-    tick(false);
+    for (int i = 0; i < 50; i++) {
+        tick(false);
+    }
     test.runs = false;
+    for (int i = 1; i < 40; i++) {
+        tick(false);
+        TEST_ASSERT_FLOAT_WITHIN(1e-6f, 0.002f - 0.00005f * (float)i, told[BRACE_FEMUR].offset_rad);
+        TEST_ASSERT_EQUAL_FLOAT(5000.0f, told[BRACE_FEMUR].torque_limit_n_mm);
+    }
+    tick(false);
     tick(false);
     TEST_ASSERT_EQUAL_FLOAT(0.0f, told[BRACE_FEMUR].offset_rad);
     TEST_ASSERT_TRUE(isinf(told[BRACE_FEMUR].torque_limit_n_mm));
+}
+
+static void test_a_set_point_that_is_behind_stands_where_it_is(void)
+{
+    brace_hal_ceiling_t ceiling[BRACE_LINK_COUNT];
+    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
+        ceiling[i] = (brace_hal_ceiling_t){.torque_most_n_mm = 5000.0f, .speed_most_rad_per_s = 2.0f};
+    }
+    hal.ceiling = ceiling;
+    flank.joint[BRACE_FEMUR].out.command_rad = 0.01f;
+    tick(true);
+    stands = true;
+    tick(true);
+    TEST_ASSERT_EQUAL_FLOAT(0.002f, told[BRACE_FEMUR].offset_rad);
+    stands = false;
+    tick(true); /* no jump: 0.1 rad/s, until it is there */
+    TEST_ASSERT_EQUAL_FLOAT(0.0021f, told[BRACE_FEMUR].offset_rad);
+    for (int i = 0; i < 80; i++) {
+        tick(true);
+    }
+    TEST_ASSERT_EQUAL_FLOAT(0.01f, told[BRACE_FEMUR].offset_rad);
+    flank.joint[BRACE_FEMUR].out.command_rad = 0.02f;
+    tick(true);
+    TEST_ASSERT_EQUAL_FLOAT(0.012f, told[BRACE_FEMUR].offset_rad);
 }
 
 static void test_a_drive_that_refuses_for_50_ms_is_told(void)
@@ -176,8 +260,11 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_nothing_is_told_until_something_moves_and_all_is_taken_back);
+    RUN_TEST(test_what_is_left_over_goes_back_slowly);
+    RUN_TEST(test_a_drive_that_refuses_was_not_told);
     RUN_TEST(test_a_take_up_and_a_test_add_up_within_the_smaller_torque);
     RUN_TEST(test_the_board_s_ceiling_bounds_speed_and_torque_both_ways);
+    RUN_TEST(test_a_set_point_that_is_behind_stands_where_it_is);
     RUN_TEST(test_a_drive_that_refuses_for_50_ms_is_told);
     RUN_TEST(test_a_board_without_commands_is_told_nothing);
     return UNITY_END();
