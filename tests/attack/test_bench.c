@@ -530,7 +530,7 @@ static void test_a_drive_that_is_behind_stands_too(void)
     }
 }
 
-/* A bit of RAM flips while play is held: the set is made anew, the take-up with it, and the limb goes back at its pace. */
+/* A bit of RAM flips while play is held: the set is made anew, the take-up with it; the limb goes back at its pace. */
 static void test_a_flipped_bit_makes_no_jump(void)
 {
     uint8_t data[8];

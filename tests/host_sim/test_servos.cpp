@@ -463,6 +463,84 @@ void test_offsets_and_torque_limits_reach_the_servos_and_fade()
     TEST_ASSERT_DOUBLE_WITHIN(1e-9, before_rad, goal_rad);
 }
 
+// Silent servos stand at the goal that they have. When they are back, what was added to it goes back from there.
+void test_an_offset_fades_from_where_it_was_when_a_servo_is_back()
+{
+    for (const bool is_alone : {true, false}) { // the others go on; or the whole line was dead
+        Bench bench;
+        bench.turns_rad_per_s = 0.0;
+        bench.be_ready();
+        double before_rad = 0, goal_rad = 0, last_rad = 0, most_a = 0;
+        TEST_ASSERT_EQUAL(1, brace_servos_goal(bench.servos.get(), kFemur, &before_rad, &most_a));
+        const brace_hal_joint_command_t command = {0.05f, INFINITY};
+        const auto tell = [&] {
+            TEST_ASSERT_EQUAL(BRACE_HAL_OK, brace_dynamixel_command(&bench.driver, kFemur, &command));
+        };
+        bench.run(0.1, tell);
+        const auto plug = [&](int is_in) {
+            for (int i = 0; i < 3; ++i) {
+                if (i == kFemur || !is_alone) {
+                    brace_servos_plug(bench.servos.get(), i, is_in);
+                }
+            }
+        };
+        plug(0);
+        bench.run(2.0);
+        TEST_ASSERT_EQUAL(1, brace_servos_goal(bench.servos.get(), kFemur, &last_rad, &most_a));
+        TEST_ASSERT_DOUBLE_WITHIN(1 / kCountsPerRad, before_rad + 0.05, last_rad);
+        plug(1);
+        for (int i = 0; i < 70; ++i) {
+            bench.run(0.01);
+            TEST_ASSERT_EQUAL(1, brace_servos_goal(bench.servos.get(), kFemur, &goal_rad, &most_a));
+            TEST_ASSERT_TRUE(goal_rad <= last_rad && last_rad - goal_rad < 0.1 * 0.01 + 2 / kCountsPerRad);
+            last_rad = goal_rad;
+        }
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9, before_rad, goal_rad);
+    }
+}
+
+void test_a_goal_that_the_line_did_not_take_is_sent_again_at_once()
+{
+    Bench bench;
+    bench.turns_rad_per_s = 0.0;
+    bench.be_ready();
+    double before_rad = 0, goal_rad = 0, most_a = 0;
+    TEST_ASSERT_EQUAL(1, brace_servos_goal(bench.servos.get(), kFemur, &before_rad, &most_a));
+    const brace_hal_joint_command_t command = {0.05f, 500.0f};
+    for (int i = 0; i < 15; ++i) { // 25 ms: each time within the 20 ms after which all goals are sent again
+        TEST_ASSERT_EQUAL(BRACE_HAL_OK, brace_dynamixel_command(&bench.driver, kFemur, &command));
+        bench.is_deaf = true;
+        bench.run(0.002);
+        bench.is_deaf = false;
+        bench.run(0.002);
+        TEST_ASSERT_EQUAL(1, brace_servos_goal(bench.servos.get(), kFemur, &goal_rad, &most_a));
+        TEST_ASSERT_DOUBLE_WITHIN(1 / kCountsPerRad, before_rad + 0.05, goal_rad);
+        TEST_ASSERT_DOUBLE_WITHIN(2.7e-3, 500.0 / 2409, most_a);
+        const brace_hal_joint_command_t none = {0.0f, INFINITY};
+        TEST_ASSERT_EQUAL(BRACE_HAL_OK, brace_dynamixel_command(&bench.driver, kFemur, &none));
+        bench.run(0.025);
+    }
+}
+
+// Where a servo stands is read once, and it is told to stand there from then on: damage there would send it elsewhere.
+void test_no_burst_that_the_crc_misses_sends_a_servo_elsewhere()
+{
+    constexpr std::size_t kPlace = 9 + 4 + 2;
+    for (const auto &burst : missed_bursts(kPlace)) {
+        Bench bench;
+        bench.turns_rad_per_s = 0.0;
+        bench.serve_us = kTick_us;
+        bench.flips = burst;
+        bench.be_ready();
+        TEST_ASSERT_TRUE(bench.flips.empty());
+        for (int i = 0; i < 3; ++i) {
+            double goal_rad = 0, most_a = 0;
+            TEST_ASSERT_EQUAL(1, brace_servos_goal(bench.servos.get(), i, &goal_rad, &most_a));
+            TEST_ASSERT_DOUBLE_WITHIN(1 / kCountsPerRad, bench.turned_rad(i, 0), goal_rad);
+        }
+    }
+}
+
 void test_commands_that_make_no_sense_are_refused()
 {
     Bench bench;
@@ -526,6 +604,9 @@ int main()
     RUN_TEST(test_foreign_servos_are_refused);
     RUN_TEST(test_a_line_that_takes_nothing_is_told);
     RUN_TEST(test_offsets_and_torque_limits_reach_the_servos_and_fade);
+    RUN_TEST(test_an_offset_fades_from_where_it_was_when_a_servo_is_back);
+    RUN_TEST(test_a_goal_that_the_line_did_not_take_is_sent_again_at_once);
+    RUN_TEST(test_no_burst_that_the_crc_misses_sends_a_servo_elsewhere);
     RUN_TEST(test_commands_that_make_no_sense_are_refused);
     RUN_TEST(test_a_servo_that_holds_goes_on_holding_when_the_controller_starts_anew);
     RUN_TEST(test_nobody_is_told_to_hold_who_shall_not);

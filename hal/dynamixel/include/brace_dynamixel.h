@@ -90,6 +90,7 @@ typedef struct {
     uint8_t misses;             /* in a row */
     bool is_new, state_is_due, temperature_is_next;
     bool has_sample, has_wild, has_goal;
+    bool has_place;             /* base is where the servo has said that it stands, once */
     brace_servo_raw_t sample, wild;
     uint32_t asked_us;          /* when it was last asked while silent */
     float torque_per_count_n_mm;

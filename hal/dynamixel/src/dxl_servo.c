@@ -153,9 +153,23 @@ static void take_state(brace_servo_t *servo, bool holds, const uint8_t *data)
     if (needs_place) {
         servo->report.state = BRACE_SERVO_STARTING;
         servo->step = DXL_STEP_READ_PLACE;
+        servo->has_place = false;
     } else {
         servo->report.state = BRACE_SERVO_READY;
         servo->step = DXL_STEP_READ_STATE_AGAIN;
+    }
+}
+
+/* Where the servo has to stand from now on. As a sample that jumps, it is believed when the next answer agrees. */
+static void take_place(brace_servo_t *servo, int32_t place)
+{
+    const bool is_believed = servo->has_place && distance(place, servo->base) <= POSITION_JUMP;
+    servo->base = servo->goal_sent = place;
+    servo->has_place = true;
+    if (is_believed) {
+        servo->has_goal = true;
+        servo->offset_rad = 0.0f;
+        servo->step = servo->report.has_torque ? DXL_STEP_READ_STATE : DXL_STEP_WRITE_PLACE;
     }
 }
 
@@ -175,10 +189,7 @@ void dxl_servo_take(brace_servo_t *servo, const brace_servo_joint_t *joint, bool
         servo->temperature_is_next = true;
         break;
     case DXL_STEP_READ_PLACE:
-        servo->base = servo->goal_sent = signed32(data);
-        servo->has_goal = true;
-        servo->offset_rad = 0.0f;
-        servo->step = servo->report.has_torque ? DXL_STEP_READ_STATE : DXL_STEP_WRITE_PLACE;
+        take_place(servo, signed32(data));
         break;
     case DXL_STEP_WRITE_PLACE:
         servo->step = DXL_STEP_WRITE_TORQUE;

@@ -173,17 +173,16 @@ static void add_goals(brace_dynamixel_t *driver, bool is_current)
     (void)dxl_end(&driver->out);
 }
 
-/* Goals leave when they change, and now and then, because nobody answers them. */
-static void add_due_goals(brace_dynamixel_t *driver)
+/* Goals leave when they change, and now and then, because nobody answers them. A servo that cannot be told stands at
+ * the goal that it has, so its offset stays, too. */
+static void add_due_goals(brace_dynamixel_t *driver, uint32_t passed_us)
 {
     bool position_is_due = false, current_is_due = false;
-    const uint32_t passed_us = driver->now_us - driver->faded_us;
     const bool is_refresh = driver->now_us - driver->refreshed_us >= REFRESH_US;
-    driver->faded_us = driver->now_us;
     for (uint32_t i = 0; i < BRACE_SERVO_JOINTS; i++) {
         brace_servo_t *servo = &driver->servo[i];
-        dxl_servo_fade(servo, driver->now_us, passed_us);
         if (servo->report.state == BRACE_SERVO_READY && servo->has_goal) {
+            dxl_servo_fade(servo, driver->now_us, passed_us);
             const bool has_current = servo->report.operating_mode == DXL_MODE_CURRENT_POSITION;
             const int32_t goal = dxl_servo_goal(servo, &driver->setup.joint[i]);
             const uint16_t current = dxl_servo_current(servo);
@@ -205,6 +204,8 @@ static void add_due_goals(brace_dynamixel_t *driver)
 
 static bool ask_samples(brace_dynamixel_t *driver)
 {
+    const uint32_t passed_us = driver->now_us - driver->faded_us;
+    driver->faded_us = driver->now_us;
     driver->listed_count = 0;
     driver->asked = 0;
     for (uint32_t i = 0; i < BRACE_SERVO_JOINTS; i++) {
@@ -216,7 +217,7 @@ static bool ask_samples(brace_dynamixel_t *driver)
     if (driver->listed_count == 0u) {
         return false;
     }
-    add_due_goals(driver);
+    add_due_goals(driver, passed_us);
     dxl_begin(&driver->out, DXL_ID_ALL, driver->is_plain ? DXL_SYNC_READ : DXL_FAST_SYNC_READ);
     dxl_add(&driver->out, DXL_AT_PRESENT, 2);
     dxl_add(&driver->out, DXL_PRESENT_BYTES, 2);
@@ -312,6 +313,7 @@ void brace_dynamixel_serve(brace_dynamixel_t *driver, uint32_t now_us)
             dxl_count(&driver->counters.line_busy);
             driver->pending = NOTHING;
             driver->asked = 0;
+            driver->refreshed_us = now_us - REFRESH_US; /* goals that were in it have not left */
         } else {
             dxl_count(&driver->counters.requests);
         }

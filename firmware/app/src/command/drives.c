@@ -22,9 +22,8 @@ static brace_hal_joint_command_t command_of(const flank_joint_t *flank, const dr
 /* How far a set-point may go in this tick [rad]. */
 static float way_rad(const brace_hal_ceiling_t *ceiling, bool is_behind, uint32_t tick_us)
 {
-    const float own_rad_per_s = is_behind ? BACK_RAD_PER_S : __builtin_inff();
-    const float most_rad_per_s =
-        ceiling != NULL && ceiling->speed_most_rad_per_s < own_rad_per_s ? ceiling->speed_most_rad_per_s : own_rad_per_s;
+    const float board_rad_per_s = ceiling != NULL ? ceiling->speed_most_rad_per_s : __builtin_inff();
+    const float most_rad_per_s = is_behind && BACK_RAD_PER_S < board_rad_per_s ? BACK_RAD_PER_S : board_rad_per_s;
     return most_rad_per_s * 1e-6f * (float)tick_us;
 }
 
