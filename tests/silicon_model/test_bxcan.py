@@ -299,6 +299,29 @@ def test_alone_on_the_bus_is_error_passive_and_never_bus_off(silicon: Maker) -> 
     assert (tx_errors, passive, off) == (128, True, False)
 
 
+@pytest.mark.parametrize("waiting", [1, 3])
+def test_what_nobody_took_is_not_told_later(silicon: Maker, waiting: int) -> None:
+    """A K that has waited for somebody to come onto the bus carries the age that it had when it was sent."""
+    chip = joined(silicon)
+    chip.bus.answers = False
+    for i in range(waiting):
+        assert send(chip, Frame(0x180 + i, b"old")) == OK
+    for _ in range(9):  # as long as a busy bus may take
+        chip.chip.wait_us(10_000)
+        health(chip)
+    chip.chip.wait_us(5_000)
+    assert sum(box.pending for box in chip.can.mailboxes) == waiting
+    for _ in range(3):
+        chip.chip.wait_us(10_000)
+        health(chip)
+    chip.bus.answers = True
+    chip.chip.wait_us(5_000)
+    assert chip.bus.seen == []
+    assert send(chip, Frame(0x181, b"new")) == OK
+    chip.chip.wait_us(5_000)
+    assert chip.bus.seen == [Frame(0x181, b"new")]
+
+
 def drive_off(chip: Silicon) -> None:
     chip.bus.spoils = True
     for i in range(3):

@@ -13,6 +13,7 @@
 #define TOLD_MOST 3u /* a tick in which the wires have done more (wire/wire.h) has no room for a job's step */
 #define STEPS_IN_A_QUIET_TICK 2u
 #define LISTENED_US 20000u /* a tick that comes later has not listened meanwhile, and has not moved the limb either */
+#define OLDEST_US 0x40000000 /* 18 minutes: no sample counts as older, or the clock would go round and make it young */
 #define LATE_PERIODS 3u /* a tick that comes more than three periods after the one before is more than two late */
 
 /* -------------------------------------------------------------------------------------------- start -- */
@@ -220,6 +221,15 @@ static void step_ownership(brace_app_t *app)
     case OWNERSHIP_LETS_GO: (void)brace_app_let_go(app); break;
     default: break;
     }
+}
+
+/* When the samples were taken. What was old in the tick before stays old until there is a sound sample again. */
+static uint32_t taken_us(const controller_t *controller)
+{
+    const uint32_t now_us = controller->now_us, oldest_us = joints_taken_us(&controller->joints);
+    const uint32_t before_us = controller->snapshot[controller->newest].taken_us;
+    const bool was_old = (int32_t)(now_us - before_us) >= OLDEST_US && !controller->joints.joint[BRACE_FEMUR].sound;
+    return was_old || (int32_t)(now_us - oldest_us) > OLDEST_US ? now_us - (uint32_t)OLDEST_US : oldest_us;
 }
 
 /* Angles as the joints tell them, and levers as far as the load is known from the tick before. */
@@ -525,7 +535,7 @@ void brace_app_tick(brace_app_t *app, uint32_t now_us)
     /* Sense. */
     joints_read(&controller->joints, hal, parameters, now_us, &controller->counters.samples_bad);
     tip_force_read(&controller->tip_force, hal, parameters);
-    snapshot->taken_us = joints_taken_us(&controller->joints);
+    snapshot->taken_us = taken_us(controller);
     snapshot->temp_degc = joints_warmest_degc(&controller->joints);
     part_is_done(controller, PART_SENSED);
 

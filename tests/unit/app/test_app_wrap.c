@@ -129,9 +129,37 @@ static void test_nothing_depends_on_where_the_clock_stands(void)
     }
 }
 
+static uint32_t age_told_us(void)
+{
+    return app.wires.measured.age_us;
+}
+
+/* A joint that has fallen silent: its sample grows old and stays old, also when the clock has gone round once and more. */
+static void test_a_sample_that_is_old_stays_old(void)
+{
+    const brace_parameters_t p = bench_parameters();
+    bench_start(&p);
+    ticks(100);
+    TEST_ASSERT_TRUE(age_told_us() <= TICK_US);
+    fake.joint[BRACE_FEMUR].not_newer = true;
+    ticks(1);
+    uint32_t last_us = age_told_us();
+    for (int second = 0; second < 10000; second++) { /* 2 3/4 hours; a tick a second */
+        fake.now_us += 999000u;
+        ticks(1);
+        TEST_ASSERT_TRUE(age_told_us() >= last_us);
+        last_us = age_told_us();
+    }
+    TEST_ASSERT_TRUE(last_us > 1000000000u);
+    fake.joint[BRACE_FEMUR].not_newer = false;
+    ticks(5);
+    TEST_ASSERT_TRUE(age_told_us() <= TICK_US);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_nothing_depends_on_where_the_clock_stands);
+    RUN_TEST(test_a_sample_that_is_old_stays_old);
     return UNITY_END();
 }
