@@ -131,7 +131,8 @@ uint32_t stm32f405_sector_bytes(uint8_t sector);
  *                asked for. On a bus that is held dominant, can_health tells bus_off until the bus is free
  *   can_send     three mailboxes, first in first out whatever the identifiers, so the order is kept; AGAIN when all
  *     three
- *                are full; E_UNSUPPORTED when listening only
+ *                are full; E_UNSUPPORTED when listening only. A frame that nobody takes for 100 ms is dropped by
+ *                the next can_health
  *   can_receive  ring of 64 frames; the controller's filter rejects extended and remote frames, and other identifiers
  *   can_recover  drops the frames that wait in the mailboxes, because they are stale by then; E_DEVICE: the crystal was
  *                lost, and CAN stays off

@@ -13,10 +13,13 @@ enum {
     RELEASE_POLLS = 16,
     FIFO_FRAMES = 3,
     RING_FRAMES = 64, /* a power of two; 7 ms of a full bus at 1 Mbit/s */
-    MAILBOXES = 3
+    MAILBOXES = 3,
+    STALE_US = 100000 /* a frame that nobody has taken by then tells an age that is long over */
 };
 
 static const uint32_t mailbox_is_empty[MAILBOXES] = {CAN_TSR_TME0, CAN_TSR_TME1, CAN_TSR_TME2};
+static const uint32_t mailbox_abort[MAILBOXES] = {CAN_TSR_ABRQ0, CAN_TSR_ABRQ1, CAN_TSR_ABRQ2};
+static uint32_t asked_us[MAILBOXES]; /* when the frame in it was to be sent */
 
 /* A frame as the registers hold it. */
 typedef struct {
@@ -195,6 +198,7 @@ int32_t can_send(void *context, const brace_can_frame_t *frame)
             *can(CAN_TDL0R + at) = word(&frame->data[0]);
             *can(CAN_TDH0R + at) = word(&frame->data[4]);
             *can(CAN_TI0R + at) = FIELD(CAN_TI0R_STID, frame->id) | CAN_TI0R_TXRQ;
+            asked_us[mailbox] = clock_now_us();
             return BRACE_HAL_OK;
         }
     }
@@ -226,6 +230,17 @@ int32_t can_receive(void *context, brace_can_frame_t *frame)
     return 1;
 }
 
+/* Alone on the bus, the controller sends the same frame again and again, for hours, until somebody takes it. */
+static void drop_stale_frames(void)
+{
+    const uint32_t status = *can(CAN_TSR), now_us = clock_now_us();
+    for (uint32_t mailbox = 0; mailbox < MAILBOXES; mailbox++) {
+        if ((status & mailbox_is_empty[mailbox]) == 0u && now_us - asked_us[mailbox] > STALE_US) {
+            *can(CAN_TSR) = mailbox_abort[mailbox];
+        }
+    }
+}
+
 int32_t can_health(void *context, brace_can_health_t *health)
 {
     (void)context;
@@ -233,6 +248,7 @@ int32_t can_health(void *context, brace_can_health_t *health)
         return BRACE_HAL_E_UNSUPPORTED;
     }
     finish_recovery();
+    drop_stale_frames();
     const uint32_t errors = *can(CAN_ESR);
     health->tx_errors = (uint8_t)((errors & CAN_ESR_TEC) / FIELD(CAN_ESR_TEC, 1u));
     health->rx_errors = (uint8_t)((errors & CAN_ESR_REC) / FIELD(CAN_ESR_REC, 1u));
