@@ -42,9 +42,6 @@ static void ask_health(can_bus_t *bus, const brace_hal_t *hal)
     }
     bus->is_off = health.bus_off;
     bus->frames_lost = health.frames_lost;
-    if (!health.bus_off && health.tx_errors == 0u) {
-        bus->recover_wait_us = RECOVER_FIRST_US; /* it has sent since, so the last recovery has succeeded */
-    }
 }
 
 void can_bus_watch(can_bus_t *bus, const brace_hal_t *hal, uint32_t tick_us)
@@ -63,6 +60,10 @@ void can_bus_watch(can_bus_t *bus, const brace_hal_t *hal, uint32_t tick_us)
         ask_health(bus, hal);
     }
     bus->recover_us = bus->is_off ? bus->recover_us + tick_us : 0u;
+    bus->on_us = bus->is_off ? 0u : bus->on_us + (bus->on_us < RECOVER_MOST_US ? tick_us : 0u);
+    if (bus->on_us >= RECOVER_MOST_US) {
+        bus->recover_wait_us = RECOVER_FIRST_US; /* heartbeats have left since, so the last recovery has succeeded */
+    }
     if (bus->recover_us >= bus->recover_wait_us) {
         const bool may_double = bus->recover_wait_us < RECOVER_MOST_US / 2u;
         bus->recover_us = 0;

@@ -19,6 +19,7 @@ typedef struct {
     uint32_t health_us;       /* since its health was last asked for */
     uint32_t recover_us;      /* since it left the bus, or since recovery or set-up was last tried */
     uint32_t recover_wait_us; /* before it is tried again */
+    uint32_t on_us;           /* since it is on the bus, up to 2 s */
     uint32_t frames_lost;     /* received frames that found no room, as the controller counts them */
 } can_bus_t;
 
@@ -27,7 +28,8 @@ typedef struct {
 void can_bus_start(can_bus_t *bus, const brace_hal_t *hal, const brace_controller_t *parameters);
 
 /* Looks after health and recovery, each tick: recovery is tried after 125 ms, then after twice as long each time, at
- * most 2 s. A set-up that failed is tried again every 2 s, which may block can_setup's 1 ms. About 30 instructions. */
+ * most 2 s, until it has been on the bus for 2 s. A set-up that failed is tried again every 2 s, which may block
+ * can_setup's 1 ms. About 30 instructions. */
 void can_bus_watch(can_bus_t *bus, const brace_hal_t *hal, uint32_t tick_us);
 
 /* returns whether the frame has been taken; if not, it may be tried again at the next tick. About 30 instructions. */
