@@ -120,6 +120,21 @@ static uint32_t listen_to_bus(can_t *can, const wire_tick_t *tick)
     return done;
 }
 
+/* Answers wait for a bus that is off. A channel that has been closed is another's when it opens again, so nothing waits
+ * for it. */
+static void keep_silent(can_t *can, way_t way, const wire_tick_t *tick)
+{
+    can_port_t *port = port_of(can, way);
+    process_skip(&port->process);
+    brace_app_gone(tick->app, way == ON_BUS ? BRACE_ASKER_CAN : BRACE_ASKER_SLCAN);
+    if (way == AS_TEXT) {
+        port->requests.answers.count = 0;
+        port->requests.waits = port->requests.asked_force.is_there = false;
+        port->requests.asked_force.is_there_in_space = false;
+        announce_skip(&port->announce, tick);
+    }
+}
+
 /* The same as text. What comes meanwhile waits on its line: to read a frame from it costs as much as a short answer. */
 static uint32_t listen_to_text(can_t *can, const wire_tick_t *tick)
 {
@@ -133,7 +148,12 @@ static uint32_t listen_to_text(can_t *can, const wire_tick_t *tick)
                              answer(can, AS_TEXT, tick, requests->waiting);
         return is_late ? WIRE_K_ANSWERED : WIRE_NOTHING;
     }
-    if (!slcan_receive(&can->text, tick->hal, &frame) || !is_request(can, tick, &frame)) {
+    const bool has_come = slcan_receive(&can->text, tick->hal, &frame);
+    if (can->text.was_closed) { /* and may be open again: then the frame is the next host's */
+        can->text.was_closed = false;
+        keep_silent(can, AS_TEXT, tick);
+    }
+    if (!has_come || !is_request(can, tick, &frame)) {
         return WIRE_NOTHING;
     }
     (void)answer(can, AS_TEXT, tick, frame.data);
@@ -207,21 +227,6 @@ static uint32_t send_process_data(can_t *can, way_t way, const wire_tick_t *tick
         process_sent(process);
     }
     return most;
-}
-
-/* Answers wait for a bus that is off. A channel that has been closed is another's when it opens again, so nothing waits
- * for it. */
-static void keep_silent(can_t *can, way_t way, const wire_tick_t *tick)
-{
-    can_port_t *port = port_of(can, way);
-    process_skip(&port->process);
-    brace_app_gone(tick->app, way == ON_BUS ? BRACE_ASKER_CAN : BRACE_ASKER_SLCAN);
-    if (way == AS_TEXT) {
-        port->requests.answers.count = 0;
-        port->requests.waits = port->requests.asked_force.is_there = false;
-        port->requests.asked_force.is_there_in_space = false;
-        announce_skip(&port->announce, tick);
-    }
 }
 
 /* most: frames of process data that may leave. returns how many have left */

@@ -181,6 +181,7 @@ static bool obey_channel(slcan_t *slcan, const line_t *line)
         slcan->is_listen_only = line->text[0] == 'L';
         return true;
     case 'C':
+        slcan->was_closed = slcan->was_closed || (slcan->is_open && stands_alone);
         slcan->is_open = slcan->is_open && !stands_alone;
         return stands_alone;
     default: return false;

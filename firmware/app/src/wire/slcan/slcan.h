@@ -22,6 +22,7 @@ enum {
 typedef struct {
     bool is_fitted;      /* the board has the port */
     bool is_open;        /* the channel, as the other end wants it */
+    bool was_closed;     /* by the other end, since the caller last looked: it may be open again, for another host */
     bool is_listen_only; /* opened with L: the other end hears, and its frames are refused */
     bool skips;          /* the line that is coming is too long; its rest is passed over */
     uint8_t in_count;    /* [0, 32] */

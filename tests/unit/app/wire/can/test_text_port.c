@@ -120,16 +120,18 @@ static void test_a_told_force_ends_with_its_channel(void)
     brace_can_pack_k_under_load_at_posture_request(&(brace_can_k_under_load_at_posture_request_t){8, 0.8f, 1.1f},
                                                    question);
     (void)snprintf(answer, sizeof answer, "t5858%02X08", (unsigned)(BRACE_REQUEST_K_UNDER_LOAD_AT_POSTURE + 96u));
-    for (int closes = 0; closes < 2; closes++) {
-        say("O\r");
+    for (int closes = 0; closes < 3; closes++) {
+        say("C\rO\r");
         ticks(2);
         say_request(force);
         ticks(4);
-        if (closes != 0) {
+        if (closes == 1) {
             say("C\r");
             ticks(2);
             say("O\r");
             ticks(2);
+        } else if (closes == 2) { /* as slcand and python-can do, in one piece, and the request with it */
+            say("C\rS8\rO\r");
         }
         (void)heard();
         say_request(question);
@@ -191,6 +193,15 @@ static void test_who_closes_the_channel_owns_the_limb_no_longer(void)
     brace_app_session(&app, &report);
     TEST_ASSERT_EQUAL(BRACE_OWNER_SLCAN, report.owner);
     say("C\r");
+    ticks(2);
+    brace_app_session(&app, &report);
+    TEST_ASSERT_EQUAL(BRACE_OWNER_NONE, report.owner);
+    say("O\r");
+    say(line);
+    ticks(2);
+    brace_app_session(&app, &report);
+    TEST_ASSERT_EQUAL(BRACE_OWNER_SLCAN, report.owner);
+    say("C\rS8\rO\r"); /* the next host comes in the same tick */
     ticks(2);
     brace_app_session(&app, &report);
     TEST_ASSERT_EQUAL(BRACE_OWNER_NONE, report.owner);
