@@ -253,6 +253,7 @@ def main() -> int:
     names = sorted(path.name for path in (root / "cases").iterdir())
 
     begun = time.monotonic()
+    there = len(names)  # fewer than planned where two cases drew the same name, or one cannot be made
     jobs = [(str(root), str(results), n, k < world.reported_cases) for k, n in enumerate(names)]
     names = sorted(in_turn("diagnosing", _main_job, jobs, options.processes, begun + 60.0 * options.minutes))
     told = names if world.follows_up else []
@@ -300,7 +301,8 @@ def main() -> int:
         figures |= {key: value for key, value in beside.items() if key != "lines"}
         found = report.table(figures), report.page(figures, judged, command), report.as_json(figures)
     table, text, content = found
-    part = len(names) < total(cases) and world.follows_up  # a world that is slow to play may report a part
+    of_all = len(names) == there and options.only is None
+    part = not of_all and world.follows_up  # a world that is slow to play may report a part
     whole = seed == world.test_seed and not part and not options.quick and cases == world.test_cases
     out = options.out or (BUILD.parents[1] / "docs" if whole else results)
     out.mkdir(parents=True, exist_ok=True)
