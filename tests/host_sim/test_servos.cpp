@@ -522,7 +522,7 @@ void test_a_goal_that_the_line_did_not_take_is_sent_again_at_once()
     }
 }
 
-// Where a servo stands is read once, and it is told to stand there from then on: damage there would send it elsewhere.
+// The driver asks a servo where it stands, and then tells it to stay there. A damaged answer must not move the servo.
 void test_no_burst_that_the_crc_misses_sends_a_servo_elsewhere()
 {
     constexpr std::size_t kPlace = 9 + 4 + 2;

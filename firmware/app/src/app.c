@@ -495,7 +495,7 @@ static void update_mode(controller_t *controller)
 static void command_drives(controller_t *controller)
 {
     drives_test_t test = {.runs = loading_runs(&controller->loading)};
-    /* A set that is made anew makes its take-ups anew, too: they know nothing of what the drives were told. */
+    /* When parameters come into force, the take-ups begin anew. They do not know what the drives were told before. */
     const bool stands = controller->ownership.is_held || controller->parameters.comes_in_force;
     for (int i = 0; i < BRACE_LINK_COUNT && test.runs; i++) {
         test.offset_rad[i] = loading_offset_rad(&controller->loading, i);

@@ -40,4 +40,16 @@ static inline void be_even(double turn_rad, double force_n)
     theta1_rad = any(-3.0, 3.0), theta2_rad = any(-2.5, 2.5);
 }
 
+/* A force on the tip from any side, weights that pull to any side, and the joints' own springs. */
+static inline void be_pressed(double force_n)
+{
+    const double down_rad = any(-3.2, 3.2), force_rad = any(-3.2, 3.2), up = any(-1.0, 1.0), out = sqrt(1.0 - up * up);
+    space_load.down = (brace_vec3_t){(float)(0.6 * cos(down_rad)), 0.8f, (float)(0.6 * sin(down_rad))};
+    space_load.tip_n = (brace_vec3_t){(float)(force_n * out * cos(force_rad)), (float)(force_n * up),
+                                      (float)(force_n * out * sin(force_rad))};
+    space_load.yaw = spring_of(BRACE_COXA);
+    space_load.hip = spring_of(BRACE_FEMUR);
+    space_load.knee = spring_of(BRACE_TIBIA);
+}
+
 #endif

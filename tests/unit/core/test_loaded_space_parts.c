@@ -67,13 +67,7 @@ static bool take_any_limb(int i)
 {
     const double force_n = any(1.0, 60.0);
     be_even(i % 2 == 0 ? 0.1 : 0.25, force_n);
-    const double down_rad = any(-3.2, 3.2), force_rad = any(-3.2, 3.2), up = any(-1.0, 1.0), out = sqrt(1.0 - up * up);
-    space_load.down = (brace_vec3_t){(float)(0.6 * cos(down_rad)), 0.8f, (float)(0.6 * sin(down_rad))};
-    space_load.tip_n = (brace_vec3_t){(float)(force_n * out * cos(force_rad)), (float)(force_n * up),
-                                      (float)(force_n * out * sin(force_rad))};
-    space_load.yaw = spring_of(BRACE_COXA);
-    space_load.hip = spring_of(BRACE_FEMUR);
-    space_load.knee = spring_of(BRACE_TIBIA);
+    be_pressed(force_n);
     brace_loaded_space_collapse(&limb, &weights, &loaded);
     brace_loaded_space_fixed_collapse(&loaded, &fixed);
     const float theta1 = (float)theta1_rad, theta2 = (float)theta2_rad;

@@ -229,13 +229,7 @@ static bool take_any_limb(double turn_rad)
 {
     const double force_n = any(5.0, 60.0);
     be_even(turn_rad, force_n);
-    const double down_rad = any(-3.2, 3.2), force_rad = any(-3.2, 3.2), up = any(-1.0, 1.0), out = sqrt(1.0 - up * up);
-    space_load.down = (brace_vec3_t){(float)(0.6 * cos(down_rad)), 0.8f, (float)(0.6 * sin(down_rad))};
-    space_load.tip_n = (brace_vec3_t){(float)(force_n * out * cos(force_rad)), (float)(force_n * up),
-                                      (float)(force_n * out * sin(force_rad))};
-    space_load.yaw = spring_of(BRACE_COXA);
-    space_load.hip = spring_of(BRACE_FEMUR);
-    space_load.knee = spring_of(BRACE_TIBIA);
+    be_pressed(force_n);
     brace_loaded_space_collapse(&limb, &weights, &loaded);
     if (brace_loaded_space_settle(&loaded, (float)theta1_rad, (float)theta2_rad, &space_load, &rest) != BRACE_OK) {
         return false;
@@ -273,7 +267,7 @@ static double third_order(double turn_rad)
     return turn_rad * turn_rad * turn_rad;
 }
 
-/* Where the tip is: that of the parts, with what their axial springs give, and that which K is told for. */
+/* The tip is at one place: at the end of the parts, stretched by their axial springs, and where K is told for. */
 static void test_the_parts_end_at_the_tip(void)
 {
     state = 21u;
@@ -307,8 +301,8 @@ static void test_the_parts_end_at_the_tip(void)
     TEST_ASSERT_GREATER_OR_EQUAL(LIMBS - 1, told);
 }
 
-/* At multiples of the load up to where a limb folds. Words of integers hold a determinant to 2^-12 of what is largest
- * there. */
+/* Both are compared at multiples of the load, up to the one at which the limb folds. The integers hold a determinant to
+ * 2^-12 of the largest number from which they make it. */
 static void test_the_determinant_is_that_of_the_load_s_work(void)
 {
     state = 22u;

@@ -11,7 +11,7 @@
 typedef struct {
     bool are_commanded;  /* the drives hold a command of ours */
     bool is_going_back;  /* nothing is asked for any more, and a drive is still behind: the limb moves */
-    bool is_behind[BRACE_LINK_COUNT]; /* of what is asked for, because it stood or refused: it makes up for it slowly */
+    bool is_behind[BRACE_LINK_COUNT]; /* stood or refused, and now follows slowly to what is asked for */
     uint32_t refused_us; /* how long a drive has refused every command */
     float told_rad[BRACE_LINK_COUNT];   /* what each drive was told to add to its set-point; 0: nothing */
     float limit_n_mm[BRACE_LINK_COUNT]; /* within which torque; INFINITY: within its own */

@@ -101,7 +101,7 @@ static void test_what_is_left_over_goes_back_slowly(void)
     TEST_ASSERT_TRUE(calls[BRACE_FEMUR] <= all + 1u);
 }
 
-/* Nor does a drive that refuses hear what it is told: it holds what it was told last. */
+/* A drive that refuses a command keeps the command before it. The next command goes on from there. */
 static void test_a_drive_that_refuses_was_not_told(void)
 {
     flank.joint[BRACE_TIBIA].out.command_rad = 0.01f;

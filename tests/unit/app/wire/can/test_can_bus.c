@@ -245,7 +245,7 @@ static void test_the_way_back_is_tried_ever_more_rarely(void)
     watch(9 - bus.health_us / TICK_US);
     const uint32_t long_ms = 2000;
     recovers_after(&long_ms, 1);
-    /* whoever comes back begins with counters of 0 (ISO 11898-1): that says nothing of what it will send */
+    /* A controller that comes back has error counters of 0 (ISO 11898-1), whether or not it can send. */
     health.bus_off = false;
     health.tx_errors = 0;
     watch(500);
