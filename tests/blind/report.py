@@ -30,8 +30,8 @@ counts. Outside the catalogue: bursts of interference told as single readings th
 zero that wanders told as a force at rest that differs from run to run, count as called unknown; any other trouble
 of the instruments told in place of what is hidden counts as misnamed. The generator hides none of the
 instruments' effects that the catalogue has (a lag, a rig that turns or yields, steps of gain or zero). Where one of
-them explains a record as well as the hidden effect does, the tool tells both. It takes all but a rig that yields to be three
-times rarer than an effect of the catalogue."""
+them explains a record as well as the hidden effect does, the tool tells both. The tool takes such a cause to be three
+times rarer than an effect of the catalogue; only a rig that yields counts as common as an effect."""
 
 TITLES = {"simulator": "# Blind benchmark", "finite": "# Blind benchmark at finite displacements"}
 FINITE = """The simulator of [blind.md](blind.md) assumes that no limb turns as it is displaced. Here its limbs, tests,

@@ -134,7 +134,7 @@ static uint32_t age_told_us(void)
     return app.wires.measured.age_us;
 }
 
-/* A joint that has fallen silent: its sample grows old and stays old, also when the clock has gone round once and more. */
+/* A joint has fallen silent. Its sample grows old and stays old, also when the clock has gone round once and more. */
 static void test_a_sample_that_is_old_stays_old(void)
 {
     const brace_parameters_t p = bench_parameters();
