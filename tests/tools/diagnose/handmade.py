@@ -45,12 +45,13 @@ HELD_OUT = (3, 5)
 
 
 def loading_record(folder: Path, limb: Path, title: str = "hidden backlash", **truth: Any) -> Path:
-    """A loading test on the limb with `truth` (dotted keys with _ for nothing: a mapping in `values`; `sensor` are
-    further lines of the rig's own table; `repeats` of each run)."""
+    """A loading test on the limb with `truth` (dotted keys with _ for nothing: a mapping in `values`; `rig` and `sensor`
+    are further lines of these tables of the rig's file; `repeats` of each run)."""
     folder.mkdir(parents=True, exist_ok=True)
     rig = folder.parent / f"{folder.name}-rig.toml"
     poses = "".join(f"[[configuration]]\ntheta1_rad = {a}\ntheta2_rad = {b}\n" for a, b in POSES)
-    rig.write_text(RIG.format(title=title, repeats=truth.get("repeats", 2)) + truth.get("sensor", "") + poses)
+    text = RIG.format(title=title, repeats=truth.get("repeats", 2)).replace("[rig]\n", "[rig]\n" + truth.get("rig", ""))
+    rig.write_text(text + truth.get("sensor", "") + poses)
     values = truth.get("values", {GAP_KEY: GAP_RAD})
     meta, columns = simulate(load_limb(limb).with_values(values), load_rig(rig))
     write_dataset(folder, meta, columns)

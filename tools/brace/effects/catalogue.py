@@ -20,6 +20,7 @@ USUAL_LOAD_RATIO = 0.2  # friction over load: a gear with an efficiency of two t
 FADES_SHRINK = 0.005  # of the rms: by how much less a fading share must leave; physics expects it, so this is little
 FADING_STARTS = ((8.0, 0.4), (40.0, 0.6))  # of one over the range of torques; and the share where nothing is carried
 MOST_TIMES = 40  # at which a link's change is tried
+CLIPPED_SIGMAS = 3.0  # of noise: by how much two readings that are clipped at one level may differ
 READINGS_CLIPPED = (4, 8, 16, 32, 64, 128, 256)  # of which a saturation is tried
 
 
@@ -44,18 +45,18 @@ def cubic_n_mm_per_rad3(at: LoadingPlace) -> float:
 
 
 def saturation_limits(at: LoadingPlace) -> tuple[float, float]:
-    """About the largest reading."""
-    highest = float(at.size.force_n[-1])
-    return 0.05 * highest, 1.02 * highest
+    """About the largest two readings: what clips one reading alone is told from one that is off by nothing."""
+    second, highest = (float(force_n) for force_n in at.size.force_n[-2:])
+    return 0.05 * highest, min(1.02 * highest, second + CLIPPED_SIGMAS * at.size.force_sigma_n)
 
 
 def saturation_tries(at: LoadingPlace) -> tuple[float, ...]:
     """A few sigmas below the largest reading, and where the largest few lie."""
     force_n = at.size.force_n
-    highest = float(force_n[-1])
-    below = (highest - count * at.size.force_sigma_n for count in range(7))
+    low, high = saturation_limits(at)
+    below = (float(force_n[-1]) - count * at.size.force_sigma_n for count in range(7))
     counted = (float(force_n[-count]) for count in READINGS_CLIPPED if count < force_n.size)
-    return tuple(sorted({level for level in (*below, *counted) if level > 0.05 * highest}))
+    return tuple(sorted({min(level, high) for level in (*below, *counted) if level > low}))
 
 
 def change_limits(at: LoadingPlace) -> tuple[float, float]:
@@ -147,7 +148,7 @@ EFFECTS: tuple[Effect, ...] = (
         told_by="the largest readings are all the same, on both axes and for both signs",
         numbers=(Number("saturation_n", 1.0, saturation_limits, saturation_tries, still=True),),
         ways=(Way(("saturation_n",)),),
-        loading_seen=lambda size, where: size.force_n.size > 0,
+        loading_seen=lambda size, where: size.force_n.size > 1,
     ),
     Effect(
         "joint_zero_offset",

@@ -6,6 +6,7 @@ whether the cause explains the record as well (brace.diagnose.loading.rivals).""
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import inf
 
 ROTATION, CROSSTALK = "sensor_rotation@sensor", "sensor_crosstalk@sensor"
 FEMUR_ZERO, KNEE_ZERO = "joint_zero_offset@joint.femur", "joint_zero_offset@joint.tibia"
@@ -17,12 +18,15 @@ FEMUR_LINK, TIBIA_LINK = "link_compliance_error@link.femur", "link_compliance_er
 
 @dataclass(frozen=True)
 class Size:
-    """A number of a rival: its key in diagnosis.json (seldom one of limb.toml), its unit, how far a fit may turn it."""
+    """A number of a rival: its key in diagnosis.json (seldom one of limb.toml), its unit, how far a fit may turn it.
+    Up to `usual` it is no surprise. `plausible_times` as much is rare, and more needs evidence to match."""
 
     key: str
     unit: str
     low: float
     high: float
+    usual: float = inf
+    plausible_times: float = 10.0
 
 
 @dataclass(frozen=True)
@@ -152,8 +156,10 @@ RIVAL_CAUSES: tuple[RivalCause, ...] = (
 _SAME_READINGS = "the readings change by the same amounts at nearly the same rows"
 
 
-def _trouble(name: str, where: str, words: str, meaning: str, would_tell: str, *sizes: Size) -> RivalCause:
-    return RivalCause(name, where, words, meaning, (), (sizes,), False, _SAME_READINGS, would_tell)
+def _trouble(
+    name: str, where: str, words: str, meaning: str, would_tell: str, size: Size, rarer: float = 3.0
+) -> RivalCause:
+    return RivalCause(name, where, words, meaning, (), ((size,),), False, _SAME_READINGS, would_tell, rarer=rarer)
 
 
 # Troubles of the instruments (brace.diagnose.loading.troubles fits them as columns beside the readings).
@@ -162,7 +168,8 @@ INSTRUMENT_TROUBLES: tuple[RivalCause, ...] = (
         "lag", "sensor", "a sensor that reads late",
         "the forces are read a while after the displacements of the same row",
         "load once more with twice the dwell: a lag shows half as much, play as much as before",
-        Size("sensor.lag_s", "s", -1e3, 1e3),
+        Size("sensor.lag_s", "s", -1e3, 1e3, usual=0.1),  # an amplifier's filter and a bus make some 10 to 100 ms
+        rarer=1.0,  # a lag of that size is as common as play; its size says the rest
     ),
     _trouble(
         "gain_step", "sensor", "a sensor whose gain stepped",

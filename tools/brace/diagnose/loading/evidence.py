@@ -11,6 +11,7 @@ from brace.diagnose.loading.fit import Fit
 
 SPREAD = 40.0  # sigmas of the whole record: detectabilities of interest are some to some tens
 PRIOR_NONE = 0.5
+RARE_SIGMAS = 3.0  # of the prior on a size: so far out lies the ratio that the catalogue calls `plausible_times`
 WAYS = 30  # effects at their places, about equally likely before the record is seen
 
 
@@ -35,6 +36,12 @@ def evidence(cost: float, base: float, own: int, effects: int, readings: int, no
     known = max(noise_freedom, 1.0)
     gain = 0.5 * (known + readings) * np.log((known + base) / (known + cost))
     return float(gain - own * np.log(SPREAD) - effects * np.log(WAYS / PRIOR_NONE))
+
+
+def implausible(times: float, plausible_times: float) -> float:
+    """Nats that a size costs that is so many times the usual one: its prior is normal in the logarithm of the ratio.
+    None where it is smaller."""
+    return float(0.5 * (RARE_SIGMAS * np.log(max(times, 1.0)) / np.log(plausible_times)) ** 2)
 
 
 def log_likelihood(fitted: Fit, sigma: np.ndarray, readings: int, noise_freedom: float) -> float:

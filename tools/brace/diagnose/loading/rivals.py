@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from brace.diagnose.loading.choose import WORTH_SAYING, LabelSet
-from brace.diagnose.loading.evidence import score
+from brace.diagnose.loading.evidence import implausible, score
 from brace.diagnose.loading.fit import Fit, fit
 from brace.diagnose.loading.troubles.likeliest import Trouble
 from brace.identify.record import Record, levers
@@ -33,7 +33,6 @@ GAUGE_ON_RIG = (
     "does"
 )
 ENCODERS = {"femur": "enc1_rad", "tibia": "enc2_rad"}
-RARE_SIGMAS = 3.0  # of the prior on a size: so far out lies the ratio that the catalogue calls `plausible_times`
 BEAM_TURNS = 1.8  # a beam moves a point beside its end by 1.5 turns of the line to it (a force), by 2 (a moment)
 BOWED_ALONG = 0.6  # a bow of c yields along the link by 8/5 (c/L)^2 of its bending, its turned ellipsoid by (c/L)^2
 
@@ -273,8 +272,8 @@ def _implausible(fitted: Fit) -> float:
             continue
         believed, value = float(fitted.space.numbers[index[key]]), fitted.value(key)
         if believed > 0.0 and value > believed:
-            cost += 0.5 * (RARE_SIGMAS * np.log(value / believed) / np.log(number.plausible_times)) ** 2
-    return float(cost)
+            cost += implausible(value / believed, number.plausible_times)
+    return cost
 
 
 def _fitted(

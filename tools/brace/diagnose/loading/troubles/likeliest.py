@@ -10,13 +10,13 @@ import numpy as np
 from brace.dataset import DataFault
 from brace.diagnose.diagnosis import Interval
 from brace.diagnose.loading.choose import LabelSet
-from brace.diagnose.loading.evidence import evidence, freedoms, score
+from brace.diagnose.loading.evidence import evidence, freedoms, implausible, score
 from brace.diagnose.loading.fit import Fit, fit
 from brace.diagnose.loading.intervals import Z_90
 from brace.identify.record import Record
 from brace.diagnose.loading.rounding import rounds_to_record
 from brace.diagnose.loading.screen import Remover
-from brace.diagnose.loading.troubles.kinds import GAIN_STEP, LAG, NOT_TOLD, OUTLIERS, SLIP, ZERO_STEP, kinds
+from brace.diagnose.loading.troubles.kinds import GAIN_STEP, LAG, NOT_TOLD, OUTLIERS, SLIP, ZERO_STEP, kinds, late
 from brace.diagnose.loading.troubles.words import first_row, shown
 from brace.effects.rivals import RIVAL_BY_NAME, RivalCause
 
@@ -138,14 +138,25 @@ def _fitted(record: Record, base: Fit, option: _Option, against: float) -> Troub
     rest = option.rest.best.fit
     wide = option.columns * (option.spread or _flat(record, option.columns))
     fitted = fit(record.beside(wide), rest.space, rest.x)
+    if option.kind == LAG:  # a limb that was fitted without a lag of half an interval is some percent too stiff
+        option = replace(option, columns=late(record, fitted), cost=np.inf)
+        wide = option.columns * _flat(record, option.columns)
+        fitted = fit(record.beside(wide), rest.space, fitted.x)
     lead = option.score(record, base, min(fitted.cost, option.cost)) - against
     whitened = record.whitened(option.columns)
     inner = whitened.T @ whitened + (np.eye(whitened.shape[1]) / option.spread**2 if option.spread else 0.0)
     left = record.residuals(fitted.space.models(fitted.x[None]))[0]
     sizes = np.linalg.pinv(inner, hermitian=True) @ (whitened.T @ left)
+    lead -= _implausible(option.kind, sizes)
     if option.kind == SLIP and _goes_back(sizes):
         lead = -np.inf
     return _told(record, option, fitted, wide, sizes, lead)
+
+
+def _implausible(kind: str, sizes: np.ndarray) -> float:
+    """Nats that a size costs that instruments seldom have."""
+    size = RIVAL_BY_NAME[kind].ways[0][0] if kind in RIVAL_BY_NAME else None
+    return 0.0 if size is None else implausible(abs(float(sizes[0])) / size.usual, size.plausible_times)
 
 
 def _goes_back(sizes: np.ndarray) -> bool:
