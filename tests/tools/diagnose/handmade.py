@@ -45,8 +45,8 @@ HELD_OUT = (3, 5)
 
 
 def loading_record(folder: Path, limb: Path, title: str = "hidden backlash", **truth: Any) -> Path:
-    """A loading test on the limb with `truth` (dotted keys with _ for nothing: a mapping in `values`; `rig` and `sensor`
-    are further lines of these tables of the rig's file; `repeats` of each run)."""
+    """A loading test on the limb with `truth` (dotted keys with _ for nothing: a mapping in `values`; `rig` and
+    `sensor` are further lines of these tables of the rig's file; `repeats` of each run)."""
     folder.mkdir(parents=True, exist_ok=True)
     rig = folder.parent / f"{folder.name}-rig.toml"
     poses = "".join(f"[[configuration]]\ntheta1_rad = {a}\ntheta2_rad = {b}\n" for a, b in POSES)
