@@ -267,7 +267,7 @@ static double third_order(double turn_rad)
     return turn_rad * turn_rad * turn_rad;
 }
 
-/* The tip is at one place: at the end of the parts, stretched by their axial springs, and where K is told for. */
+/* Two results tell where the tip is: the end of the stretched parts, and the place that K is told for. They agree. */
 static void test_the_parts_end_at_the_tip(void)
 {
     state = 21u;

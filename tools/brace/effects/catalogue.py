@@ -45,7 +45,8 @@ def cubic_n_mm_per_rad3(at: LoadingPlace) -> float:
 
 
 def saturation_limits(at: LoadingPlace) -> tuple[float, float]:
-    """About the largest two readings: what clips one reading alone is told from one that is off by nothing."""
+    """Up to about the second largest reading. A saturation must clip two readings at least: nothing tells one clipped
+    reading from one that is off for another reason."""
     second, highest = (float(force_n) for force_n in at.size.force_n[-2:])
     return 0.05 * highest, min(1.02 * highest, second + CLIPPED_SIGMAS * at.size.force_sigma_n)
 

@@ -27,7 +27,7 @@ static float way_rad(const brace_hal_ceiling_t *ceiling, bool is_behind, uint32_
     return most_rad_per_s * 1e-6f * (float)tick_us;
 }
 
-/* Cuts a command to what the board allows. returns whether nothing of its offset was cut */
+/* Cuts a command to what the board allows. Returns true if the command's offset is left whole. */
 static bool limit(const brace_hal_ceiling_t *ceiling, float before_rad, float way, brace_hal_joint_command_t *command)
 {
     const float asked_rad = command->offset_rad;

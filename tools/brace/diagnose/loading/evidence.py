@@ -39,8 +39,8 @@ def evidence(cost: float, base: float, own: int, effects: int, readings: int, no
 
 
 def implausible(times: float, plausible_times: float) -> float:
-    """Nats that a size costs that is so many times the usual one: its prior is normal in the logarithm of the ratio.
-    None where it is smaller."""
+    """What a size costs in nats if it is `times` the usual one. The prior is normal in the logarithm of that ratio.
+    A size up to the usual one costs nothing."""
     return float(0.5 * (RARE_SIGMAS * np.log(max(times, 1.0)) / np.log(plausible_times)) ** 2)
 
 

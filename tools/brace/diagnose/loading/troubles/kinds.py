@@ -57,7 +57,7 @@ def kinds(record: Record, fitted: Fit, remover: Remover, left: np.ndarray) -> It
     """Every trouble that this record can have. `left`: readings and pulls that the fit leaves."""
     played = record.player.play_numbers(fitted.model[None])[0]
     starts = run_starts(record.dataset["run"])
-    yield Kind(LAG, [Way(late(record, fitted), 0.0)])
+    yield Kind(LAG, [Way(lag_columns(record, fitted), 0.0)])
     forces = played[: len(FORCES), :, None] * _X_Z
     both = forces.sum(axis=2, keepdims=True)  # one size: the columns of both forces are apart
     yield Kind(GAIN_STEP, list(_steps(record, remover, left, [both, *_alone(forces)], most=1)))
@@ -142,7 +142,7 @@ def _of_forces(record: Record, columns: np.ndarray) -> np.ndarray:
     return out
 
 
-def late(record: Record, fitted: Fit) -> np.ndarray:
+def lag_columns(record: Record, fitted: Fit) -> np.ndarray:
     """By how much the readings change with each second that the forces are late, channels x rows x 1."""
     played = record.player.play_numbers(fitted.model[None])[0]
     return _of_forces(record, -_rate(record, played[: len(FORCES)], run_starts(record.dataset["run"]))[:, :, None])

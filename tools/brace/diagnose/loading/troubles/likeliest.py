@@ -16,7 +16,16 @@ from brace.diagnose.loading.intervals import Z_90
 from brace.identify.record import Record
 from brace.diagnose.loading.rounding import rounds_to_record
 from brace.diagnose.loading.screen import Remover
-from brace.diagnose.loading.troubles.kinds import GAIN_STEP, LAG, NOT_TOLD, OUTLIERS, SLIP, ZERO_STEP, kinds, late
+from brace.diagnose.loading.troubles.kinds import (
+    GAIN_STEP,
+    LAG,
+    NOT_TOLD,
+    OUTLIERS,
+    SLIP,
+    ZERO_STEP,
+    kinds,
+    lag_columns,
+)
 from brace.diagnose.loading.troubles.words import first_row, shown
 from brace.effects.rivals import RIVAL_BY_NAME, RivalCause
 
@@ -138,8 +147,8 @@ def _fitted(record: Record, base: Fit, option: _Option, against: float) -> Troub
     rest = option.rest.best.fit
     wide = option.columns * (option.spread or _flat(record, option.columns))
     fitted = fit(record.beside(wide), rest.space, rest.x)
-    if option.kind == LAG:  # a limb that was fitted without a lag of half an interval is some percent too stiff
-        option = replace(option, columns=late(record, fitted), cost=np.inf)
+    if option.kind == LAG:  # fitted without its lag, a limb's stiffness is some percent off, and so are the columns
+        option = replace(option, columns=lag_columns(record, fitted), cost=np.inf)
         wide = option.columns * _flat(record, option.columns)
         fitted = fit(record.beside(wide), rest.space, fitted.x)
     lead = option.score(record, base, min(fitted.cost, option.cost)) - against
@@ -154,7 +163,7 @@ def _fitted(record: Record, base: Fit, option: _Option, against: float) -> Troub
 
 
 def _implausible(kind: str, sizes: np.ndarray) -> float:
-    """Nats that a size costs that instruments seldom have."""
+    """What the trouble's first size costs in nats, by the prior of its kind."""
     size = RIVAL_BY_NAME[kind].ways[0][0] if kind in RIVAL_BY_NAME else None
     return 0.0 if size is None else implausible(abs(float(sizes[0])) / size.usual, size.plausible_times)
 
