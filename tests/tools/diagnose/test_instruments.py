@@ -243,6 +243,29 @@ def test_play_reads_like_a_lag(tmp_path: Path, limb: Path, rig: str, times_likel
     assert sum(said.values()) < 1.0
 
 
+def test_a_lag_beside_friction_is_no_play_beside_it(tmp_path: Path, limb: Path) -> None:
+    """The search takes what the lag does for play at the contact, and adds the friction to it. No search for friction
+    alone came that way."""
+    late: Spoil = lambda columns: reads_late(columns, 0.1)  # noqa: E731
+    found = spoiled(tmp_path / "record", limb, late, values={"joint.tibia.coulomb_n_mm": 60.0}, rig=QUICK)
+    said = {effect.label: effect.confidence for effect in found.effects}
+    assert said["coulomb_friction@joint.tibia"] > 0.8 and said["lag@sensor"] > 0.8
+    assert set(said) == {"coulomb_friction@joint.tibia", "lag@sensor"}
+
+
+def test_every_part_of_what_is_named_may_be_contested(tmp_path: Path, limb: Path) -> None:
+    """Play reads like a lag and a base that yields like a rig that does: neither name stands for sure, and the report
+    says how to tell each of them."""
+    values = {"contact.play_mm": PLAY_MM, "base.x_mm_per_n": 0.02, "base.z_mm_per_n": 0.02}
+    found = spoiled(tmp_path / "record", limb, lambda columns: None, values=values, rig=QUICK)
+    said = {effect.label: effect.confidence for effect in found.effects}
+    assert all(confidence < 0.8 for confidence in said.values()), said
+    classes = [set(one) for one in found.indistinguishable]
+    assert any({"contact_play@contact", "lag@sensor"} <= one for one in classes)
+    assert any({"base_compliance@base", "rig_compliance@rig"} <= one for one in classes)
+    assert "twice the dwell" in found.sentence and "dial gauge" in found.sentence
+
+
 def test_an_effect_is_named_beside_a_trouble(tmp_path: Path, limb: Path) -> None:
     found = spoiled(tmp_path / "record", limb, slips, values={"joint.tibia.zero_offset_rad": 0.05})
     assert [effect.label for effect in found.effects] == ["joint_zero_offset@joint.tibia"]

@@ -5,16 +5,17 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from types import SimpleNamespace
+from typing import Any, cast
 
 import numpy as np
 import pytest
 from brace.dataset import load_dataset
 from brace.dataset.intake import Dataset
-from brace.diagnose.loading.choose import posterior_of
+from brace.diagnose.loading.choose import LabelSet, posterior_of
 from brace.diagnose.loading.confidence import of_label
 from brace.diagnose.loading.evidence import SPREAD, score
-from brace.diagnose.loading.extensions import Outside, outside
+from brace.diagnose.loading.extensions import TAKES_BACK, Outside, outside
 from brace.diagnose.loading.fit import fit
 from brace.identify.noise import growth_of, noise_of, robust_sigma
 from brace.dataset.enough import enough_rows
@@ -26,7 +27,7 @@ from brace.diagnose.loading.screen import Remover
 from brace.diagnose.loading.search import Search
 from brace.diagnose.loading.space import compatible, space_of, trust_of
 from brace.diagnose.loading.structure import structure_of
-from brace.diagnose.loading.verdict import HINT, NOTHING_STANDS
+from brace.diagnose.loading.verdict import HINT, NOTHING_STANDS, decide
 from brace.effects import EFFECTS, all_variants
 from brace.model import LimbModel, load_limb
 from brace.native.plant import play_rig
@@ -261,6 +262,31 @@ def test_a_hidden_effect_is_found_with_its_size(
     assert best.fit.value(key) == pytest.approx(value, rel=0.25)
 
 
+def test_every_part_of_the_best_set_is_tried(tmp_path: Path, believed: LimbModel) -> None:
+    """Also the parts that no search came by, so that a trouble of the instruments may stand for the rest."""
+    both = {"joint.tibia.gap_rad": 1.5e-3, "joint.femur.coulomb_n_mm": 80.0}
+    record = load_record(recorded(tmp_path, believed.with_values(both), 12))
+    search = Search(record, trust_of(believed, turns=True), all_variants(setting_of(record, believed)))
+    best = search.run()[0]
+    assert len(best.labels) == 2
+    search.tried = {name: item for name, item in search.tried.items() if not (item.labels < best.labels and name)}
+    search._parts_of(best)
+    assert {frozenset({label}) for label in best.labels} <= {item.labels for item in search.tried.values()}
+
+
+@pytest.mark.parametrize(("lead", "verdict"), [(-0.1, "ambiguous"), (0.1, "unknown")])
+def test_names_that_are_wrong_more_often_than_right_are_not_said(lead: float, verdict: str) -> None:
+    """Two effects that look alike, and something outside the catalogue that is likelier than both or less likely."""
+    fitted = cast(Any, SimpleNamespace(fit=SimpleNamespace(cost=100.0), label="x"))
+    sets = [LabelSet(frozenset({name}), fitted, 0.5) for name in ("a", "b")]
+    structure = cast(Any, SimpleNamespace(structured=False))
+    base = cast(Any, SimpleNamespace(cost=200.0))
+    found = decide(sets, structure, base, Outside(lead, "", TAKES_BACK))
+    assert found.verdict == verdict and found.outside.likely == (verdict == "unknown")
+    alone = decide([replace(sets[0], posterior=1.0)], structure, base, Outside(lead, "", TAKES_BACK))
+    assert alone.verdict == "effect", "a name that stands alone is told with how sure it is"
+
+
 def against_the_catalogue(data: Dataset, believed: LimbModel) -> tuple[Outside, str]:
     """What speaks for something outside the catalogue, and what the best in it is called."""
     record = load_record(data)
@@ -319,8 +345,8 @@ def test_an_effect_of_the_catalogue_is_not_outside_it(
 def test_the_odds_of_an_outsider_lower_the_confidence(tmp_path: Path, believed: LimbModel) -> None:
     """By just their share; a lead of nothing is even odds."""
     assert Outside(0.0, "").probability == 0.5
-    assert not Outside(0.0, "").likely and not Outside(2.0, "", against_names=True).likely
-    assert Outside(2.5, "", against_names=True).likely, "a name that is wrong more than nine times of ten is taken back"
+    assert not Outside(0.0, "").likely and not Outside(2.0, "", TAKES_BACK).likely
+    assert Outside(2.5, "", TAKES_BACK).likely, "a name that is wrong more than nine times of ten is taken back"
     assert not Outside(5.5, "").likely, "a sound limb is called faulty at 400 to 1 only"
     record = load_record(recorded(tmp_path, believed.with_values({"joint.tibia.gap_rad": 2e-3}), 24))
     variants = all_variants(setting_of(record, believed))

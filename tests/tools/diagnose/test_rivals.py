@@ -17,9 +17,10 @@ from handmade import loading_record
 
 from brace.dataset import Dataset, load_dataset
 from brace.diagnose.diagnosis import Diagnosis
+from brace.diagnose.loading.choose import LabelSet
 from brace.diagnose.loading.fit import Fit, fit
 from brace.diagnose.loading import rivals
-from brace.diagnose.loading.rivals import TURNS, _fitted, _implausible, _wider
+from brace.diagnose.loading.rivals import TURNS, Member, _contest, _fitted, _implausible, _InPlace, _wider
 from brace.diagnose.loading.space import space_of, trust_of
 from brace.diagnose.options import Options
 from brace.diagnose.run import diagnose
@@ -104,6 +105,26 @@ def test_a_gauge_that_moves_as_believed_speaks_for_the_rig(tmp_path: Path, limb:
     (size,) = found.effects[0].parameters.values()
     assert size.low < 0.05 < size.high
     assert found.next_experiment is not None and "beside the tip's clamp" in found.next_experiment.action
+
+
+@pytest.mark.parametrize(
+    ("cost_of_rival", "names"), [(995.0, {"rig_compliance@rig", "a"}), (900.0, {"rig_compliance@rig"})]
+)
+def test_what_the_readings_speak_against_is_no_member(cost_of_rival: float, names: set[str]) -> None:
+    """A rival that is likelier because it needs one size less leaves both; one that leaves 10 sigmas less stands
+    alone."""
+
+    def fitted(cost: float) -> Any:
+        return SimpleNamespace(cost=cost, space=SimpleNamespace(variants=()), model=np.zeros(1))
+
+    chosen = LabelSet(frozenset("a"), cast(Any, SimpleNamespace(fit=fitted(1000.0))), 1.0)
+    decision = SimpleNamespace(chosen=chosen, labels=("a",))
+    final = SimpleNamespace(decision=decision, sets=[chosen], record=SimpleNamespace(readings=1000, noise_freedom=1e6))
+    rig = Member(("rig_compliance@rig",), 0.0, fitted(cost_of_rival), np.zeros(1), RIVAL_CAUSES[0])
+    found = _contest(cast(Any, final), RIVAL_CAUSES[0], frozenset("a"), 1e9, rig)
+    assert found is not None and {one.label for one in found.members} == names
+    assert found.decided == (len(names) == 1) and found.has_chosen == ("a" in names)
+    assert found.share_of_chosen == pytest.approx(1e-9 if "a" in names else 0.0, rel=1e-3)
 
 
 def test_a_member_is_taken_by_its_name(brace: Callable[..., Outcome], tmp_path: Path, limb: Path) -> None:
@@ -275,7 +296,7 @@ def test_a_size_that_no_limb_has_needs_evidence(tmp_path: Path, limb: Path) -> N
     for times, nats in ((0.5, 0.0), (1.0, 0.0), (10.0, 4.5), (100.0, 18.0)):
         x = space.mean.copy()
         x[-1] = times * 0.002
-        assert _implausible(Fit(space, x, nothing, nothing, nothing, 0.0)) == pytest.approx(nats)
+        assert _implausible(Fit(space, x, nothing, nothing, nothing, 0.0), frozenset({axial[0].label})) == pytest.approx(nats)
 
 
 def test_a_cause_stands_for_as_many_effects_as_is_likeliest(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -285,13 +306,14 @@ def test_a_cause_stands_for_as_many_effects_as_is_likeliest(monkeypatch: pytest.
     chosen = SimpleNamespace(decision=SimpleNamespace(chosen=SimpleNamespace(labels=frozenset("abcd"))))
     asked: list[str] = []
 
-    def in_place_of(_final: object, _cause: object, disputed: frozenset[str]) -> Iterator[tuple[object, ...]]:
+    def in_place_of(_final: object, _cause: object, disputed: frozenset[str]) -> Iterator[_InPlace]:
         asked.append("".join(sorted(disputed)))
-        yield leads[asked[-1]], disputed, None
+        yield _InPlace(RIVAL_CAUSES[0], leads[asked[-1]], disputed, cast(Any, None))
 
     monkeypatch.setattr(rivals, "_in_place_of", in_place_of)
-    lead, disputed, _ = _wider(cast(Any, chosen), RIVAL_CAUSES[0], cast(Any, (leads["a"], frozenset("a"), None)))
-    assert (lead, disputed) == (3.0, frozenset("abc"))
+    first = _InPlace(RIVAL_CAUSES[0], leads["a"], frozenset("a"), cast(Any, None))
+    widest = _wider(cast(Any, chosen), RIVAL_CAUSES[0], first)
+    assert (widest.lead, widest.disputed) == (3.0, frozenset("abc"))
     assert asked == ["ab", "ac", "ad", "abc", "abd", "abcd"]
 
 

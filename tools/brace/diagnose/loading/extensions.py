@@ -41,17 +41,17 @@ OWN_LOAD = ("joint.femur", "joint.tibia", "sensor")  # parts that know their own
 @dataclass(frozen=True)
 class Outside:
     """`lead` of everything outside the catalogue over the best of it, nats; `words` for what it most looks like;
-    `against_names`: whether that best has effects."""
+    `must_lead`: from which lead it is told instead."""
 
     lead: float
     words: str
-    against_names: bool = False
+    must_lead: float = MUST_LEAD
 
     @property
     def likely(self) -> bool:
         """Likely enough for the verdict unknown. A name that is wrong nine times of ten helps nobody; a sound limb that
         is called faulty costs trust, so that nothing missing stands longer."""
-        return self.lead > (TAKES_BACK if self.against_names else MUST_LEAD)
+        return self.lead > self.must_lead
 
     @property
     def probability(self) -> float:
@@ -77,7 +77,7 @@ def outside(record: Record, sets: Sequence[LabelSet], variants: Sequence[Variant
     top = float(scores.max())
     whole = top + float(np.log(np.sum(np.exp(scores - top))))
     against = score(best.best.fit, base, record.readings, record.noise_freedom) - float(np.log(best.posterior))
-    return Outside(whole - against, found[int(np.argmax(scores))][1], against_names=bool(best.labels))
+    return Outside(whole - against, found[int(np.argmax(scores))][1], TAKES_BACK if best.labels else MUST_LEAD)
 
 
 def _score(record: Record, fitted: Fit, base: Fit, gain: float) -> float:

@@ -46,7 +46,7 @@ def resolve(record: Record, final: Pass, found: Contest | None, believed: LimbMo
     verdict = decision.verdict
     chosen = limb_of(believed, decision.chosen.best.fit.model)
     if found is not None:
-        if decision.chosen.labels == found.disputed:
+        if decision.chosen.labels == found.disputed and not found.decided:
             verdict = "ambiguous"
         sure = found.mass * confidence.of_a_name(final)
         members = [(member, sure * member.share) for member in found.members]

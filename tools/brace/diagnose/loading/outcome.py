@@ -3,7 +3,7 @@ in numbers and words."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -39,7 +39,7 @@ from brace.diagnose.loading.localise import localise
 from brace.diagnose.loading.members import Resolved, resolve
 from brace.identify.noise import FORCES
 from brace.identify.record import NOT_MEASURED, Record, rms_force_n
-from brace.diagnose.loading.rivals import Contest, contest
+from brace.diagnose.loading.rivals import Contest, Member, contests
 from brace.diagnose.loading.structure import STRUCTURED_P
 from brace.diagnose.loading.verdict import NOTHING_STANDS
 from brace.diagnose.options import Options
@@ -71,7 +71,7 @@ def diagnosis_of(
 ) -> Diagnosis:
     """`whole` is all that was measured, `record` the part that was searched,
     `locked` its rows that `twin` never saw. A second process plans what to measure next."""
-    contested = contest(final)
+    contested = contests(final)
     named = final.decision.verdict in ("effect", "ambiguous")
 
     def following() -> NextExperiment | None:
@@ -90,7 +90,7 @@ def _all_but_next(
     believed: LimbModel,
     final: Pass,
     twin: Pass | None,
-    contested: Contest | None,
+    contested: Sequence[Contest],
     options: Options,
 ) -> Diagnosis:
     decision = final.decision
@@ -98,7 +98,8 @@ def _all_but_next(
     judged = twin or final
     named = decision.verdict in ("effect", "ambiguous")
     after = best if named else final.base.fit
-    resolved = resolve(record, final, contested, believed, options.take)
+    strongest = contested[0] if contested else None
+    resolved = resolve(record, final, strongest, believed, options.take)
     shown = believed if decision.verdict == "unknown" else limb_of(believed, after.model)
     agreed = agreement(record, locked, final, twin, options.seed)
     alike = confusability(final.base.fit, final.sets)
@@ -110,7 +111,11 @@ def _all_but_next(
     late = tuple(_trouble(one, 1.0 / (1.0 + np.exp(-one.lead))) for one in final.troubles if one.name == LAG)
     return Diagnosis(
         verdict=_verdict(final, resolved),
-        sentence=_sentence(final, effects, resolved, contested) + _beside(final, resolved),
+        sentence=" ".join([
+            _sentence(final, effects, resolved, strongest),
+            *(_also_contested(one) for one in contested[1:]),
+            *_beside(final, resolved),
+        ]),
         model=resolved.exported,
         gap=_gap(whole, record, locked, believed, judged),
         effects=(*effects, *late),
@@ -142,29 +147,38 @@ def _all_but_next(
 
 
 def _effects(
-    record: Record, final: Pass, resolved: Resolved, contested: Contest | None
+    record: Record, final: Pass, resolved: Resolved, contested: Sequence[Contest]
 ) -> tuple[NamedEffect, ...]:
-    """The most probable first; for a class, each member with the parameters of its own fit."""
+    """The most probable first; for a class, each member with the parameters of its own fit. What only rivals leave
+    alone, and far behind, is not named."""
     if resolved.verdict == "ambiguous":
-        return tuple(
-            _trouble(one.trouble, sure)
-            if one.trouble
-            else _effect(record, one.fit, label, sure, 1.0, _lost(final, frozenset(one.labels), label, one.fit))
-            for one, sure in resolved.members
-            for label in one.labels
-        )
-    sure_of = {label: confidence.of_label(final, label) for label in final.decision.labels}
-    if contested is not None:
-        own = next(sure for member, sure in resolved.members if set(member.labels) == contested.disputed)
-        sure_of |= {label: min(own, sure_of[label]) for label in contested.disputed}
+        return tuple(found for one, sure in resolved.members for found in _of_member(record, final, one, sure))
     decision = final.decision
-    chosen = decision.chosen.best.fit
-    labels = decision.chosen.labels
-    found = [
-        _effect(record, chosen, label, sure_of[label], _share(final, label), _lost(final, labels, label, chosen))
-        for label in decision.labels
+    chosen, labels = decision.chosen.best.fit, decision.chosen.labels
+    sure_of = {label: confidence.of_label(final, label) for label in decision.labels}
+    found: list[NamedEffect] = []
+    for one in contested:
+        sure = one.mass * confidence.of_a_name(final)
+        if one.has_chosen:
+            sure_of |= {label: min(sure * one.share_of_chosen, sure_of[label]) for label in one.disputed}
+        else:
+            found += _of_member(record, final, one.members[0], sure * one.members[0].share)
+            sure_of = {label: sure_of[label] for label in sure_of if label not in one.disputed}
+    found += [
+        _effect(record, chosen, label, sure, _share(final, label), _lost(final, labels, label, chosen))
+        for label, sure in sure_of.items()
     ]
     return tuple(sorted(found, key=lambda effect: -effect.confidence))
+
+
+def _of_member(record: Record, final: Pass, member: Member, sure: float) -> Iterator[NamedEffect]:
+    """The names of one explanation."""
+    if member.trouble is not None:
+        yield _trouble(member.trouble, sure)
+        return
+    for label in member.labels:
+        lost = _lost(final, frozenset(member.labels), label, member.fit)
+        yield _effect(record, member.fit, label, sure, 1.0, lost)
 
 
 def _lost(final: Pass, labels: frozenset[str], label: str, fitted: Fit) -> float:
@@ -196,14 +210,12 @@ def _trouble(trouble: Trouble, sure: float) -> NamedEffect:
 
 
 def _classes(
-    final: Pass, alike: Confusability, contested: Contest | None
+    final: Pass, alike: Confusability, contested: Sequence[Contest]
 ) -> tuple[tuple[str, ...], ...]:
     """For each named effect what the evidence leaves in its place, and what looks the same in this record. What a rival
     contests comes first."""
     decision = final.decision
-    found: list[tuple[str, ...]] = []
-    if contested is not None:
-        found.append(tuple(member.label for member in contested.members))
+    found = [tuple(member.label for member in one.members) for one in contested if not one.decided]
     for label in decision.labels if decision.verdict == "effect" else decision.labels[:1]:
         rivals = next((members for members in decision.classes if members[0] == label), (label,))
         look_alikes = [other for other in alike.look_alikes(label) if not _told_apart(alike, label, other)]
@@ -312,27 +324,43 @@ def _changing(final: Pass) -> str:
     return f"the error looks as if {outside.words}" if outside.likely else ""
 
 
-def _told_by(following: NextExperiment | None, contested: Contest | None) -> NextExperiment | None:
+def _told_by(following: NextExperiment | None, contested: Sequence[Contest]) -> NextExperiment | None:
     """The measurement that shows a rival, before the loading test that separates what is in the catalogue."""
-    if following is None or contested is None:
+    if following is None or not contested:
         return following
-    return replace(following, action=f"{contested.would_tell}; as for loading tests, {following.action}")
+    shown = "; ".join(one.would_tell for one in contested)
+    return replace(following, action=f"{shown}; as for loading tests, {following.action}")
+
+
+def _also_contested(contested: Contest) -> str:
+    """A further part of what was named, for which something else may stand."""
+    names = [member.label for member in contested.members]
+    if contested.decided:
+        return f"{' and '.join(sorted(contested.disputed))} were taken for {names[0]}, which explains them far better."
+    return (
+        f"{names[0]} may also be {' or '.join(names[1:])}, because {contested.cause.same_because}. "
+        f"To tell, {contested.would_tell}."
+    )
 
 
 def _contested(resolved: Resolved, contested: Contest, effects: Sequence[NamedEffect]) -> str:
     """Both are named, with why the record does not tell them apart, what would, and what limb.toml holds."""
     cause = contested.cause
     names = [member.label for member in contested.members]
-    sure = [effect.label for effect in effects if effect.label not in contested.disputed]
+    sure = [effect.label for effect in effects if effect.label not in {*contested.disputed, *names}]
     likely = contested.members[0].share >= MOST_LIKELY
     either = (
-        f"most likely {names[0]}, perhaps {' or '.join(names[1:])}"
+        names[0]
+        if contested.decided
+        else f"most likely {names[0]}, perhaps {' or '.join(names[1:])}"
         if likely
         else f"{', '.join(names[:-1])} or {names[-1]}"
     )
     lead = (
         f"Something is missing: {either}."
         if resolved.verdict == "ambiguous"
+        else f"Missing: {' and '.join([*sure, either])}."
+        if contested.decided
         else f"Missing: {', '.join(sure)}, and {either}."
         if likely
         else f"Missing: {', '.join(sure)}, and one of {either}."
@@ -345,6 +373,8 @@ def _contested(resolved: Resolved, contested: Contest, effects: Sequence[NamedEf
         if taken is not None
         else f"They give different K, so the model was left as it was given; --take '{names[0]}' exports the first."
     )
+    if contested.decided:
+        return f"{lead} {exported} To see it, {contested.would_tell}."
     return (
         f"{lead} This record {'hardly tells' if likely else 'cannot tell'} them apart, because {cause.same_because}. "
         f"To tell, {contested.would_tell}. "
@@ -360,12 +390,11 @@ def _verdict(final: Pass, resolved: Resolved) -> Verdict:
     return "effect" if any(one.name == LAG for one in final.troubles) else "data_fault"
 
 
-def _beside(final: Pass, resolved: Resolved) -> str:
+def _beside(final: Pass, resolved: Resolved) -> Iterator[str]:
     """What the instruments did, behind what is said of the limb."""
     told = "; ".join(one.shown for one in final.troubles)
-    if not told or resolved.verdict == "none":
-        return ""
-    return f" The instruments were in trouble, too, and the limb is judged without what they did: {told}."
+    if told and resolved.verdict != "none":
+        yield f"The instruments were in trouble, too, and the limb is judged without what they did: {told}."
 
 
 def _sentence(

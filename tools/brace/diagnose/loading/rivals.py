@@ -14,10 +14,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from brace.diagnose.loading.choose import WORTH_SAYING, LabelSet
-from brace.diagnose.loading.evidence import implausible, score
+from brace.diagnose.loading.evidence import evidence, implausible, score
 from brace.diagnose.loading.fit import Fit, fit
-from brace.diagnose.loading.troubles.likeliest import Trouble
+from brace.diagnose.loading.troubles.likeliest import MUST_LEAD, Trouble
 from brace.identify.record import Record, levers
+from brace.diagnose.loading.search import Hypothesis
 from brace.diagnose.loading.space import Space, Trust, space_of
 from brace.effects import Freedom, Variant
 from brace.effects.catalogue import NUMBER_BY_KEY
@@ -122,8 +123,9 @@ class Member:
 
 @dataclass(frozen=True)
 class Contest:
-    """`members`, most probable first, could each stand for the `disputed` ones of the chosen labels; `mass` is what
-    the search gave to all of them together; `cause` is the strongest rival."""
+    """`members`, most probable first, could each stand for the `disputed` ones of the chosen labels, which are no member
+    themselves where they are far less likely; `mass` is what the search gave to all of them together; `cause` is the
+    strongest rival."""
 
     members: tuple[Member, ...]
     disputed: frozenset[str]
@@ -132,62 +134,101 @@ class Contest:
     gauged: bool = False
 
     @property
+    def share_of_chosen(self) -> float:
+        """Probability among the members that it is what was chosen."""
+        return next((member.share for member in self.members if set(member.labels) == self.disputed), 0.0)
+
+    @property
+    def has_chosen(self) -> bool:
+        """Whether what was chosen is among the members."""
+        return any(set(member.labels) == self.disputed for member in self.members)
+
+    @property
+    def decided(self) -> bool:
+        """Whether one explanation alone is left."""
+        return len(self.members) == 1
+
+    @property
     def would_tell(self) -> str:
         """The measurement that shows the rival, as an order."""
         return GAUGE_ON_RIG if self.gauged else self.cause.would_tell
 
 
-def contest(final: Pass) -> Contest | None:
-    """None where nothing was named, or where no rival explains the record about as well."""
-    decision = final.decision
-    if decision.verdict not in ("effect", "ambiguous"):
-        return None
+def contests(final: Pass) -> tuple[Contest, ...]:
+    """Each disputes other names, the one with the strongest rival first. Empty where nothing was named, or where no
+    rival explains the record about as well."""
+    if final.decision.verdict not in ("effect", "ambiguous"):
+        return ()
     found = [one for cause in RIVAL_CAUSES if (one := _against(final, cause)) is not None]
     if final.rival is not None and (one := _by_instruments(final, final.rival)) is not None:
         found.append(one)
-    return max(found, key=lambda one: 1.0 - _share_of_chosen(one), default=None)
+    apart: list[Contest] = []
+    for one in sorted(found, key=lambda one: one.share_of_chosen):
+        if not any(one.disputed & other.disputed for other in apart):
+            apart.append(one)
+    return tuple(apart)
 
 
-def _share_of_chosen(found: Contest) -> float:
-    return next(member.share for member in found.members if set(member.labels) == found.disputed)
+def with_causes(final: Pass) -> list[LabelSet]:
+    """The sets of the search, and before them the set that a cause outside the catalogue makes with what is left of
+    the chosen ones, where it is likelier than they are."""
+    if final.decision.verdict not in ("effect", "ambiguous"):
+        return final.sets
+    tried = [one for cause in RIVAL_CAUSES if (one := _strongest(final, cause)) is not None]
+    likeliest = max(tried, key=lambda one: one.lead, default=None)
+    if likeliest is None or likeliest.lead < 0.0:
+        return final.sets
+    fitted, labels = likeliest.fit, final.decision.chosen.labels - likeliest.disputed
+    hypothesis = Hypothesis(fitted, _score(final, fitted))
+    return [LabelSet(labels | {likeliest.cause.label}, hypothesis, 1.0), *final.sets]
+
+
+@dataclass(frozen=True)
+class _InPlace:
+    """A cause fitted in the place of the `disputed` effects; `lead` over the chosen set, nats."""
+
+    cause: RivalCause
+    lead: float
+    disputed: frozenset[str]
+    fit: Fit
+
+
+def _strongest(final: Pass, cause: RivalCause) -> _InPlace | None:
+    """The place in which a cause explains the record best; None where it looks like nothing that was chosen."""
+    chosen = final.decision.chosen
+    tried = [one for disputed in cause.looks_like if disputed <= chosen.labels
+             for one in _in_place_of(final, cause, disputed)]  # fmt: skip
+    return _wider(final, cause, max(tried, key=lambda one: one.lead)) if tried else None
 
 
 def _against(final: Pass, cause: RivalCause) -> Contest | None:
     """The strongest contest that one cause makes for a part of the chosen set."""
-    chosen = final.decision.chosen
-    tried = [one for disputed in cause.looks_like if disputed <= chosen.labels
-             for one in _in_place_of(final, cause, disputed)]  # fmt: skip
-    if not tried:
+    best = _strongest(final, cause)
+    if best is None:
         return None
-    best = _wider(final, cause, max(tried, key=lambda one: one[0]))
-    lead, disputed, fitted = best
-    rival = chosen.posterior * float(np.exp(min(lead, 700.0)))
-    space = fitted.space
+    rival = final.decision.chosen.posterior * float(np.exp(min(best.lead, 700.0)))
+    space = best.fit.space
     assert isinstance(space, RivalSpace)
-    limb = fitted.model if cause.in_limb else space.limbs(fitted.x[None])[0]
-    return _contest(final, cause, disputed, rival, Member((cause.label,), 0.0, fitted, limb, cause))
+    limb = best.fit.model if cause.in_limb else space.limbs(best.fit.x[None])[0]
+    return _contest(final, cause, best.disputed, rival, Member((cause.label,), 0.0, best.fit, limb, cause))
 
 
-def _in_place_of(
-    final: Pass, cause: RivalCause, disputed: frozenset[str]
-) -> Iterator[tuple[float, frozenset[str], Fit]]:
-    """How far each way of the cause is ahead of the chosen set, and its fit."""
+def _in_place_of(final: Pass, cause: RivalCause, disputed: frozenset[str]) -> Iterator[_InPlace]:
+    """Each way of the cause."""
     chosen = final.decision.chosen.best.fit
     for way in cause.ways:
         fitted = _fitted(final.record, final.trust, chosen, cause, way, disputed)
         if fitted is not None:
-            yield _score(final, fitted) - _score(final, chosen), disputed, fitted
+            yield _InPlace(cause, _score(final, fitted) - _score(final, chosen), disputed, fitted)
 
 
-def _wider(
-    final: Pass, cause: RivalCause, best: tuple[float, frozenset[str], Fit]
-) -> tuple[float, frozenset[str], Fit]:
+def _wider(final: Pass, cause: RivalCause, best: _InPlace) -> _InPlace:
     """The same, with the cause in the place of further chosen effects while that is likelier. Several effects together
     may have stood for one cause."""
-    while others := final.decision.chosen.labels - best[1]:
-        tried = [one for label in sorted(others) for one in _in_place_of(final, cause, best[1] | {label})]
-        likeliest = max(tried, key=lambda one: one[0], default=best)
-        if likeliest[0] <= best[0]:
+    while others := final.decision.chosen.labels - best.disputed:
+        tried = [one for label in sorted(others) for one in _in_place_of(final, cause, best.disputed | {label})]
+        likeliest = max(tried, key=lambda one: one.lead, default=best)
+        if likeliest.lead <= best.lead:
             break
         best = likeliest
     return best
@@ -197,7 +238,7 @@ def _by_instruments(final: Pass, trouble: Trouble) -> Contest | None:
     """What a trouble of the instruments leaves uncertain."""
     chosen = final.decision.chosen
     disputed = chosen.labels - trouble.rest.labels
-    if not disputed:
+    if not disputed or not trouble.rest.labels < chosen.labels:
         return None
     fitted = trouble.rest.best.fit
     member = Member((trouble.cause.label,), 0.0, fitted, fitted.model, trouble.cause, trouble)
@@ -223,7 +264,10 @@ def _contest(
     top = max(top, rival)
     mass = min(1.0, sum(item.posterior for item in final.sets if chosen.labels - disputed <= item.labels))
     own = " + ".join(sorted(disputed))
-    kept = {name: found for name, found in weights.items() if found[0] >= WORTH_SAYING * top or name == own}
+    stays = not _told_apart(final, member.fit)
+    kept = {
+        name: found for name, found in weights.items() if found[0] >= WORTH_SAYING * top or (name == own and stays)
+    }
     whole = rival + sum(weight for weight, _ in kept.values())
     members = [
         Member(_ordered(final, name), weight / whole, found, found.model) for name, (weight, found) in kept.items()
@@ -232,6 +276,12 @@ def _contest(
     members.sort(key=lambda one: (-round(one.share, 9), one.cause is not None, one.label))
     gauged = isinstance(space, RivalSpace) and space.gauged(record)
     return Contest(tuple(members), disputed, mass, cause, gauged)
+
+
+def _told_apart(final: Pass, better: Fit) -> bool:
+    """Whether the readings themselves, with no prior, speak for this fit against what was chosen."""
+    record, chosen = final.record, final.decision.chosen.best.fit
+    return evidence(better.cost, chosen.cost, 0, 0, record.readings, record.noise_freedom) > MUST_LEAD
 
 
 def _ordered(final: Pass, name: str) -> tuple[str, ...]:
@@ -247,12 +297,10 @@ def _stand_ins(
     """What the search found for the disputed labels: they themselves, and what else could stand in their place."""
     rest = chosen.labels - disputed
     for item in sets:
-        if rest <= item.labels and 0 < len(item.labels - rest) <= len(disputed):
-            yield " + ".join(sorted(item.labels - rest)), (_weight(item), item.best.fit)
-
-
-def _weight(item: LabelSet) -> float:
-    return item.posterior * float(np.exp(-_implausible(item.best.fit)))
+        stand_in = item.labels - rest
+        if rest <= item.labels and 0 < len(stand_in) <= len(disputed):
+            weight = item.posterior * float(np.exp(-_implausible(item.best.fit, stand_in)))
+            yield " + ".join(sorted(stand_in)), (weight, item.best.fit)
 
 
 def _score(final: Pass, fitted: Fit) -> float:
@@ -261,12 +309,12 @@ def _score(final: Pass, fitted: Fit) -> float:
     return score(fitted, final.base.fit, record.readings, record.noise_freedom)
 
 
-def _implausible(fitted: Fit) -> float:
-    """Nats that the sizes of a fit cost by the catalogue's prior: normal in the logarithm of the ratio to what was
-    believed."""
+def _implausible(fitted: Fit, labels: frozenset[str]) -> float:
+    """Nats that the sizes of these effects of a fit cost by the catalogue's prior: normal in the logarithm of the ratio
+    to what was believed."""
     cost = 0.0
     index = number_index()
-    for key in fitted.space.keys[fitted.space.size - fitted.space.own :]:
+    for key in (freedom.key for one in fitted.space.variants if one.label in labels for freedom in one.freedoms):
         number = NUMBER_BY_KEY.get(key)
         if number is None or not np.isfinite(number.plausible_times):
             continue
@@ -304,7 +352,7 @@ def _fitted(
     known = {key: value for key, value in zip(chosen.space.keys, chosen.x) if key not in of_disputed}
     start = np.array([known.get(key, middle) for key, middle in zip(space.keys, space.mean)])
     start[plain.size :] = _start(cause, way, chosen)
-    return fit(record, space, start, final=False)
+    return fit(record, space, start)
 
 
 def _start(cause: RivalCause, way: Sequence[Size], chosen: Fit) -> list[float]:

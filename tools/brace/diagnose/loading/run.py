@@ -21,6 +21,7 @@ from brace.diagnose.loading.troubles.likeliest import likeliest
 from brace.diagnose.loading.noise_after_base import with_growth, with_known_noise, with_less_noise
 from brace.diagnose.loading.parts import locked_rows
 from brace.identify.record import Record, load_record, setting_of
+from brace.diagnose.loading.rivals import with_causes
 from brace.diagnose.loading.rounding import asked_for
 from brace.diagnose.loading.search_pass import Pass
 from brace.diagnose.loading.search import Hypothesis, Search
@@ -127,6 +128,9 @@ def _without_troubles(found: Pass, variants: Sequence[Variant], advance: Advance
     cleaner = found
     for _ in range(MOST_TROUBLES):
         trouble = likeliest(cleaner.record, cleaner.sets)
+        if trouble is not None and trouble.far_ahead:  # of the catalogue: a rig may explain the record better than both
+            sets = with_causes(cleaner)
+            trouble = trouble if sets is cleaner.sets else likeliest(cleaner.record, sets)
         if trouble is None or not trouble.far_ahead or trouble.lead < cleaner.decision.outside.lead:
             cleaner = replace(cleaner, rival=trouble)
             break

@@ -5,6 +5,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from itertools import combinations
+
+import numpy as np
 
 from brace.diagnose.loading.evidence import score
 from brace.diagnose.loading.fit import Fit, fit
@@ -71,10 +74,23 @@ class Search:
                 share = 0.4 + 0.3 * (size - 1 + number / len(parents))
                 self.advance(share, f"trying {parent.label} and one more")
                 self._grow(parent)
+        self._parts_of(self.ranked()[0])
         return self.ranked()
 
     def ranked(self) -> list[Hypothesis]:
         return sorted(self.tried.values(), key=lambda item: (-item.score, item.label))
+
+    def _parts_of(self, best: Hypothesis) -> None:
+        """The sets that are left of the best one without some of its effects, where no search came that way. What an
+        effect is worth is told against these, and a trouble of the instruments may stand in the place of the others."""
+        parts = [part for size in range(1, len(best.variants)) for part in combinations(best.variants, size)]
+        for part in parts:
+            if any(item.labels == {variant.label for variant in part} for item in self.tried.values()):
+                continue
+            space = space_of(self.trust, part)
+            known = dict(zip(best.fit.space.keys, best.fit.x))
+            start = np.array([known.get(key, middle) for key, middle in zip(space.keys, space.mean)])
+            self._keep(fit(self.record, space, np.clip(start, space.low, space.high), final=False))
 
     def _best(self, size: int) -> list[Hypothesis]:
         """The best hypothesis of each set of labels with this many effects."""
@@ -95,11 +111,16 @@ class Search:
             self._fit(promise, parent)
 
     def _fit(self, promise: Promise, parent: Hypothesis) -> None:
-        name = frozenset((variant.label, variant.keys) for variant in promise.space.variants)
-        if name in self.tried or READINGS_EACH * promise.space.own > self.record.moved_readings:
+        if _name(promise.space.variants) in self.tried or READINGS_EACH * promise.space.own > self.record.moved_readings:
             return
         fitted = fit(self.record, promise.space, promise.start, final=False)
         if parent.fit.cost - fitted.cost > LEAST_GAIN:
-            self.tried[name] = Hypothesis(
-                fitted, score(fitted, self.base.fit, self.record.readings, self.record.noise_freedom)
-            )
+            self._keep(fitted)
+
+    def _keep(self, fitted: Fit) -> None:
+        worth = score(fitted, self.base.fit, self.record.readings, self.record.noise_freedom)
+        self.tried[_name(fitted.space.variants)] = Hypothesis(fitted, worth)
+
+
+def _name(variants: Sequence[Variant]) -> frozenset[tuple[str, tuple[str, ...]]]:
+    return frozenset((variant.label, variant.keys) for variant in variants)

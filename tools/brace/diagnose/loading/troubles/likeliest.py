@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import combinations
 
 import numpy as np
 
@@ -85,12 +86,14 @@ def likeliest(record: Record, sets: Sequence[LabelSet]) -> Trouble | None:
     if rounds_to_record(record, best.best.fit):
         return None
     against = score(best.best.fit, base, record.readings, record.noise_freedom) - float(np.log(best.posterior))
-    rests = [frozenset[str](), *(best.labels - {label} for label in sorted(best.labels)), best.labels]
-    options = [option for rest in dict.fromkeys(rests) if rest in known for option in _options(record, known[rest])]
+    sizes = range(len(best.labels) + 1)
+    rests = [frozenset(rest) for size in sizes for rest in combinations(sorted(best.labels), size)]
+    options = [option for rest in rests if rest in known for option in _options(record, known[rest])]
     first: dict[tuple[str, frozenset[str]], _Option] = {}
     for option in sorted(options, key=lambda one: -one.promise(record, base)):
         first.setdefault((option.kind, option.rest.labels), option)
-    troubles = [_fitted(record, base, option, against) for option in list(first.values())[:REFITTED]]
+    chosen = [one for place, one in enumerate(first.values()) if place < REFITTED or one.kind == LAG]
+    troubles = [_fitted(record, base, option, against) for option in chosen]
     likely = max(troubles, key=lambda one: one.lead, default=None)
     return likely if likely is not None and likely.lead > MAY_BE and likely.name not in NOT_TOLD else None
 
@@ -154,7 +157,7 @@ def _fitted(record: Record, base: Fit, option: _Option, against: float) -> Troub
     lead = option.score(record, base, min(fitted.cost, option.cost)) - against
     whitened = record.whitened(option.columns)
     inner = whitened.T @ whitened + (np.eye(whitened.shape[1]) / option.spread**2 if option.spread else 0.0)
-    left = record.residuals(fitted.space.models(fitted.x[None]))[0]
+    left = fitted.space.residuals(record, fitted.x[None])[0]
     sizes = np.linalg.pinv(inner, hermitian=True) @ (whitened.T @ left)
     lead -= _implausible(option.kind, sizes)
     if option.kind == SLIP and _goes_back(sizes):
