@@ -296,7 +296,8 @@ def test_a_size_that_no_limb_has_needs_evidence(tmp_path: Path, limb: Path) -> N
     for times, nats in ((0.5, 0.0), (1.0, 0.0), (10.0, 4.5), (100.0, 18.0)):
         x = space.mean.copy()
         x[-1] = times * 0.002
-        assert _implausible(Fit(space, x, nothing, nothing, nothing, 0.0), frozenset({axial[0].label})) == pytest.approx(nats)
+        fitted = Fit(space, x, nothing, nothing, nothing, 0.0)
+        assert _implausible(fitted, frozenset({axial[0].label})) == pytest.approx(nats)
 
 
 def test_a_cause_stands_for_as_many_effects_as_is_likeliest(monkeypatch: pytest.MonkeyPatch) -> None:

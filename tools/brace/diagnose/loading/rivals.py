@@ -123,9 +123,9 @@ class Member:
 
 @dataclass(frozen=True)
 class Contest:
-    """`members`, most probable first, could each stand for the `disputed` ones of the chosen labels, which are no member
-    themselves where they are far less likely; `mass` is what the search gave to all of them together; `cause` is the
-    strongest rival."""
+    """`members`, most probable first, could each stand for the `disputed` ones of the chosen labels. Those are no
+    member themselves where the readings speak against them; `mass` is what the search gave to all of them together;
+    `cause` is the strongest rival."""
 
     members: tuple[Member, ...]
     disputed: frozenset[str]

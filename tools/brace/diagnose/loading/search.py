@@ -81,8 +81,8 @@ class Search:
         return sorted(self.tried.values(), key=lambda item: (-item.score, item.label))
 
     def _parts_of(self, best: Hypothesis) -> None:
-        """The sets that are left of the best one without some of its effects, where no search came that way. What an
-        effect is worth is told against these, and a trouble of the instruments may stand in the place of the others."""
+        """The sets that are left of the best one without some of its effects, where no search came that way. They tell
+        what an effect is worth, and a trouble of the instruments may stand in the place of the others."""
         parts = [part for size in range(1, len(best.variants)) for part in combinations(best.variants, size)]
         for part in parts:
             if any(item.labels == {variant.label for variant in part} for item in self.tried.values()):
@@ -111,7 +111,8 @@ class Search:
             self._fit(promise, parent)
 
     def _fit(self, promise: Promise, parent: Hypothesis) -> None:
-        if _name(promise.space.variants) in self.tried or READINGS_EACH * promise.space.own > self.record.moved_readings:
+        too_many = READINGS_EACH * promise.space.own > self.record.moved_readings
+        if _name(promise.space.variants) in self.tried or too_many:
             return
         fitted = fit(self.record, promise.space, promise.start, final=False)
         if parent.fit.cost - fitted.cost > LEAST_GAIN:
