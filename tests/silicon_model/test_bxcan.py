@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import random
 import struct
+from itertools import count
 
 import pytest
 
 from bxcan_model import Frame
 from silicon import Maker, Silicon
 
+LINE_OF_NMI = 200  # no interrupt has this number: the model takes them at any instruction, as the processor an NMI
 OK, AGAIN, UNSUPPORTED, RANGE, DEVICE, BUS_OFF = 0, -1, -2, -3, -4, -5
 
 
@@ -428,3 +430,49 @@ def test_a_controller_that_listens_goes_on_listening_without_the_crystal(silicon
     chip.can.arriving.append(Frame(0x123, b"heard"))
     chip.chip.wait_us(2000)
     assert receive(chip) == Frame(0x123, b"heard")
+
+
+def lost_after(chip: Silicon, instructions: int) -> None:
+    """The crystal stops after so many instructions of what is called next."""
+    chip.chip.slice = (1, 1)
+    looks = count()
+    chip.chip.lines[LINE_OF_NMI] = (lambda: next(looks) == instructions and chip.rcc.crystal_stops(), "nmi_handler")
+    chip.chip.nvic.enabled.add(LINE_OF_NMI)
+
+
+@pytest.mark.parametrize("instructions", [*range(0, 400, 8), *range(400, 2000, 50)])
+def test_a_crystal_lost_while_the_bus_is_set_up_leaves_it_alone(silicon: Maker, instructions: int) -> None:
+    """A set-up that says OK has a crystal, and nothing is sent with another clock."""
+    chip = silicon()
+    chip.start()
+    lost_after(chip, instructions)
+    if (answer := chip.setup_can(500_000, 0, 0, 0)) == OK:
+        chip.lose_crystal()
+    assert answer in (OK, DEVICE)
+    chip.chip.wait_us(5000)
+    send(chip, Frame(0x181, b"late"))
+    chip.chip.wait_us(5000)
+    assert chip.bus.seen == [] and not chip.can.on_bus()
+
+
+@pytest.mark.parametrize("instructions", range(60))
+@pytest.mark.parametrize("waited_us", [0, 5000])
+def test_a_crystal_lost_on_the_way_back_from_bus_off_leaves_the_bus_alone(
+    silicon: Maker, instructions: int, waited_us: int
+) -> None:
+    """Where the way back is asked for, and where it is finished."""
+    chip = joined(silicon)
+    chip.bus.spoils = True
+    assert send(chip, Frame(0x181, b"spoilt")) == OK
+    chip.chip.wait_us(100_000)
+    assert health(chip)[3]
+    chip.bus.spoils = False
+    if waited_us:
+        assert chip.recover() == OK
+        chip.chip.wait_us(waited_us)
+    lost_after(chip, instructions)
+    chip.recover()
+    chip.chip.wait_us(50_000)
+    send(chip, Frame(0x181, b"late"))
+    chip.chip.wait_us(50_000)
+    assert chip.bus.seen == [] and not chip.can.on_bus() and health(chip)[3]

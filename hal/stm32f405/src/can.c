@@ -33,7 +33,8 @@ static volatile uint32_t frames_lost;
 
 static const stm32f405_board_t *wiring;
 static bool running, listening_only;
-static volatile bool stopped; /* the crystal was lost while it ran */
+static volatile bool silent; /* it disturbs no bus, whatever its clock */
+static volatile bool stopped; /* the crystal was lost since it was set up */
 static bool recovering; /* initialisation was requested, and ends as soon as it is acknowledged */
 
 void can_use(const stm32f405_board_t *board)
@@ -83,6 +84,24 @@ static void restart_controller(void)
     processor_barrier();
 }
 
+void can_stop(void)
+{
+    if (!silent) {
+        stopped = true;
+        restart_controller(); /* it sleeps, and its line is recessive */
+    }
+}
+
+/* Changes the mode, which wakes the controller. The crystal may have been lost since the mode was read or chosen: then
+ * it sleeps again. */
+static void set_mode(uint32_t mode)
+{
+    *can(CAN_MCR) = mode;
+    if (stopped) {
+        restart_controller();
+    }
+}
+
 int32_t can_setup(void *context, const brace_can_setup_t *setup)
 {
     (void)context;
@@ -98,6 +117,7 @@ int32_t can_setup(void *context, const brace_can_setup_t *setup)
     }
     running = false;
     recovering = false;
+    silent = setup->listen_only || setup->loopback;
     stopped = false;
     restart_controller(); /* now it sleeps: no interrupt, empty mailboxes and FIFO */
     ring_taken = ring_written;
@@ -115,11 +135,15 @@ int32_t can_setup(void *context, const brace_can_setup_t *setup)
     *can(CAN_BTR) = timing_bits(&timing) | mode_bits(setup);
     open_filter(setup);
     *can(CAN_IER) = CAN_IER_FMPIE0 | CAN_IER_FOVIE0;
-    *can(CAN_MCR) = manner; /* it leaves initialisation by itself after 11 recessive bits */
     listening_only = setup->listen_only && !setup->loopback;
     running = true;
     interrupt_enable(CAN1_RX0_IRQ);
-    return BRACE_HAL_OK;
+    if (!clock_report()->crystal && !silent) { /* lost since it was looked at */
+        can_stop();
+        return BRACE_HAL_E_DEVICE;
+    }
+    set_mode(manner); /* it leaves initialisation by itself after 11 recessive bits */
+    return stopped ? BRACE_HAL_E_DEVICE : BRACE_HAL_OK;
 }
 
 /* Second half of can_recover, once the controller has acknowledged: leaving initialisation starts the 128 x 11
@@ -127,7 +151,7 @@ int32_t can_setup(void *context, const brace_can_setup_t *setup)
 static void finish_recovery(void)
 {
     if (recovering && (*can(CAN_MSR) & CAN_MSR_INAK) != 0u) {
-        *can(CAN_MCR) &= ~CAN_MCR_INRQ;
+        set_mode(*can(CAN_MCR) & ~CAN_MCR_INRQ);
         recovering = false;
     }
 }
@@ -135,14 +159,6 @@ static void finish_recovery(void)
 static bool is_bus_off(void)
 {
     return stopped || recovering || (*can(CAN_ESR) & CAN_ESR_BOFF) != 0u;
-}
-
-void can_stop(void)
-{
-    if (running && !listening_only) {
-        restart_controller(); /* it sleeps, and its line is recessive */
-        stopped = true;
-    }
 }
 
 /* It has not seen 11 recessive bits since it was set up. */
@@ -162,7 +178,7 @@ int32_t can_recover(void *context)
     }
     if (!recovering && (*can(CAN_ESR) & CAN_ESR_BOFF) != 0u) {
         *can(CAN_TSR) = CAN_TSR_ABRQ0 | CAN_TSR_ABRQ1 | CAN_TSR_ABRQ2;
-        *can(CAN_MCR) |= CAN_MCR_INRQ;
+        set_mode(*can(CAN_MCR) | CAN_MCR_INRQ);
         recovering = true;
     }
     finish_recovery();
