@@ -45,6 +45,7 @@ struct Bench {
     std::uint64_t now_us = 0;
     std::uint64_t serve_us = 250; // how often there is time for the driver
     double turns_rad_per_s = 1.0;
+    std::array<double, 3> beyond_turn_rad{};
     std::array<std::uint32_t, 3> fresh{}, wrong{}, refused{};
     std::uint64_t oldest_us = 0;
     bool is_deaf = false; // the line takes nothing
@@ -104,7 +105,7 @@ struct Bench {
 
     double turned_rad(int joint, double t_us) const
     {
-        return M_PI + 0.8 * std::sin(turns_rad_per_s * 1e-6 * t_us + joint);
+        return M_PI + beyond_turn_rad[joint] + 0.8 * std::sin(turns_rad_per_s * 1e-6 * t_us + joint);
     }
     double current_a(int joint, double t_us) const { return 1.2 * std::sin(3e-6 * t_us + 2 * joint); }
 
@@ -541,6 +542,44 @@ void test_no_burst_that_the_crc_misses_sends_a_servo_elsewhere()
     }
 }
 
+// Torque follows from the model, and its limit from the servo's own.
+void test_no_burst_that_the_crc_misses_makes_another_servo_of_it()
+{
+    constexpr std::size_t kIdentity = 9 + 12 + 2, kLimit = 9 + 2 + 2;
+    Bench sound;
+    sound.be_ready();
+    for (const std::size_t length : {kIdentity, kLimit}) {
+        for (const auto &burst : missed_bursts(length)) {
+            Bench bench;
+            bench.serve_us = kTick_us;
+            bench.flips = burst;
+            bench.be_ready();
+            TEST_ASSERT_TRUE(bench.flips.empty());
+            for (int i = 0; i < 3; ++i) {
+                const brace_servo_t &servo = bench.driver.servo[i], &as_it_is = sound.driver.servo[i];
+                TEST_ASSERT_EQUAL(kModels[i], bench.report(i).model);
+                TEST_ASSERT_EQUAL(as_it_is.current_limit, servo.current_limit);
+                TEST_ASSERT_EQUAL_FLOAT(as_it_is.torque_per_count_n_mm, servo.torque_per_count_n_mm);
+            }
+        }
+    }
+}
+
+// In position mode (3) a servo takes no goal beyond its turn: it cannot be told to stand where it is.
+void test_a_servo_beyond_its_turn_is_refused_and_not_moved()
+{
+    Bench bench;
+    brace_servos_poke(bench.servos.get(), kFemur, 11, 1, 3);
+    bench.turns_rad_per_s = 0.0;
+    bench.beyond_turn_rad[kFemur] = 2.0 * M_PI;
+    bench.start();
+    bench.run(0.5);
+    double goal_rad = 0, most_a = 0;
+    TEST_ASSERT_EQUAL(BRACE_SERVO_MODE, bench.report(kFemur).state);
+    TEST_ASSERT_EQUAL(0, brace_servos_goal(bench.servos.get(), kFemur, &goal_rad, &most_a));
+    TEST_ASSERT_EQUAL(BRACE_SERVO_READY, bench.report(kTibia).state);
+}
+
 void test_commands_that_make_no_sense_are_refused()
 {
     Bench bench;
@@ -607,6 +646,8 @@ int main()
     RUN_TEST(test_an_offset_fades_from_where_it_was_when_a_servo_is_back);
     RUN_TEST(test_a_goal_that_the_line_did_not_take_is_sent_again_at_once);
     RUN_TEST(test_no_burst_that_the_crc_misses_sends_a_servo_elsewhere);
+    RUN_TEST(test_no_burst_that_the_crc_misses_makes_another_servo_of_it);
+    RUN_TEST(test_a_servo_beyond_its_turn_is_refused_and_not_moved);
     RUN_TEST(test_commands_that_make_no_sense_are_refused);
     RUN_TEST(test_a_servo_that_holds_goes_on_holding_when_the_controller_starts_anew);
     RUN_TEST(test_nobody_is_told_to_hold_who_shall_not);

@@ -50,7 +50,8 @@ typedef enum {
     BRACE_SERVO_STARTING = 2, /* answers, and is being identified */
     BRACE_SERVO_READY = 3,
     BRACE_SERVO_UNKNOWN = 4,  /* refused: no model of ours, or one that measures no current */
-    BRACE_SERVO_MODE = 5,     /* refused: it is in no position mode (3, 4 or 5), or its drive mode is reversed */
+    BRACE_SERVO_MODE = 5,     /* refused: it is in no position mode (3, 4 or 5), or its drive mode is reversed, or it
+                               * stands beyond its turn in mode 3 */
     BRACE_SERVO_FAILED = 6    /* has switched itself off: hardware_error says why. Only a reboot helps */
 } brace_servo_state_t;
 
@@ -89,7 +90,9 @@ typedef struct {
     uint8_t step;               /* of being identified */
     uint8_t misses;             /* in a row */
     bool is_new, state_is_due, temperature_is_next;
+    uint8_t drive_mode;
     bool has_sample, has_wild, has_goal;
+    bool has_limit;             /* current_limit is what the servo has said, once */
     bool has_place;             /* base is where the servo has said that it stands, once */
     brace_servo_raw_t sample, wild;
     uint32_t asked_us;          /* when it was last asked while silent */

@@ -112,14 +112,23 @@ void dxl_servo_lose_answer(brace_servo_t *servo, uint32_t now_us)
     }
 }
 
+/* Torque follows from the model, and the mode says which goals may be sent. The CRC misses some bursts: who a servo is,
+ * is believed when two answers say the same. */
 static void take_identity(brace_servo_t *servo, const brace_servo_joint_t *joint, const uint8_t *data)
 {
     enum { FIRMWARE = 6, DRIVE_MODE = 10, OPERATING_MODE = 11, REVERSED = 1, DEPENDS_ON_OTHER = 2 };
-    servo->report.model = (uint16_t)value_of(data, 2);
+    const uint16_t number = (uint16_t)value_of(data, 2);
+    const bool is_confirmed = servo->report.model == number && servo->report.operating_mode == data[OPERATING_MODE] &&
+                              servo->drive_mode == data[DRIVE_MODE];
+    servo->report.model = number;
     servo->report.firmware = data[FIRMWARE];
     servo->report.operating_mode = data[OPERATING_MODE];
-    const dxl_model_t *model = dxl_model(servo->report.model);
-    if (model == NULL) {
+    servo->drive_mode = data[DRIVE_MODE];
+    const dxl_model_t *model = dxl_model(number);
+    if (!is_confirmed) {
+        servo->report.state = BRACE_SERVO_STARTING;
+        servo->step = DXL_STEP_IDENTIFY;
+    } else if (model == NULL) {
         servo->report.state = BRACE_SERVO_UNKNOWN;
     } else if (data[OPERATING_MODE] < DXL_MODE_POSITION || data[OPERATING_MODE] > DXL_MODE_CURRENT_POSITION ||
                (data[DRIVE_MODE] & (REVERSED | DEPENDS_ON_OTHER)) != 0u) {
@@ -129,7 +138,16 @@ static void take_identity(brace_servo_t *servo, const brace_servo_joint_t *joint
         servo->torque_per_count_n_mm = 1e-3f * model->step_ma * model->n_mm_per_a * joint->torque_ratio *
                                        (joint->is_reversed ? -1.0f : 1.0f);
         servo->step = DXL_STEP_READ_LIMIT;
+        servo->has_limit = false;
     }
+}
+
+/* As the model, the limit is believed when two answers say the same. */
+static void take_limit(brace_servo_t *servo, uint16_t limit)
+{
+    servo->step = servo->has_limit && servo->current_limit == limit ? DXL_STEP_READ_STATE : DXL_STEP_READ_LIMIT;
+    servo->current_limit = servo->current_sent = limit;
+    servo->has_limit = true;
 }
 
 /* Torque that is off although it was on: the servo has started anew, or has switched itself off. */
@@ -164,9 +182,12 @@ static void take_state(brace_servo_t *servo, bool holds, const uint8_t *data)
 static void take_place(brace_servo_t *servo, int32_t place)
 {
     const bool is_believed = servo->has_place && distance(place, servo->base) <= POSITION_JUMP;
+    const bool is_in_turn = place >= 0 && place < DXL_COUNTS_PER_TURN;
     servo->base = servo->goal_sent = place;
     servo->has_place = true;
-    if (is_believed) {
+    if (is_believed && servo->report.operating_mode == DXL_MODE_POSITION && !is_in_turn) {
+        servo->report.state = BRACE_SERVO_MODE; /* it takes no goal where it stands, and the nearest one would move it */
+    } else if (is_believed) {
         servo->has_goal = true;
         servo->offset_rad = 0.0f;
         servo->step = servo->report.has_torque ? DXL_STEP_READ_STATE : DXL_STEP_WRITE_PLACE;
@@ -180,8 +201,7 @@ void dxl_servo_take(brace_servo_t *servo, const brace_servo_joint_t *joint, bool
         take_identity(servo, joint, data);
         break;
     case DXL_STEP_READ_LIMIT:
-        servo->current_limit = servo->current_sent = (uint16_t)value_of(data, 2);
-        servo->step = DXL_STEP_READ_STATE;
+        take_limit(servo, (uint16_t)value_of(data, 2));
         break;
     case DXL_STEP_READ_STATE:
     case DXL_STEP_READ_STATE_AGAIN:

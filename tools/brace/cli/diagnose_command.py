@@ -8,6 +8,7 @@ import argparse
 from brace.cli import common
 from brace.cli.options import Subcommands
 from brace.cli.subcommands import SUBCOMMANDS
+from brace.errors import EXIT_CHECK_FAILED
 
 _PERCENT = 100
 
@@ -25,7 +26,8 @@ def add(commands: Subcommands) -> None:
         "fleet.html.",
         epilog="Exit code 0 for the verdicts effect, none, ambiguous and unknown. Exit code 3 for the verdict "
         "data_fault, whose report is written all the same, and when a dataset or model cannot be read. Of several "
-        "datasets the readable ones are written all the same.",
+        "datasets the readable ones are written all the same. Exit code 1 where --take names no member; the report "
+        "is written.",
     )
     parser.add_argument(
         "datasets", type=common.path, nargs="+", metavar="DATASET", help="folder with meta.toml and data.csv"
@@ -105,4 +107,8 @@ def _run_one(arguments: argparse.Namespace) -> int:
         for line in lines(found):
             common.emit(line)
         common.say(f"-> {arguments.out / REPORT}, diagnosis.json, limb.toml")
+    if arguments.take is not None and not found.took:
+        open_to = ", ".join(one.label for one in found.members) or "none: this record leaves no choice"
+        common.say(f"--take {arguments.take}: no such member, nothing was taken; members are {open_to}")
+        return found.exit_code or EXIT_CHECK_FAILED
     return found.exit_code

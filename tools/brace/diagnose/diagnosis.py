@@ -170,7 +170,8 @@ class JointSizes:
 @dataclass(frozen=True)
 class Diagnosis:
     """All that a diagnosis found. `model` is the limb with the effects in it (the believed one where nothing may be
-    exported). `members` are the explanations that stand where one name does not."""
+    exported). `members` are the explanations that stand where one name does not; `took` is the one that `--take`
+    named."""
 
     verdict: Verdict
     sentence: str
@@ -191,6 +192,7 @@ class Diagnosis:
     members: tuple[Alternative, ...] = ()
     joint: JointSizes | None = None
     held_out: tuple[HeldOut, ...] = ()
+    took: str = ""
 
     @property
     def exit_code(self) -> int:

@@ -122,6 +122,7 @@ def _all_but_next(
         indistinguishable=_classes(final, alike, contested),
         could_be=_could_be(final, effects),
         members=resolved.alternatives,
+        took=resolved.taken.label if resolved.taken is not None and options.take and not resolved.note else "",
         localised=_localised(record, final, options),
         held_out=held,
         unexplained=_unexplained(final, after),
