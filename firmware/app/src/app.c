@@ -534,7 +534,7 @@ void brace_app_tick(brace_app_t *app, uint32_t now_us)
 
     /* Sense. */
     joints_read(&controller->joints, hal, parameters, now_us, &controller->counters.samples_bad);
-    tip_force_read(&controller->tip_force, hal, parameters);
+    tip_force_read(&controller->tip_force, hal, parameters, controller->since_us);
     snapshot->taken_us = taken_us(controller);
     snapshot->temp_degc = joints_warmest_degc(&controller->joints);
     part_is_done(controller, PART_SENSED);

@@ -34,7 +34,8 @@ static bool is_usable(float reading_n, float saturation_n)
     return __builtin_fabsf(reading_n) < saturation_n && __builtin_fabsf(reading_n) < FORCE_ABSURD_N;
 }
 
-void tip_force_read(tip_force_t *force, const brace_hal_t *hal, const brace_parameters_t *parameters)
+void tip_force_read(tip_force_t *force, const brace_hal_t *hal, const brace_parameters_t *parameters,
+                    uint32_t since_us)
 {
     const brace_sensor_t *sensor = &parameters->sensor;
     float x_n = 0.0f, z_n = 0.0f;
@@ -44,8 +45,8 @@ void tip_force_read(tip_force_t *force, const brace_hal_t *hal, const brace_para
     const int32_t answer = hal->tip_force_read(hal->context, &x_n, &z_n);
     if (answer == BRACE_HAL_OK) {
         force->age_us = 0;
-    } else if (force->age_us < AGE_MOST_US) { /* AGAIN repeats the last reading, however old */
-        force->age_us += parameters->controller.tick_us;
+    } else { /* AGAIN repeats the last reading, however old */
+        force->age_us = since_us < AGE_MOST_US - force->age_us ? force->age_us + since_us : AGE_MOST_US;
     }
     force->known = (answer == BRACE_HAL_OK || answer == BRACE_HAL_AGAIN) &&
                    force->age_us <= parameters->controller.age_limit_us && is_usable(x_n, sensor->saturation_n) &&

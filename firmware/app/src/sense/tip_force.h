@@ -21,7 +21,8 @@ void tip_force_configure(tip_force_t *force, const brace_hal_t *hal, const brace
 
 /* Reads and corrects the sensor. Bias, gain, rotation and cross-talk are undone. Drift is not, because nobody on the
  * limb knows when the sensor was zeroed. A saturated reading is not known, nor one older than
- * controller.age_limit_us. */
-void tip_force_read(tip_force_t *force, const brace_hal_t *hal, const brace_parameters_t *parameters);
+ * controller.age_limit_us. since_us: since it was last called, which a late tick makes longer. */
+void tip_force_read(tip_force_t *force, const brace_hal_t *hal, const brace_parameters_t *parameters,
+                    uint32_t since_us);
 
 #endif

@@ -40,10 +40,10 @@ static void test_a_reading_that_is_not_used_changes_nothing(void)
 {
     parameters.sensor.saturation_n = 50.0f;
     tip_force_configure(&force, &hal, &parameters.sensor);
-    tip_force_read(&force, &hal, &parameters);
+    tip_force_read(&force, &hal, &parameters, TICK_US);
     TEST_ASSERT_TRUE(force.known);
     x_n = 60.0f, z_n = 1.0f;
-    tip_force_read(&force, &hal, &parameters);
+    tip_force_read(&force, &hal, &parameters, TICK_US);
     TEST_ASSERT_FALSE(force.known);
     TEST_ASSERT_EQUAL_FLOAT(3.0f, force.x_n);
     TEST_ASSERT_EQUAL_FLOAT(-4.0f, force.z_n);
@@ -65,7 +65,7 @@ static void test_the_sensor_s_model_is_undone(void)
         const double c = cos((double)turn), s = sin((double)turn), gain = (double)parameters.sensor.gain;
         x_n = (float)((double)parameters.sensor.bias_x_n + gain * (c * mixed_x - s * mixed_z));
         z_n = (float)((double)parameters.sensor.bias_z_n + gain * (s * mixed_x + c * mixed_z));
-        tip_force_read(&force, &hal, &parameters);
+        tip_force_read(&force, &hal, &parameters, TICK_US);
         TEST_ASSERT_TRUE(force.known);
         TEST_ASSERT_DOUBLE_WITHIN(2e-5, is_x, (double)force.x_n);
         TEST_ASSERT_DOUBLE_WITHIN(2e-5, is_z, (double)force.z_n);
@@ -76,7 +76,7 @@ static void test_without_a_sensor_or_an_inverse_there_is_no_force(void)
 {
     tip_force_configure(&force, &none, &parameters.sensor);
     TEST_ASSERT_FALSE(force.fitted);
-    tip_force_read(&force, &none, &parameters);
+    tip_force_read(&force, &none, &parameters, TICK_US);
     TEST_ASSERT_FALSE(force.known);
     /* both axes read the same, so the model has no inverse */
     parameters.sensor.crosstalk_xz = parameters.sensor.crosstalk_zx = 1.0f;
@@ -85,7 +85,7 @@ static void test_without_a_sensor_or_an_inverse_there_is_no_force(void)
     parameters.sensor = (brace_sensor_t){.gain = 1.0f, .saturation_n = INFINITY, .rotation_rad = NAN};
     tip_force_configure(&force, &hal, &parameters.sensor);
     TEST_ASSERT_FALSE(force.fitted);
-    tip_force_read(&force, &hal, &parameters);
+    tip_force_read(&force, &hal, &parameters, TICK_US);
     TEST_ASSERT_FALSE(force.known);
     /* The determinant must be at least 1e-3. A gain of 0.04 has 1.6e-3, a gain of 0.03 has 9e-4. */
     parameters.sensor = (brace_sensor_t){.gain = -0.04f, .saturation_n = INFINITY};
@@ -106,16 +106,16 @@ static void test_a_saturated_reading_is_not_known(void)
         const float most_n = i < 4 ? 50.0f : 1e6f;
         float *const axis = axes[i / 2 % 2];
         *axis = sign * nextafterf(most_n, 0.0f);
-        tip_force_read(&force, &hal, &parameters);
+        tip_force_read(&force, &hal, &parameters, TICK_US);
         TEST_ASSERT_TRUE(force.known);
         *axis = sign * most_n;
-        tip_force_read(&force, &hal, &parameters);
+        tip_force_read(&force, &hal, &parameters, TICK_US);
         TEST_ASSERT_FALSE(force.known);
         *axis = sign * 2.0f * most_n;
-        tip_force_read(&force, &hal, &parameters);
+        tip_force_read(&force, &hal, &parameters, TICK_US);
         TEST_ASSERT_FALSE(force.known);
         *axis = NAN;
-        tip_force_read(&force, &hal, &parameters);
+        tip_force_read(&force, &hal, &parameters, TICK_US);
         TEST_ASSERT_FALSE(force.known);
     }
 }
@@ -125,28 +125,44 @@ static void test_a_saturated_reading_is_not_known(void)
 static void test_how_long_an_old_reading_counts(void)
 {
     answer = BRACE_HAL_AGAIN;
-    tip_force_read(&force, &hal, &parameters);
+    tip_force_read(&force, &hal, &parameters, TICK_US);
     TEST_ASSERT_FALSE(force.known); /* the sensor has told nothing yet */
     answer = BRACE_HAL_OK;
-    tip_force_read(&force, &hal, &parameters);
+    tip_force_read(&force, &hal, &parameters, TICK_US);
     TEST_ASSERT_TRUE(force.known);
     TEST_ASSERT_EQUAL_UINT32(0, force.age_us);
     answer = BRACE_HAL_AGAIN;
     for (uint32_t tick = 1; tick <= 7u; tick++) {
-        tip_force_read(&force, &hal, &parameters);
+        tip_force_read(&force, &hal, &parameters, TICK_US);
         TEST_ASSERT_EQUAL(tick <= 5u, force.known);
         TEST_ASSERT_EQUAL_UINT32(tick * TICK_US, force.age_us);
     }
     answer = BRACE_HAL_OK;
-    tip_force_read(&force, &hal, &parameters);
+    tip_force_read(&force, &hal, &parameters, TICK_US);
     TEST_ASSERT_TRUE(force.known);
     answer = BRACE_HAL_E_DEVICE;
-    tip_force_read(&force, &hal, &parameters);
+    tip_force_read(&force, &hal, &parameters, TICK_US);
     TEST_ASSERT_FALSE(force.known);
     TEST_ASSERT_EQUAL_UINT32(TICK_US, force.age_us);
     answer = BRACE_HAL_AGAIN; /* the reading before is still young enough */
-    tip_force_read(&force, &hal, &parameters);
+    tip_force_read(&force, &hal, &parameters, TICK_US);
     TEST_ASSERT_TRUE(force.known);
+}
+
+/* The reading that a late tick repeats is as old as the clock says, and no age wraps round. */
+static void test_a_late_tick_makes_an_old_reading(void)
+{
+    answer = BRACE_HAL_OK;
+    tip_force_read(&force, &hal, &parameters, TICK_US);
+    answer = BRACE_HAL_AGAIN;
+    tip_force_read(&force, &hal, &parameters, 6u * TICK_US);
+    TEST_ASSERT_FALSE(force.known);
+    TEST_ASSERT_EQUAL_UINT32(6u * TICK_US, force.age_us);
+    for (int i = 0; i < 3; i++) {
+        tip_force_read(&force, &hal, &parameters, UINT32_MAX - TICK_US);
+        TEST_ASSERT_FALSE(force.known);
+        TEST_ASSERT_EQUAL_HEX32(0x40000000u, force.age_us);
+    }
 }
 
 int main(void)
@@ -157,5 +173,6 @@ int main(void)
     RUN_TEST(test_without_a_sensor_or_an_inverse_there_is_no_force);
     RUN_TEST(test_a_saturated_reading_is_not_known);
     RUN_TEST(test_how_long_an_old_reading_counts);
+    RUN_TEST(test_a_late_tick_makes_an_old_reading);
     return UNITY_END();
 }
