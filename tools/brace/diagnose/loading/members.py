@@ -46,8 +46,8 @@ def resolve(record: Record, final: Pass, found: Contest | None, believed: LimbMo
     verdict = decision.verdict
     chosen = limb_of(believed, decision.chosen.best.fit.model)
     if found is not None:
-        if decision.chosen.labels == found.disputed and not found.decided:
-            verdict = "ambiguous"
+        if decision.chosen.labels == found.disputed:
+            verdict = "effect" if found.decided else "ambiguous"
         sure = found.mass * confidence.of_a_name(final)
         members = [(member, sure * member.share) for member in found.members]
     elif verdict == "ambiguous":
