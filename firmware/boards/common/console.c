@@ -147,6 +147,7 @@ static uint32_t systick(void *context)
 
 static void selftest(text_t *text, const brace_app_t *app, bool may_erase)
 {
+    text_wait(text);
     const int32_t spare = brace_app_snapshot(app)->parameter_origin == BRACE_PARAMETERS_SLOT_B ? 0 : 1;
     SYSTICK_LOAD = (1u << SYSTICK_BITS) - 1u;
     SYSTICK_VALUE = 0u;
@@ -184,6 +185,9 @@ void console_serve(text_t *text, brace_app_t *app)
 {
     const brace_hal_t *const hal = text->hal;
     uint8_t request = 0u;
+    if (!text_serve(text)) { /* one answer at a time */
+        return;
+    }
     if (hal->serial_read(hal->context, BRACE_SERIAL_CONSOLE, &request, 1u) != 1) {
         return;
     }

@@ -6,27 +6,29 @@
 #include "console.h"
 
 static brace_app_t app;
+static text_t console;
 
-static text_t console_open(const brace_hal_t *hal)
+static void open_console(const brace_hal_t *hal)
 {
     const int32_t answer = hal->serial_setup(hal->context, BRACE_SERIAL_CONSOLE, BOARD_CONSOLE_BAUD, BRACE_PARITY_NONE);
-    return (text_t){.hal = hal, .gone = answer != BRACE_HAL_OK};
+    console.hal = hal;
+    console.gone = answer != BRACE_HAL_OK;
 }
 
 /* A controller that cannot start prints why, again and again for whoever connects later. It does not reset in a
  * loop. */
-static _Noreturn void explain(text_t *console, brace_status_t started)
+static _Noreturn void explain(brace_status_t started)
 {
     enum { REPEAT_US = 1000000 };
-    const brace_hal_t *const hal = console->hal;
+    const brace_hal_t *const hal = console.hal;
     uint32_t last_us = hal->now_us(hal->context);
     for (;;) { /* for ever: there is nothing to control */
         hal->watchdog_feed(hal->context);
         if (hal->now_us(hal->context) - last_us >= REPEAT_US) {
             last_us += REPEAT_US;
-            console->gone = false;
-            banner_image(console);
-            banner_application(console, &app, started);
+            console.gone = false;
+            banner_image(&console);
+            banner_application(&console, &app, started);
         }
     }
 }
@@ -34,13 +36,14 @@ static _Noreturn void explain(text_t *console, brace_status_t started)
 int main(void)
 {
     const brace_hal_t *const hal = board_start();
-    text_t console = console_open(hal);
+    open_console(hal);
     banner_image(&console);
     const brace_status_t started = brace_app_start(&app, hal);
     banner_application(&console, &app, started);
     if (started != BRACE_OK) {
-        explain(&console, started);
+        explain(started);
     }
+    text_keep(&console);
     uint32_t due_us = hal->now_us(hal->context);
     for (;;) { /* for ever: the controller */
         const uint32_t now_us = hal->now_us(hal->context);

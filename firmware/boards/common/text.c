@@ -2,13 +2,13 @@
 
 enum { PATIENCE_US = 100000, ROUNDS_MAX = 1000000 };
 
-static void put(text_t *text, const char *bytes, uint32_t count)
+static void write_out(text_t *text, const uint8_t *bytes, uint32_t count)
 {
     const brace_hal_t *const hal = text->hal;
     const uint32_t began_us = hal->now_us(hal->context);
     uint32_t rounds = 0u;
     while (count > 0u && !text->gone) { /* at most count + ROUNDS_MAX turns */
-        const int32_t taken = hal->serial_write(hal->context, BRACE_SERIAL_CONSOLE, (const uint8_t *)bytes, count);
+        const int32_t taken = hal->serial_write(hal->context, BRACE_SERIAL_CONSOLE, bytes, count);
         if (taken > 0) {
             bytes += taken;
             count -= (uint32_t)taken;
@@ -19,6 +19,46 @@ static void put(text_t *text, const char *bytes, uint32_t count)
             text->gone = true;
         }
     }
+}
+
+static void put(text_t *text, const char *characters, uint32_t count)
+{
+    const uint8_t *const bytes = (const uint8_t *)characters;
+    if (!text->keeps) {
+        write_out(text, bytes, count);
+        return;
+    }
+    text->gone = text->gone || count > TEXT_BYTES - text->count;
+    for (uint32_t i = 0u; i < count && !text->gone; i++) {
+        text->bytes[text->count] = bytes[i];
+        text->count++;
+    }
+}
+
+void text_keep(text_t *text)
+{
+    text->keeps = true;
+    text->count = text->sent = 0u;
+}
+
+bool text_serve(text_t *text)
+{
+    if (text->sent < text->count) {
+        const int32_t taken = text->hal->serial_write(text->hal->context, BRACE_SERIAL_CONSOLE,
+                                                      &text->bytes[text->sent], text->count - text->sent);
+        text->sent = taken >= 0 ? text->sent + (uint32_t)taken : text->count; /* a line that fails takes nothing */
+    }
+    if (text->sent == text->count) {
+        text->count = text->sent = 0u;
+    }
+    return text->count == 0u;
+}
+
+void text_wait(text_t *text)
+{
+    text->keeps = false;
+    write_out(text, &text->bytes[text->sent], text->count - text->sent);
+    text->count = text->sent = 0u;
 }
 
 void text_string(text_t *text, const char *string)
