@@ -11,6 +11,8 @@ from handmade import GAP_KEY, by_hand, loading_record
 from brace.dataset import Dataset
 from brace.diagnose import summary
 from brace.diagnose.diagnosis import Diagnosis, GapPair, HeldOut, Interval, NamedEffect
+from brace.diagnose.options import Options
+from brace.diagnose.run import diagnose
 from brace.diagnose.write import contents
 from brace.model import LimbModel
 
@@ -74,3 +76,10 @@ def test_a_class_is_listed_once(made: Made) -> None:
     shared = replace(found, indistinguishable=(("a@b", "backlash@joint.tibia"),), could_be=("a@b", "c@d"))
     told = list(summary.lines(shared))
     assert "  one of     a@b, backlash@joint.tibia" in told and "  could be   c@d" in told
+
+
+def test_a_record_of_more_play_than_the_model_has(made: Made) -> None:
+    dataset, believed, _ = made
+    found = diagnose(dataset, believed.with_values({GAP_KEY: 0.003}), Options())
+    assert [effect.label for effect in found.effects] == ["backlash@joint.tibia"]
+    assert found.sentence.startswith("Of another size than in the model: backlash") and "Missing" not in found.sentence

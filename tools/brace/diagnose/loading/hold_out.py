@@ -50,7 +50,8 @@ def parts(record: Record, locked: np.ndarray) -> Iterator[Part]:
         since = float(data["t_s"][starts[late]])
         yield Part("time", f"runs from t = {since:.6g} s on", np.arange(record.rows) >= starts[late])
     if locked.any():
-        yield Part("posture", f"{np.unique(data['config'][locked]).size} configurations", locked)
+        count = np.unique(data["config"][locked]).size
+        yield Part("posture", "1 configuration" if count == 1 else f"{count} configurations", locked)
 
 
 def held_out(record: Record, fitted: Fit, locked: np.ndarray) -> tuple[HeldOut, ...]:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from brace.diagnose.already import already
 from brace.diagnose.beside import beside
 from brace.diagnose.diagnosis import (
     Candidate,
@@ -112,7 +113,7 @@ def _all_but_next(
     return Diagnosis(
         verdict=_verdict(final, resolved),
         sentence=" ".join([
-            _sentence(final, effects, resolved, strongest),
+            _sentence(believed, final, effects, resolved, strongest),
             *(_also_contested(one) for one in contested[1:]),
             *_beside(final, resolved),
         ]),
@@ -399,7 +400,7 @@ def _beside(final: Pass, resolved: Resolved) -> Iterator[str]:
 
 
 def _sentence(
-    final: Pass, effects: Sequence[NamedEffect], resolved: Resolved, contested: Contest | None
+    believed: LimbModel, final: Pass, effects: Sequence[NamedEffect], resolved: Resolved, contested: Contest | None
 ) -> str:
     verdict, structure = final.decision.verdict, final.structure
     if contested is not None:
@@ -437,6 +438,8 @@ def _sentence(
             f"The nearest in the catalogue is {' and '.join(one.label for one in effects)}, but {but}. The model has "
             "the nearest added; do not rely on it before another record says so."
         )
+    if all(already(believed, effect) for effect in effects):
+        return f"Of another size than in the model: {' and '.join(names)}. With that size, {closes} the gap."
     return f"Missing: {' and '.join(names)}. Added to the model, {closes} the gap."
 
 

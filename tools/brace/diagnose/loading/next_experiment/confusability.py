@@ -11,7 +11,7 @@ import numpy as np
 
 from brace.diagnose.loading.choose import LabelSet
 from brace.diagnose.loading.fit import Fit
-from brace.diagnose.loading.next_experiment.separation import WIN_NATS, chance_to_win
+from brace.diagnose.loading.next_experiment.separation import chance_to_win
 
 SAME_COSINE = 0.95  # above it two effects are one class: what they differ by is a tenth of either's square
 DEPENDENT = 1e-6  # of a span's columns: shorter than this share after the others are taken out
@@ -130,8 +130,7 @@ def in_words(found: Confusability, label: str) -> str:
         return ""
     row = found.labels.index(label)
     listed = ", ".join(
-        f"{found.labels[place]} ({np.degrees(found.angle_rad[row, place]):.0f} degrees away, told from it "
-        f"with probability {found.power[row, place]:.0%})"
+        f"{found.labels[place]} (of 100 such records {100.0 * found.power[row, place]:.0f} would tell the two apart)"
         for place in map(found.labels.index, others)
     )
-    return f"in this record {label} looks like {listed} (lead of {WIN_NATS:g} nats wanted)"
+    return f"in this record {label} looks like {listed}"
