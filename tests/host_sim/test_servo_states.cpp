@@ -1,0 +1,332 @@
+// Servos that are silent, start anew, are foreign or damaged, and what they are told: no servo moves unasked.
+#include "servo_bench.h"
+
+void setUp(void) {}
+void tearDown(void) {}
+
+namespace
+{
+
+// ------------------------------------------------------------------------------------------------ what goes wrong
+
+void test_a_silent_servo_is_told_and_the_others_go_on()
+{
+    for (int silent = 0; silent < 3; ++silent) {
+        Bench bench;
+        bench.be_ready();
+        brace_servos_plug(bench.servos.get(), silent, 0);
+        bench.run(0.1);
+        TEST_ASSERT_EQUAL(BRACE_SERVO_SILENT, bench.report(silent).state);
+        bench.forget();
+        bench.run(1.0);
+        for (int i = 0; i < 3; ++i) {
+            if (i != silent) {
+                TEST_ASSERT_EQUAL(BRACE_SERVO_READY, bench.report(i).state);
+                TEST_ASSERT_GREATER_OR_EQUAL(500, bench.fresh[i]);
+            }
+        }
+        TEST_ASSERT_EQUAL(1000, bench.refused[silent]); // E_DEVICE in each tick
+        brace_servos_plug(bench.servos.get(), silent, 1);
+        bench.run(0.2);
+        TEST_ASSERT_EQUAL(BRACE_SERVO_READY, bench.report(silent).state);
+        TEST_ASSERT_EQUAL(0, bench.report(silent).restarts); // its torque was never off
+    }
+}
+
+void test_a_servo_that_starts_anew_stands_where_it_is_and_is_counted()
+{
+    Bench bench;
+    bench.turns_rad_per_s = 0.0;
+    bench.be_ready();
+    TEST_ASSERT_EQUAL(BRACE_HAL_OK, brace_dynamixel_move(&bench.driver, kFemur, 0.5f));
+    bench.run(0.1);
+    brace_servos_power(bench.servos.get(), kFemur, 1000 * bench.now_us);
+    bench.run(0.1);
+    TEST_ASSERT_EQUAL(BRACE_SERVO_SILENT, bench.report(kFemur).state);
+    bench.run(1.0);
+    TEST_ASSERT_EQUAL(BRACE_SERVO_READY, bench.report(kFemur).state);
+    TEST_ASSERT_EQUAL(1, bench.report(kFemur).restarts);
+    TEST_ASSERT_TRUE(bench.report(kFemur).has_torque);
+    double goal_rad = 0, most_a = 0;
+    TEST_ASSERT_EQUAL(1, brace_servos_goal(bench.servos.get(), kFemur, &goal_rad, &most_a));
+    TEST_ASSERT_DOUBLE_WITHIN(1 / kCountsPerRad, bench.turned_rad(kFemur, 0), goal_rad);
+}
+
+void test_a_hardware_error_is_told_and_the_joint_is_still_measured()
+{
+    Bench bench;
+    bench.be_ready();
+    brace_servos_break(bench.servos.get(), kTibia, 32);
+    bench.run(0.05);
+    TEST_ASSERT_EQUAL(BRACE_SERVO_FAILED, bench.report(kTibia).state);
+    TEST_ASSERT_EQUAL(32, bench.report(kTibia).hardware_error);
+    const brace_hal_joint_command_t command = {0.01f, INFINITY};
+    TEST_ASSERT_EQUAL(BRACE_HAL_E_DEVICE, brace_dynamixel_command(&bench.driver, kTibia, &command));
+    bench.forget();
+    bench.run(1.0);
+    TEST_ASSERT_GREATER_OR_EQUAL(500, bench.fresh[kTibia]);
+}
+
+void test_servos_that_know_no_fast_sync_read_are_asked_otherwise()
+{
+    Bench bench;
+    for (int i = 0; i < 3; ++i) {
+        brace_servos_poke(bench.servos.get(), i, 6, 1, 40); // their firmware
+    }
+    bench.be_ready();
+    bench.run(1.0);
+    TEST_ASSERT_TRUE(bench.driver.is_plain);
+    for (int i = 0; i < 3; ++i) {
+        TEST_ASSERT_GREATER_OR_EQUAL(500, bench.fresh[i]);
+        TEST_ASSERT_EQUAL(0, bench.wrong[i]);
+    }
+}
+
+void test_a_line_that_hears_itself_disturbs_nothing()
+{
+    Bench bench;
+    bench.has_echo = true;
+    bench.be_ready();
+    bench.run(1.0);
+    for (int i = 0; i < 3; ++i) {
+        TEST_ASSERT_GREATER_OR_EQUAL(500, bench.fresh[i]);
+        TEST_ASSERT_EQUAL(0, bench.wrong[i]);
+        TEST_ASSERT_EQUAL(0, bench.report(i).lost);
+    }
+    TEST_ASSERT_EQUAL(0, bench.counters().damaged + bench.counters().foreign + bench.counters().skipped_bytes);
+}
+
+void test_foreign_servos_are_refused()
+{
+    Bench bench;
+    brace_servos_poke(bench.servos.get(), kCoxa, 0, 2, 350); // an XL-320
+    brace_servos_poke(bench.servos.get(), kTibia, 11, 1, 1); // velocity mode
+    bench.start();
+    bench.run(0.3);
+    TEST_ASSERT_EQUAL(BRACE_SERVO_UNKNOWN, bench.report(kCoxa).state);
+    TEST_ASSERT_EQUAL(BRACE_SERVO_MODE, bench.report(kTibia).state);
+    TEST_ASSERT_EQUAL(BRACE_SERVO_READY, bench.report(kFemur).state);
+    brace_hal_joint_t sample{};
+    TEST_ASSERT_EQUAL(BRACE_HAL_E_DEVICE, brace_dynamixel_read(&bench.driver, kCoxa, &sample));
+    TEST_ASSERT_EQUAL(BRACE_HAL_E_UNSUPPORTED, brace_dynamixel_read(&bench.driver, 3, &sample));
+    TEST_ASSERT_EQUAL(BRACE_HAL_E_UNSUPPORTED, brace_dynamixel_read(&bench.driver, -1, &sample));
+}
+
+void test_a_line_that_takes_nothing_is_told()
+{
+    Bench bench;
+    bench.be_ready();
+    bench.is_deaf = true;
+    bench.run(0.1);
+    TEST_ASSERT_GREATER_THAN(50, bench.counters().line_busy);
+}
+
+// ------------------------------------------------------------------------------------------------------ commands
+
+void test_offsets_and_torque_limits_reach_the_servos_and_fade()
+{
+    Bench bench;
+    bench.turns_rad_per_s = 0.0;
+    bench.be_ready();
+    double before_rad = 0, goal_rad = 0, most_a = 0;
+    TEST_ASSERT_EQUAL(1, brace_servos_goal(bench.servos.get(), kTibia, &before_rad, &most_a));
+    TEST_ASSERT_DOUBLE_WITHIN(0.01, 2047 * 2.69e-3, most_a);
+    const brace_hal_joint_command_t command = {0.05f, 500.0f};
+    bench.run(0.2, [&] { TEST_ASSERT_EQUAL(BRACE_HAL_OK, brace_dynamixel_command(&bench.driver, kTibia, &command)); });
+    TEST_ASSERT_EQUAL(1, brace_servos_goal(bench.servos.get(), kTibia, &goal_rad, &most_a));
+    TEST_ASSERT_DOUBLE_WITHIN(1 / kCountsPerRad, before_rad - 0.05, goal_rad); // the tibia is reversed
+    TEST_ASSERT_DOUBLE_WITHIN(2.7e-3, 500.0 / 1783, most_a);
+    bench.run(0.35); // 100 ms later it goes back at 0.1 rad/s
+    TEST_ASSERT_EQUAL(1, brace_servos_goal(bench.servos.get(), kTibia, &goal_rad, &most_a));
+    TEST_ASSERT_DOUBLE_WITHIN(3 / kCountsPerRad, before_rad - 0.025, goal_rad);
+    TEST_ASSERT_DOUBLE_WITHIN(0.01, 2047 * 2.69e-3, most_a);
+    bench.run(0.4);
+    TEST_ASSERT_EQUAL(1, brace_servos_goal(bench.servos.get(), kTibia, &goal_rad, &most_a));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, before_rad, goal_rad);
+}
+
+// Silent servos stand at the goal that they have. When they are back, what was added to it goes back from there.
+void test_an_offset_fades_from_where_it_was_when_a_servo_is_back()
+{
+    for (const bool is_alone : {true, false}) { // the others go on; or the whole line was dead
+        Bench bench;
+        bench.turns_rad_per_s = 0.0;
+        bench.be_ready();
+        double before_rad = 0, goal_rad = 0, last_rad = 0, most_a = 0;
+        TEST_ASSERT_EQUAL(1, brace_servos_goal(bench.servos.get(), kFemur, &before_rad, &most_a));
+        const brace_hal_joint_command_t command = {0.05f, INFINITY};
+        const auto tell = [&] {
+            TEST_ASSERT_EQUAL(BRACE_HAL_OK, brace_dynamixel_command(&bench.driver, kFemur, &command));
+        };
+        bench.run(0.1, tell);
+        const auto plug = [&](int is_in) {
+            for (int i = 0; i < 3; ++i) {
+                if (i == kFemur || !is_alone) {
+                    brace_servos_plug(bench.servos.get(), i, is_in);
+                }
+            }
+        };
+        plug(0);
+        bench.run(2.0);
+        TEST_ASSERT_EQUAL(1, brace_servos_goal(bench.servos.get(), kFemur, &last_rad, &most_a));
+        TEST_ASSERT_DOUBLE_WITHIN(1 / kCountsPerRad, before_rad + 0.05, last_rad);
+        plug(1);
+        for (int i = 0; i < 70; ++i) {
+            bench.run(0.01);
+            TEST_ASSERT_EQUAL(1, brace_servos_goal(bench.servos.get(), kFemur, &goal_rad, &most_a));
+            TEST_ASSERT_TRUE(goal_rad <= last_rad && last_rad - goal_rad < 0.1 * 0.01 + 2 / kCountsPerRad);
+            last_rad = goal_rad;
+        }
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9, before_rad, goal_rad);
+    }
+}
+
+void test_a_goal_that_the_line_did_not_take_is_sent_again_at_once()
+{
+    Bench bench;
+    bench.turns_rad_per_s = 0.0;
+    bench.be_ready();
+    double before_rad = 0, goal_rad = 0, most_a = 0;
+    TEST_ASSERT_EQUAL(1, brace_servos_goal(bench.servos.get(), kFemur, &before_rad, &most_a));
+    const brace_hal_joint_command_t command = {0.05f, 500.0f};
+    for (int i = 0; i < 15; ++i) { // 25 ms: each time within the 20 ms after which all goals are sent again
+        TEST_ASSERT_EQUAL(BRACE_HAL_OK, brace_dynamixel_command(&bench.driver, kFemur, &command));
+        bench.is_deaf = true;
+        bench.run(0.002);
+        bench.is_deaf = false;
+        bench.run(0.002);
+        TEST_ASSERT_EQUAL(1, brace_servos_goal(bench.servos.get(), kFemur, &goal_rad, &most_a));
+        TEST_ASSERT_DOUBLE_WITHIN(1 / kCountsPerRad, before_rad + 0.05, goal_rad);
+        TEST_ASSERT_DOUBLE_WITHIN(2.7e-3, 500.0 / 2409, most_a);
+        const brace_hal_joint_command_t none = {0.0f, INFINITY};
+        TEST_ASSERT_EQUAL(BRACE_HAL_OK, brace_dynamixel_command(&bench.driver, kFemur, &none));
+        bench.run(0.025);
+    }
+}
+
+// The driver asks a servo where it stands, and then tells it to stay there. A damaged answer must not move the servo.
+void test_no_burst_that_the_crc_misses_sends_a_servo_elsewhere()
+{
+    constexpr std::size_t kPlace = 9 + 4 + 2;
+    for (const auto &burst : missed_bursts(kPlace)) {
+        Bench bench;
+        bench.turns_rad_per_s = 0.0;
+        bench.serve_us = kTick_us;
+        bench.flips = burst;
+        bench.be_ready();
+        TEST_ASSERT_TRUE(bench.flips.empty());
+        for (int i = 0; i < 3; ++i) {
+            double goal_rad = 0, most_a = 0;
+            TEST_ASSERT_EQUAL(1, brace_servos_goal(bench.servos.get(), i, &goal_rad, &most_a));
+            TEST_ASSERT_DOUBLE_WITHIN(1 / kCountsPerRad, bench.turned_rad(i, 0), goal_rad);
+        }
+    }
+}
+
+// Torque follows from the model, and its limit from the servo's own.
+void test_no_burst_that_the_crc_misses_makes_another_servo_of_it()
+{
+    constexpr std::size_t kIdentity = 9 + 12 + 2, kLimit = 9 + 2 + 2;
+    Bench sound;
+    sound.be_ready();
+    for (const std::size_t length : {kIdentity, kLimit}) {
+        for (const auto &burst : missed_bursts(length)) {
+            Bench bench;
+            bench.serve_us = kTick_us;
+            bench.flips = burst;
+            bench.be_ready();
+            TEST_ASSERT_TRUE(bench.flips.empty());
+            for (int i = 0; i < 3; ++i) {
+                const brace_servo_t &servo = bench.driver.servo[i], &as_it_is = sound.driver.servo[i];
+                TEST_ASSERT_EQUAL(kModels[i], bench.report(i).model);
+                TEST_ASSERT_EQUAL(as_it_is.current_limit, servo.current_limit);
+                TEST_ASSERT_EQUAL_FLOAT(as_it_is.torque_per_count_n_mm, servo.torque_per_count_n_mm);
+            }
+        }
+    }
+}
+
+// In position mode (3) a servo takes no goal beyond its turn: it cannot be told to stand where it is.
+void test_a_servo_beyond_its_turn_is_refused_and_not_moved()
+{
+    Bench bench;
+    brace_servos_poke(bench.servos.get(), kFemur, 11, 1, 3);
+    bench.turns_rad_per_s = 0.0;
+    bench.beyond_turn_rad[kFemur] = 2.0 * M_PI;
+    bench.start();
+    bench.run(0.5);
+    double goal_rad = 0, most_a = 0;
+    TEST_ASSERT_EQUAL(BRACE_SERVO_MODE, bench.report(kFemur).state);
+    TEST_ASSERT_EQUAL(0, brace_servos_goal(bench.servos.get(), kFemur, &goal_rad, &most_a));
+    TEST_ASSERT_EQUAL(BRACE_SERVO_READY, bench.report(kTibia).state);
+}
+
+void test_commands_that_make_no_sense_are_refused()
+{
+    Bench bench;
+    brace_servos_poke(bench.servos.get(), kCoxa, 11, 1, 3); // position mode: no torque limit
+    bench.be_ready();
+    const brace_hal_joint_command_t limited = {0.0f, 500.0f}, nan = {NAN, INFINITY}, negative = {0.0f, -1.0f},
+                                    plain = {0.01f, INFINITY};
+    TEST_ASSERT_EQUAL(BRACE_HAL_E_UNSUPPORTED, brace_dynamixel_command(&bench.driver, kCoxa, &limited));
+    TEST_ASSERT_EQUAL(BRACE_HAL_OK, brace_dynamixel_command(&bench.driver, kCoxa, &plain));
+    TEST_ASSERT_EQUAL(BRACE_HAL_E_RANGE, brace_dynamixel_command(&bench.driver, kFemur, &nan));
+    TEST_ASSERT_EQUAL(BRACE_HAL_E_RANGE, brace_dynamixel_command(&bench.driver, kFemur, &negative));
+    TEST_ASSERT_EQUAL(BRACE_HAL_E_UNSUPPORTED, brace_dynamixel_command(&bench.driver, 3, &plain));
+    TEST_ASSERT_EQUAL(BRACE_HAL_E_RANGE, brace_dynamixel_move(&bench.driver, kFemur, NAN));
+    brace_servo_setup_t twice = bench.setup;
+    twice.joint[kFemur].id = twice.joint[kTibia].id;
+    TEST_ASSERT_EQUAL(BRACE_HAL_E_RANGE, brace_dynamixel_start(&bench.driver, &twice, &bench.driver.line));
+}
+
+void test_a_servo_that_holds_goes_on_holding_when_the_controller_starts_anew()
+{
+    Bench bench;
+    bench.turns_rad_per_s = 0.0;
+    bench.be_ready();
+    TEST_ASSERT_EQUAL(BRACE_HAL_OK, brace_dynamixel_move(&bench.driver, kFemur, 0.5f));
+    bench.run(0.1);
+    double before_rad = 0, goal_rad = 0, most_a = 0;
+    TEST_ASSERT_EQUAL(1, brace_servos_goal(bench.servos.get(), kFemur, &before_rad, &most_a));
+    TEST_ASSERT_DOUBLE_WITHIN(1 / kCountsPerRad, M_PI + 0.25, before_rad);
+    bench.be_ready();
+    TEST_ASSERT_EQUAL(1, brace_servos_goal(bench.servos.get(), kFemur, &goal_rad, &most_a));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, before_rad, goal_rad);
+}
+
+void test_nobody_is_told_to_hold_who_shall_not()
+{
+    Bench bench;
+    bench.setup.holds = false;
+    bench.be_ready();
+    double goal_rad = 0, most_a = 0;
+    TEST_ASSERT_EQUAL(0, brace_servos_goal(bench.servos.get(), kFemur, &goal_rad, &most_a));
+    const brace_hal_joint_command_t command = {0.01f, INFINITY};
+    TEST_ASSERT_EQUAL(BRACE_HAL_E_DEVICE, brace_dynamixel_command(&bench.driver, kFemur, &command));
+    bench.run(1.0);
+    TEST_ASSERT_GREATER_OR_EQUAL(500, bench.fresh[kFemur]);
+}
+
+} // namespace
+
+int main()
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_a_silent_servo_is_told_and_the_others_go_on);
+    RUN_TEST(test_a_servo_that_starts_anew_stands_where_it_is_and_is_counted);
+    RUN_TEST(test_a_hardware_error_is_told_and_the_joint_is_still_measured);
+    RUN_TEST(test_servos_that_know_no_fast_sync_read_are_asked_otherwise);
+    RUN_TEST(test_a_line_that_hears_itself_disturbs_nothing);
+    RUN_TEST(test_foreign_servos_are_refused);
+    RUN_TEST(test_a_line_that_takes_nothing_is_told);
+    RUN_TEST(test_offsets_and_torque_limits_reach_the_servos_and_fade);
+    RUN_TEST(test_an_offset_fades_from_where_it_was_when_a_servo_is_back);
+    RUN_TEST(test_a_goal_that_the_line_did_not_take_is_sent_again_at_once);
+    RUN_TEST(test_no_burst_that_the_crc_misses_sends_a_servo_elsewhere);
+    RUN_TEST(test_no_burst_that_the_crc_misses_makes_another_servo_of_it);
+    RUN_TEST(test_a_servo_beyond_its_turn_is_refused_and_not_moved);
+    RUN_TEST(test_commands_that_make_no_sense_are_refused);
+    RUN_TEST(test_a_servo_that_holds_goes_on_holding_when_the_controller_starts_anew);
+    RUN_TEST(test_nobody_is_told_to_hold_who_shall_not);
+    return UNITY_END();
+}
