@@ -69,7 +69,7 @@ class Search:
             self.advance(0.4 * number / len(singles), f"trying {promise.space.label}")
             self._fit(promise, self.base)
         for size in range(1, MOST_EFFECTS):
-            parents = self._best(size)[: PARENTS[size]]
+            parents = [self._finished(parent) for parent in self._best(size)[: PARENTS[size]]]
             for number, parent in enumerate(parents):
                 share = 0.4 + 0.3 * (size - 1 + number / len(parents))
                 self.advance(share, f"trying {parent.label} and one more")
@@ -118,9 +118,16 @@ class Search:
         if parent.fit.cost - fitted.cost > LEAST_GAIN:
             self._keep(fitted)
 
-    def _keep(self, fitted: Fit) -> None:
+    def _finished(self, rough: Hypothesis) -> Hypothesis:
+        """Fitted to the end: the rough fit of an effect that turns the limb may stop far from it, and further effects
+        would make up for that."""
+        fitted = fit(self.record, rough.fit.space, rough.fit.x)
+        return self._keep(fitted) if fitted.cost < rough.fit.cost else rough
+
+    def _keep(self, fitted: Fit) -> Hypothesis:
         worth = score(fitted, self.base.fit, self.record.readings, self.record.noise_freedom)
-        self.tried[_name(fitted.space.variants)] = Hypothesis(fitted, worth)
+        kept = self.tried[_name(fitted.space.variants)] = Hypothesis(fitted, worth)
+        return kept
 
 
 def _name(variants: Sequence[Variant]) -> frozenset[tuple[str, tuple[str, ...]]]:
