@@ -9,7 +9,7 @@ import numpy as np
 from brace.dataset import Dataset
 
 POSITION = "position"  # the column with each row's gear position, from 0
-APART = 0.5  # of a test's swing: nearer ones are the same position, with a zero that moved a little
+APART = 0.05  # of a test's swing: nearer ones are the same position, with a zero that moved a little
 
 
 def apart(dataset: Dataset) -> Dataset:

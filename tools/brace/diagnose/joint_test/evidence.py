@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from brace.diagnose.diagnosis import Interval
 from brace.diagnose.joint_test.fit import Fitted, Fitter
 from brace.diagnose.joint_test.record import JointRecord
 
@@ -91,3 +92,17 @@ def intervals(
         ends = np.clip(np.quantile(x[:, place], [LOW, HIGH]), low[place], high[place])
         result[key] = (value, float(min(ends[0], value)), float(max(ends[1], value)))
     return result
+
+
+def left_n_mm(fitter: Fitter, fitted: Fitted) -> float:
+    """What the fit leaves beyond the noise, rms."""
+    weight = float(np.sum(fitter.root_weight[fitter.record.fitted] ** 2))
+    return float(np.sqrt(max(0.0, fitted.rss / weight - fitter.record.noise_n_mm**2)))
+
+
+def beside_what_is_left(key: str, told: Interval, left: float, compliance_rad_per_n_mm: float) -> Interval:
+    """What a model leaves may be play or dry friction of that size, so that their intervals hold it. `left`: N mm, rms.
+    Noise and a law of friction that is not the model's have nothing to do with one another: both add as squares do."""
+    share = {"coulomb_n_mm": 1.0, "gap_rad": compliance_rad_per_n_mm}.get(key.rsplit(".", 1)[-1], 0.0) * left
+    low, high = told.value - np.hypot(told.value - told.low, share), told.value + np.hypot(told.high - told.value, share)
+    return Interval(told.value, float(max(low, min(told.low, 0.0))), float(high))

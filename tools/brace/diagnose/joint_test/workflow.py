@@ -26,7 +26,7 @@ from brace.diagnose.diagnosis import (
 from brace.diagnose.joint_test import positions, words
 from brace.diagnose.joint_test.choose import SHAPES_SHRINK, Choice, at_an_end, choose, strained, without
 from brace.diagnose.joint_test.dead_zone import is_friction_turning, refusal
-from brace.diagnose.joint_test.evidence import feigned, gain, intervals
+from brace.diagnose.joint_test.evidence import beside_what_is_left, feigned, gain, intervals, left_n_mm
 from brace.diagnose.joint_test.fit import Fitted, Fitter
 from brace.diagnose.joint_test.intake import blocking_faults, require_enough, spring_alone
 from brace.diagnose.joint_test.localise import localise
@@ -352,6 +352,7 @@ def _named(
     limits, elsewhere = intervals(all_rows, final, random), ranges(by_rows, others, random)
     further, values = positions.further(record, final), positions.typical(record, final)
     weighted = best if len(best.terms) == len(exported.terms) else fitter.fit(exported.terms, best)
+    left, spring_rad_per_n_mm = left_n_mm(all_rows, final), _spring_rad_per_n_mm(record, values)
     named = []
     for term in found:
         poorer = without(fitter, best, term)
@@ -373,7 +374,8 @@ def _named(
             least, most = elsewhere.get(key, (value, value))
             if key in further:  # what differs from position to position is known no better
                 low, high = positions.together(value, further[key], limits[key])
-            parameters[key] = Interval(value, min(value, low, other, least), max(value, high, other, most))
+            told = Interval(value, min(value, low, other, least), max(value, high, other, most))
+            parameters[key] = beside_what_is_left(key, told, left, spring_rad_per_n_mm)
         named.append((NamedEffect(term.name, term.where, confidence, parameters, 0.0), poorer.rss - best.rss))
     total = sum(max(rss, 0.0) for _, rss in named) or 1.0
     shared = [replace(effect, gap_share=max(rss, 0.0) / total) for effect, rss in named]
@@ -385,9 +387,13 @@ def _lost_rad(term: Term, values: Mapping[str, float], record: JointRecord) -> f
     """How far an effect moves the joint [rad], so how much of the angle nobody knows because of it."""
     if term.shows is None:
         return 0.0
+    return term.shows.lost_rad(term.by_leaf(values), record.size, _spring_rad_per_n_mm(record, values))
+
+
+def _spring_rad_per_n_mm(record: JointRecord, values: Mapping[str, float]) -> float:
+    """The joint's compliance; by the record's swing where it is not fitted."""
     compliance = f"joint.{record.joint}.compliance_rad_per_n_mm"
-    spring = values.get(compliance, record.size.angle_rad / record.size.torque_n_mm)
-    return term.shows.lost_rad(term.by_leaf(values), record.size, spring)
+    return values.get(compliance, record.size.angle_rad / record.size.torque_n_mm)
 
 
 def _is_small(term: Term, values: Mapping[str, float], record: JointRecord) -> bool:
