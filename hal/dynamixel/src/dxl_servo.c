@@ -186,7 +186,7 @@ static void take_place(brace_servo_t *servo, int32_t place)
     servo->base = servo->goal_sent = place;
     servo->has_place = true;
     if (is_believed && servo->report.operating_mode == DXL_MODE_POSITION && !is_in_turn) {
-        servo->report.state = BRACE_SERVO_MODE; /* it takes no goal where it stands, and the nearest one would move it */
+        servo->report.state = BRACE_SERVO_MODE; /* it takes no goal where it stands, and the nearest would move it */
     } else if (is_believed) {
         servo->has_goal = true;
         servo->offset_rad = 0.0f;

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 from by_torque import found_in, triangle, under_torque
 
-from brace.diagnose.diagnosis import Diagnosis
+from brace.diagnose.diagnosis import Diagnosis, Interval
+from brace.diagnose.joint_test.evidence import beside_what_is_left
 from brace.diagnose.plain_words import joint_sizes
 
 GAP_RAD, FRICTION_N_MM, COMPLIANCE = 0.02, 700.0, 2e-6
@@ -36,10 +37,28 @@ def test_zeros_of_positions_are_the_record_s_own(tmp_path: Path) -> None:
     found = bench(tmp_path, (0.1, -0.15, 0.22, 0.0), (GAP_RAD,) * 4)
     assert {effect.name for effect in found.effects} == {"backlash", "coulomb_friction"}, found.sentence
     assert found.joint is not None and found.joint.gear_positions == 4
-    for key, size in ((SPRING, COMPLIANCE), (GAP, GAP_RAD), (FRICTION, FRICTION_N_MM)):
+    for key, size, wide in ((SPRING, COMPLIANCE, 0.2), (GAP, GAP_RAD, 0.2), (FRICTION, FRICTION_N_MM, 0.4)):
         held = found.joint.parameters[key]
         assert held.value == pytest.approx(size, rel=0.1), key
-        assert held.high - held.low < 0.2 * size, (key, held)
+        assert held.low < size < held.high and held.high - held.low < wide * size, (key, held)
+
+
+def test_zeros_that_differ_by_less_than_the_swing_are_several(tmp_path: Path) -> None:
+    """Of a swing of 40 mrad, by a tenth of it: one zero for both would leave the joint unexplained."""
+    found = bench(tmp_path, (0.1, 0.104, 0.093, 0.1105), (GAP_RAD,) * 4)
+    assert found.joint is not None and found.joint.gear_positions == 4
+    assert {effect.name for effect in found.effects} == {"backlash", "coulomb_friction"}, found.sentence
+
+
+def test_what_a_model_leaves_widens_play_and_friction() -> None:
+    """By as much torque, or as the spring turns under it; neither falls below nothing."""
+    told = Interval(100.0, 97.0, 103.0)
+    friction = beside_what_is_left(FRICTION, told, 4.0, COMPLIANCE)
+    assert (friction.low, friction.high) == pytest.approx((95.0, 105.0))
+    assert beside_what_is_left(SPRING, told, 4.0, COMPLIANCE) == told
+    gap = beside_what_is_left(GAP, Interval(1e-3, 1e-3, 1e-3), 100.0, COMPLIANCE)
+    assert (gap.low, gap.high) == pytest.approx((0.8e-3, 1.2e-3))
+    assert beside_what_is_left(FRICTION, told, 1e3, COMPLIANCE).low == 0.0
 
 
 def test_intervals_hold_the_spread_between_positions(tmp_path: Path) -> None:

@@ -279,12 +279,8 @@ def test_names_that_are_wrong_more_often_than_right_are_not_said(lead: float, ve
     """Two effects that look alike, and something outside the catalogue that is likelier than both or less likely."""
     fitted = cast(Any, SimpleNamespace(fit=SimpleNamespace(cost=100.0), label="x"))
     sets = [LabelSet(frozenset({name}), fitted, 0.5) for name in ("a", "b")]
-    structure = cast(Any, SimpleNamespace(structured=False))
-    base = cast(Any, SimpleNamespace(cost=200.0))
-    found = decide(sets, structure, base, Outside(lead, "", TAKES_BACK))
-    assert found.verdict == verdict and found.outside.likely == (verdict == "unknown")
-    alone = decide([replace(sets[0], posterior=1.0)], structure, base, Outside(lead, "", TAKES_BACK))
-    assert alone.verdict == "effect", "a name that stands alone is told with how sure it is"
+    structure, base = cast(Any, SimpleNamespace(structured=False)), cast(Any, SimpleNamespace(cost=200.0))
+    assert decide(sets, structure, base, Outside(lead, "", TAKES_BACK)).verdict == verdict
 
 
 def against_the_catalogue(data: Dataset, believed: LimbModel) -> tuple[Outside, str]:
@@ -345,8 +341,8 @@ def test_an_effect_of_the_catalogue_is_not_outside_it(
 def test_the_odds_of_an_outsider_lower_the_confidence(tmp_path: Path, believed: LimbModel) -> None:
     """By just their share; a lead of nothing is even odds."""
     assert Outside(0.0, "").probability == 0.5
-    assert not Outside(0.0, "").likely and not Outside(2.0, "", TAKES_BACK).likely
-    assert Outside(2.5, "", TAKES_BACK).likely, "a name that is wrong more than nine times of ten is taken back"
+    assert not Outside(0.0, "").likely and not Outside(-0.1, "", TAKES_BACK).likely
+    assert Outside(0.1, "", TAKES_BACK).likely, "a name that is wrong more often than right is taken back"
     assert not Outside(5.5, "").likely, "a sound limb is called faulty at 400 to 1 only"
     record = load_record(recorded(tmp_path, believed.with_values({"joint.tibia.gap_rad": 2e-3}), 24))
     variants = all_variants(setting_of(record, believed))

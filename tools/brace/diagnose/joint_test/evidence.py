@@ -10,6 +10,7 @@ import numpy as np
 from brace.diagnose.diagnosis import Interval
 from brace.diagnose.joint_test.fit import Fitted, Fitter
 from brace.diagnose.joint_test.record import JointRecord
+from brace.identify.noise import robust_sigma
 
 DRAWS = 400
 MIN_STRETCHES = 10
@@ -95,14 +96,17 @@ def intervals(
 
 
 def left_n_mm(fitter: Fitter, fitted: Fitted) -> float:
-    """What the fit leaves beyond the noise, rms."""
-    weight = float(np.sum(fitter.root_weight[fitter.record.fitted] ** 2))
-    return float(np.sqrt(max(0.0, fitted.rss / weight - fitter.record.noise_n_mm**2)))
+    """What the fit leaves beyond the noise, as one sigma. The few readings while a gap is crossed do not count: there a
+    torque is known no better than the angle."""
+    weight = fitter.root_weight[fitter.record.fitted]
+    off = fitted.off_n_mm[fitter.record.fitted][weight > 0.0] / weight[weight > 0.0]
+    return float(np.sqrt(max(0.0, robust_sigma(off) ** 2 - fitter.record.noise_n_mm**2)))
 
 
 def beside_what_is_left(key: str, told: Interval, left: float, compliance_rad_per_n_mm: float) -> Interval:
-    """What a model leaves may be play or dry friction of that size, so that their intervals hold it. `left`: N mm, rms.
+    """What a model leaves may be play or dry friction of that size, so that their intervals hold it. `left`: N mm.
     Noise and a law of friction that is not the model's have nothing to do with one another: both add as squares do."""
     share = {"coulomb_n_mm": 1.0, "gap_rad": compliance_rad_per_n_mm}.get(key.rsplit(".", 1)[-1], 0.0) * left
-    low, high = told.value - np.hypot(told.value - told.low, share), told.value + np.hypot(told.high - told.value, share)
+    low = told.value - np.hypot(told.value - told.low, share)
+    high = told.value + np.hypot(told.high - told.value, share)
     return Interval(told.value, float(max(low, min(told.low, 0.0))), float(high))

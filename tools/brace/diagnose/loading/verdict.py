@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from brace.diagnose.diagnosis import Verdict
 from brace.diagnose.loading.choose import LabelSet, label_probability, rivals
@@ -15,7 +15,6 @@ NOTHING_STANDS = 0.01  # posterior share of nothing missing from which nothing i
 # faulty costs more trust than a weak effect that a second record would show
 HINT = 0.2  # share of nothing missing below which a second record is worth its time
 SURE = 0.8  # posterior share from which one member of a class is named alone
-EVEN = 0.0  # nats: several names that are wrong together more often than right help nobody
 SMALL_REST = 0.03  # of what an effect explains: structure left below it does not unname the effect
 
 
@@ -52,9 +51,6 @@ def decide(sets: Sequence[LabelSet], structure: Structure, base: Fit, outside: O
         tuple(group) for label in ordered if len(group := rivals(sets, label)) > 1
     )
     if len(ordered) == 1 and classes and label_probability(sets, ordered[0]) < SURE:
-        several = replace(outside, must_lead=EVEN)
-        if several.likely:
-            return Decision("unknown", (), (), best, structure, several)
         return Decision("ambiguous", classes[0], classes, best, structure, outside)
     return Decision("effect", tuple(ordered), classes, best, structure, outside)
 

@@ -24,6 +24,7 @@ from brace.diagnose.loading.troubles.kinds import (
     OUTLIERS,
     SLIP,
     ZERO_STEP,
+    ZEROS,
     kinds,
     lag_columns,
 )
@@ -184,6 +185,8 @@ def _told(
 ) -> Trouble:
     """The trouble in words."""
     columns = option.columns
+    if option.kind == ZEROS:  # runs may share a zero: what is alike in all of them is no bias
+        wide = columns * _flat(record, columns)
     where = [name for place, name in enumerate(record.channels) if np.any(columns[place] != 0.0)]
     row = first_row(columns) + 1 if option.kind in (GAIN_STEP, ZERO_STEP, SLIP, OUTLIERS) else None
     sentence = shown(record, option.kind, columns, sizes, option.sigma)
