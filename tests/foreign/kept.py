@@ -12,7 +12,7 @@ from typing import Any
 
 from verdicts import Claim, Word
 
-MOST_BYTES = 200_000
+MOST_BYTES = 400_000
 NOTE_LETTERS = 60  # of what a case that crashed says
 EMPTY: dict[str, Any] = {"misnamed": None, "impossible": [], "sizes": [], "covered": {}, "note": ""}
 COLUMNS = (
