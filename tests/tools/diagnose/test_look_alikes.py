@@ -5,11 +5,13 @@ the angle between two traces says how much of the one the other cannot make up: 
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from brace.diagnose.loading.next_experiment.confusability import Confusability, in_words
 from brace.model import LimbModel, load_limb
 from brace.native.plant import play_rig
 from brace.native.plant_batch import LoadingBatchPlayer, model_numbers, number_index
@@ -56,3 +58,13 @@ def test_what_turning_tells_apart(links: str, paper_limb: Path, paper_rig: Path)
     assert knee[0] < 1e-4 and 0.01 < knee[1] and knee[3] > 5.0 * knee[1]
     assert max(hip) < 1e-6  # one axis: whatever turns about it is the same to the tip
     assert base[3] < base[0]  # a preload does not help everywhere
+
+
+def test_only_what_a_record_may_not_tell_apart_is_told_as_alike() -> None:
+    labels = ("a", "b", "c", "d")
+    alike = np.array([[1.0, 0.99, 0.97, 0.5]] * 4)
+    power = np.array([[1.0, 0.3, 0.96, 0.1]] * 4)
+    found = Confusability(labels, np.ones(4), alike, np.zeros((4, 4)), power)
+    assert in_words(found, "a") == "in this record a looks like b (of 100 such records 30 would tell the two apart)"
+    assert in_words(found, "e") == ""
+    assert in_words(replace(found, power=np.ones((4, 4))), "a") == ""

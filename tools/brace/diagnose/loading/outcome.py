@@ -27,7 +27,7 @@ from brace.diagnose.diagnosis import (
 )
 from brace.diagnose.loading import confidence
 from brace.diagnose.loading.agreement import Agreement, agreement
-from brace.diagnose.loading.next_experiment.confusability import Confusability, confusability, in_words
+from brace.diagnose.loading.next_experiment.confusability import TOLD_APART, Confusability, confusability, in_words
 from brace.diagnose.loading.next_experiment.experiment import next_experiment
 from brace.diagnose.loading.fit import Fit
 from brace.diagnose.loading.troubles.likeliest import Trouble
@@ -54,7 +54,6 @@ if TYPE_CHECKING:
 MOST_CANDIDATES = 20
 FAR_OUT = 3.0  # sigmas of the calibration from which a refitted number is a finding
 STAYS_AHEAD = 0.5
-TOLD_APART = 0.95  # power from which a look-alike is no member of the class
 SURE, LIKELIER_THAN_NOT = 0.8, 0.5  # confidences from which a name is told without a word before it, with "probably"
 MOST_LIKELY = 0.9  # share of the members' probability from which the first is said to be it
 SIZE_FIRST = ("creep",)  # effects whose first number is their size, and whose others mean nothing without it

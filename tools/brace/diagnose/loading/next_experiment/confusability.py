@@ -13,6 +13,7 @@ from brace.diagnose.loading.choose import LabelSet
 from brace.diagnose.loading.fit import Fit
 from brace.diagnose.loading.next_experiment.separation import chance_to_win
 
+TOLD_APART = 0.95  # power from which a look-alike is no member of the class
 SAME_COSINE = 0.95  # above it two effects are one class: what they differ by is a tenth of either's square
 DEPENDENT = 1e-6  # of a span's columns: shorter than this share after the others are taken out
 
@@ -125,12 +126,11 @@ def _orthonormal(columns: np.ndarray) -> np.ndarray:
 
 def in_words(found: Confusability, label: str) -> str:
     """One sentence for a report; empty where nothing looks like `label`."""
-    others = found.look_alikes(label)[1:]
-    if not others:
-        return ""
-    row = found.labels.index(label)
+    row = found.labels.index(label) if label in found.labels else 0
+    power = {other: found.power[row, found.labels.index(other)] for other in found.look_alikes(label)[1:]}
     listed = ", ".join(
-        f"{found.labels[place]} (of 100 such records {100.0 * found.power[row, place]:.0f} would tell the two apart)"
-        for place in map(found.labels.index, others)
+        f"{other} (of 100 such records {100.0 * chance:.0f} would tell the two apart)"
+        for other, chance in power.items()
+        if chance <= TOLD_APART
     )
-    return f"in this record {label} looks like {listed}"
+    return f"in this record {label} looks like {listed}" if listed else ""
