@@ -183,6 +183,15 @@ struct Bench {
         forget();
     }
 
+    // All joints stand; this one holds where it was told to.
+    void hold_at(int joint, float angle_rad)
+    {
+        turns_rad_per_s = 0.0;
+        be_ready();
+        TEST_ASSERT_EQUAL(BRACE_HAL_OK, brace_dynamixel_move(&driver, joint, angle_rad));
+        run(0.1);
+    }
+
     void say(const char *what, double seconds) const
     {
         const brace_servo_counters_t told = counters();
@@ -195,8 +204,8 @@ struct Bench {
     }
 };
 
-// The bursts of up to 16 bits that the CRC misses in an answer of this length, as bits to flip. The CRC is linear, so
-// they are those whose own remainder is 0, whatever the answer says.
+// The bursts of up to 16 bits that the CRC misses in an answer of this length, as bits to flip. The CRC is linear:
+// it misses a burst if the CRC of the burst alone is 0, and the bytes of the answer make no difference.
 inline std::vector<std::vector<std::uint8_t>> missed_bursts(std::size_t bytes)
 {
     std::vector<std::vector<std::uint8_t>> missed;

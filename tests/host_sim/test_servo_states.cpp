@@ -1,4 +1,5 @@
-// Servos that are silent, start anew, are foreign or damaged, and what they are told: no servo moves unasked.
+// Servos that are silent, that start anew or that the driver does not know: what the driver tells of them, and what it
+// sends them. No servo moves unless somebody commands it.
 #include "servo_bench.h"
 
 void setUp(void) {}
@@ -36,10 +37,7 @@ void test_a_silent_servo_is_told_and_the_others_go_on()
 void test_a_servo_that_starts_anew_stands_where_it_is_and_is_counted()
 {
     Bench bench;
-    bench.turns_rad_per_s = 0.0;
-    bench.be_ready();
-    TEST_ASSERT_EQUAL(BRACE_HAL_OK, brace_dynamixel_move(&bench.driver, kFemur, 0.5f));
-    bench.run(0.1);
+    bench.hold_at(kFemur, 0.5f);
     brace_servos_power(bench.servos.get(), kFemur, 1000 * bench.now_us);
     bench.run(0.1);
     TEST_ASSERT_EQUAL(BRACE_SERVO_SILENT, bench.report(kFemur).state);
@@ -282,10 +280,7 @@ void test_commands_that_make_no_sense_are_refused()
 void test_a_servo_that_holds_goes_on_holding_when_the_controller_starts_anew()
 {
     Bench bench;
-    bench.turns_rad_per_s = 0.0;
-    bench.be_ready();
-    TEST_ASSERT_EQUAL(BRACE_HAL_OK, brace_dynamixel_move(&bench.driver, kFemur, 0.5f));
-    bench.run(0.1);
+    bench.hold_at(kFemur, 0.5f);
     double before_rad = 0, goal_rad = 0, most_a = 0;
     TEST_ASSERT_EQUAL(1, brace_servos_goal(bench.servos.get(), kFemur, &before_rad, &most_a));
     TEST_ASSERT_DOUBLE_WITHIN(1 / kCountsPerRad, M_PI + 0.25, before_rad);

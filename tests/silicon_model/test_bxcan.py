@@ -433,7 +433,7 @@ def test_a_controller_that_listens_goes_on_listening_without_the_crystal(silicon
 
 
 def lost_after(chip: Silicon, instructions: int) -> None:
-    """The crystal stops after so many instructions of what is called next."""
+    """Makes the crystal stop in the next call, after this number of instructions."""
     chip.chip.slice = (1, 1)
     looks = count()
     chip.chip.lines[LINE_OF_NMI] = (lambda: next(looks) == instructions and chip.rcc.crystal_stops(), "nmi_handler")

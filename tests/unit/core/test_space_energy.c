@@ -267,7 +267,8 @@ static double third_order(double turn_rad)
     return turn_rad * turn_rad * turn_rad;
 }
 
-/* Two results tell where the tip is: the end of the stretched parts, and the place that K is told for. They agree. */
+/* The solver tells the tip's place twice: as the end of the stretched parts, and as the place for which it tells K.
+ * Both must be the same place. */
 static void test_the_parts_end_at_the_tip(void)
 {
     state = 21u;

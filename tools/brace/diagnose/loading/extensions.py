@@ -41,7 +41,7 @@ OWN_LOAD = ("joint.femur", "joint.tibia", "sensor")  # parts that know their own
 @dataclass(frozen=True)
 class Outside:
     """`lead` of everything outside the catalogue over the best of it, nats; `words` for what it most looks like;
-    `must_lead`: from which lead it is told instead."""
+    with a lead above `must_lead` the verdict is unknown."""
 
     lead: float
     words: str

@@ -337,7 +337,8 @@ def _also_contested(contested: Contest) -> str:
     """A further part of what was named, for which something else may stand."""
     names = [member.label for member in contested.members]
     if contested.decided:
-        return f"{' and '.join(sorted(contested.disputed))} were taken for {names[0]}, which explains them far better."
+        replaced = " and ".join(sorted(contested.disputed))
+        return f"{names[0]} is named in the place of {replaced}, because it explains the record far better."
     return (
         f"{names[0]} may also be {' or '.join(names[1:])}, because {contested.cause.same_because}. "
         f"To tell, {contested.would_tell}."
