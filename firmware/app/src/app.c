@@ -154,7 +154,6 @@ brace_status_t brace_app_start(brace_app_t *app, const brace_hal_t *hal)
     frozen_start(&controller->frozen);
     joints_start(&controller->joints, hal);
     posture_start(&controller->posture);
-    softening_start(&controller->softening);
     parameter_job_start(&controller->parameters, hal);
     for (bool done = false; !done;) { /* at most once for each part */
         done = configure_step(controller);

@@ -111,6 +111,41 @@ static void test_what_is_no_limb_takes_no_load(void)
     }
 }
 
+/* Each word is within its bounds alone: the least and the most are kept, what lies beyond is not. */
+static void test_each_word_is_looked_at(void)
+{
+    brace_loaded_t loaded;
+    brace_loaded_fixed_t fixed;
+    brace_loaded_collapse(&limb, &weights, &loaded);
+    brace_loaded_fixed_collapse(&loaded, &fixed);
+    TEST_ASSERT_TRUE(is_within_units(&fixed));
+    const struct {
+        int32_t *exponent, least, most;
+    } bound[] = {{&fixed.length_exponent, UNIT_LENGTH_EXPONENT_LEAST, UNIT_LENGTH_EXPONENT_MOST},
+                 {&fixed.bend_exponent, UNIT_EXPONENT_LEAST, UNIT_EXPONENT_MOST},
+                 {&fixed.spring_exponent, UNIT_EXPONENT_LEAST, UNIT_EXPONENT_MOST},
+                 {&fixed.weight_exponent, UNIT_EXPONENT_LEAST, fixed.weight_exponent}}; /* as the weight is */
+    for (uint32_t i = 0; i < sizeof bound / sizeof *bound; i++) {
+        const int32_t was = *bound[i].exponent;
+        const int32_t tried[] = {bound[i].least - 1, bound[i].least, bound[i].most, bound[i].most + 1};
+        for (int t = i == 3u ? 2 : 0; t < 4; t++) {
+            *bound[i].exponent = tried[t];
+            TEST_ASSERT_EQUAL(t == 1 || t == 2, is_within_units(&fixed));
+        }
+        *bound[i].exponent = was;
+    }
+    int32_t *const from_0[] = {&fixed.femur.length_q28, &fixed.femur.bend_q31, &fixed.femur.end_q31,
+                               &fixed.tibia.length_q28, &fixed.tibia.bend_q31, &fixed.tibia.end_q31,
+                               &fixed.base_q31, &fixed.base_rotation_q31};
+    for (uint32_t i = 0; i < sizeof from_0 / sizeof *from_0; i++) {
+        const int32_t was = *from_0[i];
+        *from_0[i] = -1;
+        TEST_ASSERT_FALSE(is_within_units(&fixed));
+        *from_0[i] = was;
+    }
+    TEST_ASSERT_TRUE(is_within_units(&fixed));
+}
+
 static int32_t q28(double number)
 {
     return (int32_t)(number * 0x1p28);
@@ -177,6 +212,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_every_limb_passes_the_last_look);
     RUN_TEST(test_what_is_no_limb_takes_no_load);
+    RUN_TEST(test_each_word_is_looked_at);
     RUN_TEST(test_a_lever_beyond_its_word_is_noted);
     RUN_TEST(test_C_beyond_its_word_is_noted_and_refused);
     return UNITY_END();

@@ -220,6 +220,35 @@ static void test_buckling_of_the_yaw(void)
     TEST_ASSERT_TRUE(isinf(buckling_factor()));
 }
 
+/* A beam's part that moves the end across turns half way with it, an end spring with all of it. One spring stands for
+ * both. What turns the link's end differently in them is left as their spread: of compliances p and q, one after the
+ * other, p q / (p + q). */
+static void test_two_springs_of_a_link_become_one(void)
+{
+    static const float transfers[] = {0.0f, 0.3f, 0.5f, 0.9f, 1.0f};
+    brace_loaded_space_t loaded;
+    for (uint32_t i = 0; i < sizeof transfers / sizeof *transfers; i++) {
+        const double m = (double)transfers[i], mm = (double)limb.femur_mm;
+        limb.link[BRACE_FEMUR].moment_transfer_ratio = transfers[i];
+        limb.link[BRACE_FEMUR].bending_mm_per_n = 0.06f, limb.link[BRACE_FEMUR].lateral_mm_per_n = 0.02f;
+        brace_loaded_space_collapse(&limb, &weights, &loaded);
+        const brace_space_link_t *femur = &loaded.femur;
+        const double told[2][3] = {{(double)femur->across_mm_per_n, (double)femur->across_spread_per_n_mm,
+                                    (double)femur->bend_rad_per_n_mm},
+                                   {(double)femur->sideways_mm_per_n, (double)femur->sideways_spread_per_n_mm,
+                                    (double)femur->sideways_rad_per_n_mm}};
+        for (int way = 0; way < 2; way++) {
+            const double b = way == 0 ? 0.06 : 0.02, p = m * b / 4.0, q = (1.0 - m) * b;
+            TEST_ASSERT_DOUBLE_WITHIN(1e-6 * b, p + q, told[way][0]);
+            TEST_ASSERT_DOUBLE_WITHIN(1e-6 * b, p * q / (p + q), told[way][1] * mm * mm);
+            TEST_ASSERT_DOUBLE_WITHIN(1e-6 * b, 3.0 * m * b, told[way][2] * mm * mm);
+            TEST_ASSERT_DOUBLE_WITHIN(1e-6, p / (p + q), (double)femur->curl_per_mm * mm);
+            TEST_ASSERT_DOUBLE_WITHIN(1e-6, 0.5 * q / (p + q), (double)femur->end_share);
+            TEST_ASSERT_DOUBLE_WITHIN(1e-6, 0.5 * p / (p + q), (double)femur->own_share);
+        }
+    }
+}
+
 /* A limb that cannot yield across its plane stays in it: the plane's path says the same, but for a coxa that is almost
  * rigid. Both leave out terms of a hundredth of what a load of this size changes. */
 static void test_in_the_plane_as_the_planes_own_path(void)
@@ -343,6 +372,7 @@ int main(void)
     RUN_TEST(test_told_where_the_steps_do_not_settle);
     RUN_TEST(test_a_pull_through_a_joint_is_settled);
     RUN_TEST(test_buckling_of_the_yaw);
+    RUN_TEST(test_two_springs_of_a_link_become_one);
     RUN_TEST(test_in_the_plane_as_the_planes_own_path);
     RUN_TEST(test_a_mirrored_load);
     RUN_TEST(test_turning_and_eigenvalues);

@@ -113,6 +113,16 @@ static void test_the_newest_record_is_found_again(void)
     TEST_ASSERT_FALSE(brace_journal_begin(&journal, &state));
 }
 
+/* A controller with newer firmware reads what an older one has written. So a record begins with the same bytes for
+ * ever: its name, the size of the state, the format, whose records they are. */
+static void test_a_record_says_what_it_is(void)
+{
+    static const uint8_t header[] = {'D', 'R', 'F', 'T', 344 % 256, 344 / 256, 1, 0, 0x34, 0x12, 0, 0};
+    TEST_ASSERT_EQUAL(BRACE_JOURNAL_READY, keep(7));
+    TEST_ASSERT_EQUAL_MEMORY(header, memory.bytes[0] + BRACE_JOURNAL_AT, sizeof header);
+    TEST_ASSERT_EQUAL_HEX8(7, memory.bytes[0][BRACE_JOURNAL_AT + sizeof header]);
+}
+
 static void test_it_fills_up_and_says_how_far(void)
 {
     uint32_t room = brace_journal_room(&journal);
@@ -235,6 +245,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_the_newest_record_is_found_again);
+    RUN_TEST(test_a_record_says_what_it_is);
     RUN_TEST(test_it_fills_up_and_says_how_far);
     RUN_TEST(test_a_record_with_any_bit_wrong_is_none);
     RUN_TEST(test_half_a_record_does_not_hide_the_one_behind_it);

@@ -207,9 +207,13 @@ static void test_a_loading_test_that_is_done(void)
     for (int i = 0; i < 6; i++) {
         TEST_ASSERT_EQUAL_FLOAT(1.0f + (float)i, told[i]);
     }
-    result->outcome = BRACE_LOADING_STOPPED;
-    m = told_of(&counters);
-    TEST_ASSERT_TRUE(m.loading_score_x != m.loading_score_x && m.loading_k_z_n_per_mm != m.loading_k_z_n_per_mm);
+    static const brace_loading_outcome_t others[] = {BRACE_LOADING_STOPPED, BRACE_LOADING_RUNNING,
+                                                     BRACE_LOADING_E_FORCE, BRACE_LOADING_E_FLAT};
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
+        result->outcome = others[i];
+        m = told_of(&counters);
+        TEST_ASSERT_TRUE(isnan(m.loading_score_x) && isnan(m.loading_k_z_n_per_mm));
+    }
 }
 
 static void test_the_set_in_force(void)

@@ -90,6 +90,21 @@ static void test_frames_that_come_together_are_taken_one_by_one(void)
     TEST_ASSERT_FALSE(slcan_receive(&slcan, &hal, &none));
 }
 
+/* So that no tick is long, whatever a host has sent: four lines in a look. */
+static void test_a_look_takes_four_lines_at_most(void)
+{
+    static const char text[] = "\r\r\r\r\r\r";
+    brace_can_frame_t none;
+    memcpy(to_node, text, sizeof text - 1u);
+    to_count = sizeof text - 1u;
+    TEST_ASSERT_FALSE(slcan_receive(&slcan, &hal, &none));
+    slcan_flush(&slcan, &hal);
+    TEST_ASSERT_EQUAL(4, from_count);
+    TEST_ASSERT_FALSE(slcan_receive(&slcan, &hal, &none));
+    slcan_flush(&slcan, &hal);
+    TEST_ASSERT_EQUAL(6, from_count);
+}
+
 static void test_commands_are_answered_as_an_adapter_answers_them(void)
 {
     static const char *const said[][2] = {
@@ -283,6 +298,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_frames_that_come_together_are_taken_one_by_one);
+    RUN_TEST(test_a_look_takes_four_lines_at_most);
     RUN_TEST(test_commands_are_answered_as_an_adapter_answers_them);
     RUN_TEST(test_a_frame_comes_as_it_was_sent);
     RUN_TEST(test_frames_that_are_none_are_refused);

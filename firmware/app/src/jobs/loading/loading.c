@@ -349,11 +349,11 @@ static void judge(brace_loading_t *test)
     }
 }
 
-/* (measured - model) over the sigma of both. */
+/* (measured - model) over the sigma of both; NaN: nobody knows it. */
 static float deviation(float measured, float sigma_measured, float model, float sigma_model)
 {
     const float variance = sigma_measured * sigma_measured + sigma_model * sigma_model;
-    return variance > 0.0f ? (measured - model) / __builtin_sqrtf(variance) : 0.0f;
+    return variance > 0.0f ? (measured - model) / __builtin_sqrtf(variance) : __builtin_nanf("");
 }
 
 static void compare(brace_loading_t *test, const brace_limb_t *limb)

@@ -31,7 +31,6 @@ static int32_t write_command(request_t *request, const brace_write_entry_request
     const brace_seal_t seal = {
         .is_there = true, .counter = request->token, .counter_bits = TOKEN_BITS, .mac = asked->value};
     int32_t status = BRACE_OK;
-    request->detail = brace_app_mode(request->app);
     switch (asked->index) {
     case COMMAND(stop): status = brace_app_stop(request->app); break;
     case COMMAND(end_test): status = brace_app_loading_stop(request->app); break;
@@ -43,6 +42,7 @@ static int32_t write_command(request_t *request, const brace_write_entry_request
         break;
     default: return BRACE_E_RANGE;
     }
+    request->detail = brace_app_mode(request->app);
     if (status == BRACE_OK) {
         *answer = (brace_write_entry_answer_t){asked->index, brace_app_setting(request->app)};
     }

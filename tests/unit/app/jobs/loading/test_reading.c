@@ -127,7 +127,10 @@ static void test_a_later_reading_is_of_the_commands_where_that_was_asked_for(voi
 
 static void test_without_a_sample_there_is_no_reading(void)
 {
+    test.result.preload_x_n = 3.0f, test.result.temp_degc = 31.0f;
     TEST_ASSERT_FALSE(reading_take(&test, &inputs, &recorder));
+    TEST_ASSERT_EQUAL_FLOAT(3.0f, test.result.preload_x_n); /* and what was read before stays */
+    TEST_ASSERT_EQUAL_FLOAT(31.0f, test.result.temp_degc);
     TEST_ASSERT_EQUAL(0, test.result.rows);
     TEST_ASSERT_EQUAL(0, recorder.count);
 }

@@ -283,10 +283,12 @@ static void test_an_entry_that_is_none_is_no_command(void)
     static const uint32_t none[] = {BRACE_ENTRY_COMMANDS, BRACE_ENTRY_COMMANDS + 1u, UINT32_MAX};
     for (uint32_t i = 0; i < 3u; i++) {
         asked.write_entry = (brace_write_entry_request_t){none[i], 1};
-        TEST_ASSERT_EQUAL(BRACE_E_RANGE, put(BRACE_REQUEST_WRITE_ENTRY));
+        refuses(BRACE_E_RANGE, none[i], BRACE_REQUEST_WRITE_ENTRY);
         TEST_ASSERT_FALSE(app.controller.ownership.has_configurer);
         TEST_ASSERT_FALSE(app.controller.ownership.session.is_open);
     }
+    asked.write_entry.index = BRACE_ENTRY_COMMANDS + (uint32_t)(offsetof(brace_commands_t, end_test) / 4u);
+    refuses(BRACE_E_MODE, now()->mode, BRACE_REQUEST_WRITE_ENTRY); /* no test runs */
 }
 
 /* On a bench, who asks or tells becomes nobody's owner; who commands does. */
