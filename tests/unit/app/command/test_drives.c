@@ -243,6 +243,11 @@ static void test_a_drive_that_refuses_for_50_ms_is_told(void)
     TEST_ASSERT_TRUE(drives_refuse(&drives));
     tick(false);
     TEST_ASSERT_FALSE(drives_refuse(&drives)); /* the controller commands no drive now */
+    test.runs = true; /* and the time counts from nothing again */
+    drives_command(&drives, &hal, &joints, &flank, false, &test, stands, 49999u, &failed);
+    TEST_ASSERT_FALSE(drives_refuse(&drives));
+    drives_command(&drives, &hal, &joints, &flank, false, &test, stands, 1u, &failed);
+    TEST_ASSERT_TRUE(drives_refuse(&drives));
 }
 
 static void test_a_board_without_commands_is_told_nothing(void)
