@@ -96,7 +96,30 @@ static void test_the_force_shifts_as_the_limb_s_own_K_does(void)
     }
 }
 
-/* Warm joints are softer, both by the same rate; the estimate is how far that rate is off. */
+/* The estimate of a femur that has changed by a third is that limb: its bend alone and what its moment makes of it. */
+static void test_a_softer_femur_is_that_limb(void)
+{
+    static const float ratios[] = {0.0f, 1.0f, 0.4f};
+    for (int i = 0; i < 18; i++) {
+        be(i % 2 == 0 ? SAMPLE_PAPER : SAMPLE_BEAM, 0.35f, ratios[i / 2 % 3]);
+        reading = (brace_drift_reading_t){.theta1_rad = 0.74f, .theta2_rad = 1.0f, .dx_mm = 0.7f * cosf((float)i),
+                                          .dz_mm = 0.7f * sinf((float)i)};
+        const float share = i / 6 % 2 == 0 ? 0.33f : -0.33f;
+        const brace_limb_t softer = changed_by(BRACE_DRIFT_FEMUR, share);
+        const brace_stiffness_t k = model_k();
+        float offset[DRIFT_OFFSETS] = {0.0f};
+        offset[BRACE_DRIFT_FEMUR] = share;
+        drift_expected_t at;
+        double force_n[2];
+        drift_expect(&limb, &k, &reading, offset, 0.0f, &at);
+        force_of(&softer, 0.74, 1.0, force_n);
+        for (int axis = 0; axis < 2; axis++) {
+            TEST_ASSERT_DOUBLE_WITHIN(1e-4 * (hypot(force_n[0], force_n[1]) + 1.0), force_n[axis],
+                                      (double)at.force_n[axis]);
+        }
+    }
+}
+
 /* What the knee and the tibia yield across the tibia is the tibia's by its share; all of it, where none of it is. */
 static void test_the_tibia_s_share(void)
 {
@@ -109,6 +132,7 @@ static void test_the_tibia_s_share(void)
     TEST_ASSERT_TRUE(drift_compliances(&limb).shank_mm_per_n > 0.0f);
 }
 
+/* Warm joints are softer, both by the same rate; the estimate is how far that rate is off. */
 static void test_warmth_softens_both_joints(void)
 {
     const float per_degc = 0.01f;
@@ -144,6 +168,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_the_force_shifts_as_the_limb_s_own_K_does);
+    RUN_TEST(test_a_softer_femur_is_that_limb);
     RUN_TEST(test_the_tibia_s_share);
     RUN_TEST(test_warmth_softens_both_joints);
     return UNITY_END();
