@@ -198,11 +198,16 @@ static void test_a_reload_reads_the_set_in_force_and_writes_nothing(void)
         TEST_ASSERT_TRUE(status_now().can_roll_back);
     }
     TEST_ASSERT_EQUAL_MEMORY(before, memory.bytes, sizeof before);
-    memory.bytes[1][20] ^= 1u;
-    TEST_ASSERT_EQUAL(BRACE_OK, brace_store_reload(&store));
-    TEST_ASSERT_EQUAL(BRACE_STORE_FAILED, finish());
-    TEST_ASSERT_EQUAL(BRACE_STORE_E_READ_BACK, status_now().failure);
-    memory.bytes[1][20] ^= 1u;
+    for (uint32_t at = 0; at < BRACE_BLOCK_BYTES; at++) { /* in every byte one bit; of the check every bit */
+        const bool is_check = at >= BRACE_BLOCK_BYTES - 4u;
+        for (uint32_t bit = is_check ? 0u : at % 8u; bit < (is_check ? 8u : at % 8u + 1u); bit++) {
+            memory.bytes[1][at] ^= (uint8_t)(1u << bit);
+            TEST_ASSERT_EQUAL(BRACE_OK, brace_store_reload(&store));
+            TEST_ASSERT_EQUAL(BRACE_STORE_FAILED, finish());
+            TEST_ASSERT_EQUAL(BRACE_STORE_E_READ_BACK, status_now().failure);
+            memory.bytes[1][at] ^= (uint8_t)(1u << bit);
+        }
+    }
     TEST_ASSERT_EQUAL(BRACE_STORE_DONE, roll_back());
     TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_store_reload(NULL));
 }
