@@ -50,6 +50,116 @@ void test_a_servo_that_starts_anew_stands_where_it_is_and_is_counted()
     TEST_ASSERT_DOUBLE_WITHIN(1 / kCountsPerRad, bench.turned_rad(kFemur, 0), goal_rad);
 }
 
+// Torque that is off for a moment: the servo stands where it is, and the command that goes on does not move it. When
+// the command ends, what it added goes back as slowly as ever.
+void test_a_servo_that_starts_anew_under_a_command_does_not_jump()
+{
+    Bench bench;
+    bench.turns_rad_per_s = 0.0;
+    bench.be_ready();
+    const brace_hal_joint_command_t command = {0.05f, 500.0f};
+    const auto tell = [&] { (void)brace_dynamixel_command(&bench.driver, kFemur, &command); };
+    bench.run(0.1, tell);
+    brace_servos_power(bench.servos.get(), kFemur, 1000 * bench.now_us);
+    bench.run(1.0, tell);
+    TEST_ASSERT_EQUAL(BRACE_SERVO_READY, bench.report(kFemur).state);
+    double goal_rad = 0, last_rad = 0, most_a = 0;
+    TEST_ASSERT_EQUAL(1, brace_servos_goal(bench.servos.get(), kFemur, &last_rad, &most_a));
+    TEST_ASSERT_DOUBLE_WITHIN(1 / kCountsPerRad, bench.turned_rad(kFemur, 0), last_rad);
+    TEST_ASSERT_DOUBLE_WITHIN(2.7e-3, 500.0 / 2409, most_a);
+    for (int i = 0; i < 80; ++i) {
+        bench.run(0.01);
+        TEST_ASSERT_EQUAL(1, brace_servos_goal(bench.servos.get(), kFemur, &goal_rad, &most_a));
+        TEST_ASSERT_TRUE(goal_rad <= last_rad && last_rad - goal_rad < 0.1 * 0.01 + 2 / kCountsPerRad);
+        last_rad = goal_rad;
+    }
+    TEST_ASSERT_DOUBLE_WITHIN(2 / kCountsPerRad, bench.turned_rad(kFemur, 0) - 0.05, goal_rad);
+}
+
+// An offset on its way back moves on from there: a command that begins elsewhere waits until it is near.
+void test_a_command_waits_for_an_offset_on_its_way_back()
+{
+    Bench bench;
+    bench.turns_rad_per_s = 0.0;
+    bench.be_ready();
+    const brace_hal_joint_command_t far = {0.06f, INFINITY}, anew = {0.0f, INFINITY};
+    bench.run(0.1, [&] { TEST_ASSERT_EQUAL(BRACE_HAL_OK, brace_dynamixel_command(&bench.driver, kFemur, &far)); });
+    bench.run(0.2);
+    double goal_rad = 0, last_rad = 0, most_a = 0;
+    TEST_ASSERT_EQUAL(1, brace_servos_goal(bench.servos.get(), kFemur, &last_rad, &most_a));
+    int taken = 0;
+    for (int i = 0; i < 600; ++i) {
+        const std::int32_t answer = brace_dynamixel_command(&bench.driver, kFemur, &anew);
+        TEST_ASSERT_TRUE(answer == BRACE_HAL_OK || (answer == BRACE_HAL_E_DEVICE && taken == 0));
+        taken += answer == BRACE_HAL_OK ? 1 : 0;
+        bench.run(0.001);
+        TEST_ASSERT_EQUAL(1, brace_servos_goal(bench.servos.get(), kFemur, &goal_rad, &most_a));
+        TEST_ASSERT_TRUE(std::fabs(last_rad - goal_rad) < 0.021);
+        last_rad = goal_rad;
+    }
+    TEST_ASSERT_TRUE(taken > 100 && taken < 500);
+}
+
+// A servo that has yielded at its bound stands far from its goal. A controller that starts anew does not know the bound
+// any more; without it the servo would snap to its goal.
+void test_a_bounded_servo_does_not_snap_when_the_controller_starts_anew()
+{
+    Bench bench;
+    bench.turns_rad_per_s = 0.0;
+    bench.be_ready();
+    const brace_hal_joint_command_t command = {0.15f, 500.0f};
+    bench.run(0.1, [&] { TEST_ASSERT_EQUAL(BRACE_HAL_OK, brace_dynamixel_command(&bench.driver, kFemur, &command)); });
+    double goal_rad = 0, most_a = 0;
+    TEST_ASSERT_EQUAL(1, brace_servos_goal(bench.servos.get(), kFemur, &goal_rad, &most_a));
+    TEST_ASSERT_DOUBLE_WITHIN(1 / kCountsPerRad, bench.turned_rad(kFemur, 0) + 0.15, goal_rad);
+    bench.start();
+    for (int i = 0; i < 2000; ++i) {
+        bench.run(0.0005);
+        TEST_ASSERT_EQUAL(1, brace_servos_goal(bench.servos.get(), kFemur, &goal_rad, &most_a));
+        const bool is_bound = most_a < 1.1 * 500.0 / 2409;
+        TEST_ASSERT_TRUE(is_bound || std::fabs(goal_rad - bench.turned_rad(kFemur, 0)) < 2 / kCountsPerRad);
+    }
+    TEST_ASSERT_EQUAL(BRACE_SERVO_READY, bench.report(kFemur).state);
+    TEST_ASSERT_DOUBLE_WITHIN(0.01, 2047 * 2.69e-3, most_a); // and then it has all of its torque again
+}
+
+// An error that leaves the torque on comes with every answer. It takes no turn of the others.
+void test_an_alert_that_stays_hides_nothing_of_the_others()
+{
+    Bench bench;
+    bench.be_ready();
+    brace_servos_poke(bench.servos.get(), kFemur, 70, 1, 1); // the supply's voltage
+    bench.run(0.5);
+    TEST_ASSERT_EQUAL(1, bench.report(kFemur).hardware_error);
+    TEST_ASSERT_EQUAL(BRACE_SERVO_READY, bench.report(kFemur).state);
+    for (int i = 0; i < 3; ++i) {
+        bench.driver.servo[i].report.temp_degc = NAN;
+    }
+    brace_servos_poke(bench.servos.get(), kTibia, 64, 1, 0); // its torque
+    bench.run(0.5);
+    for (int i = 0; i < 3; ++i) {
+        TEST_ASSERT_EQUAL_FLOAT(30.0f + static_cast<float>(i), bench.report(i).temp_degc);
+    }
+    TEST_ASSERT_EQUAL(1, bench.report(kTibia).restarts);
+    TEST_ASSERT_TRUE(bench.report(kTibia).has_torque);
+    brace_servos_poke(bench.servos.get(), kFemur, 70, 1, 0);
+    bench.run(0.5);
+    TEST_ASSERT_EQUAL(0, bench.report(kFemur).hardware_error);
+}
+
+// Beyond that delay an answer comes when the next request is on its way, and would be taken for that one's.
+void test_a_servo_that_waits_too_long_before_it_answers_is_refused()
+{
+    Bench bench;
+    brace_servos_poke(bench.servos.get(), kCoxa, 9, 1, 88); // 176 us: more than a quarter of 700
+    brace_servos_poke(bench.servos.get(), kTibia, 9, 1, 87);
+    bench.start();
+    bench.run(0.3);
+    TEST_ASSERT_EQUAL(BRACE_SERVO_MODE, bench.report(kCoxa).state);
+    TEST_ASSERT_EQUAL(BRACE_SERVO_READY, bench.report(kFemur).state);
+    TEST_ASSERT_EQUAL(BRACE_SERVO_READY, bench.report(kTibia).state);
+}
+
 void test_a_hardware_error_is_told_and_the_joint_is_still_measured()
 {
     Bench bench;
@@ -224,10 +334,10 @@ void test_no_burst_that_the_crc_misses_sends_a_servo_elsewhere()
 // Torque follows from the model, and its limit from the servo's own.
 void test_no_burst_that_the_crc_misses_makes_another_servo_of_it()
 {
-    constexpr std::size_t kIdentity = 9 + 12 + 2, kLimit = 9 + 2 + 2;
+    constexpr std::size_t kIdentity = 9 + 12 + 2, kLimits = 9 + 18 + 2;
     Bench sound;
     sound.be_ready();
-    for (const std::size_t length : {kIdentity, kLimit}) {
+    for (const std::size_t length : {kIdentity, kLimits}) {
         for (const auto &burst : missed_bursts(length)) {
             Bench bench;
             bench.serve_us = kTick_us;
@@ -256,6 +366,56 @@ void test_a_servo_beyond_its_turn_is_refused_and_not_moved()
     double goal_rad = 0, most_a = 0;
     TEST_ASSERT_EQUAL(BRACE_SERVO_MODE, bench.report(kFemur).state);
     TEST_ASSERT_EQUAL(0, brace_servos_goal(bench.servos.get(), kFemur, &goal_rad, &most_a));
+    TEST_ASSERT_EQUAL(BRACE_SERVO_READY, bench.report(kTibia).state);
+}
+
+// The limits of a servo's goals, as its owner has set them: beyond them it is refused, and no goal passes them.
+void test_position_limits_are_kept()
+{
+    Bench bench;
+    brace_servos_poke(bench.servos.get(), kFemur, 11, 1, 3);
+    brace_servos_poke(bench.servos.get(), kTibia, 11, 1, 3);
+    bench.turns_rad_per_s = 0.0;
+    const int femur = static_cast<int>(bench.turned_rad(kFemur, 0) * kCountsPerRad);
+    const int tibia = static_cast<int>(bench.turned_rad(kTibia, 0) * kCountsPerRad);
+    brace_servos_poke(bench.servos.get(), kFemur, 48, 4, femur - 50); // it stands beyond it
+    brace_servos_poke(bench.servos.get(), kTibia, 48, 4, tibia + 50);
+    brace_servos_poke(bench.servos.get(), kTibia, 52, 4, tibia - 50);
+    bench.start();
+    bench.run(0.5);
+    TEST_ASSERT_EQUAL(BRACE_SERVO_MODE, bench.report(kFemur).state);
+    TEST_ASSERT_EQUAL(0, bench.report(kFemur).refused);
+    TEST_ASSERT_EQUAL(BRACE_SERVO_READY, bench.report(kTibia).state);
+    for (const float offset_rad : {0.2f, -0.2f}) {
+        const brace_hal_joint_command_t command = {offset_rad, INFINITY};
+        bench.run(0.1, [&] { (void)brace_dynamixel_command(&bench.driver, kTibia, &command); });
+        double goal_rad = 0, most_a = 0;
+        TEST_ASSERT_EQUAL(1, brace_servos_goal(bench.servos.get(), kTibia, &goal_rad, &most_a));
+        const double most_rad = (tibia + (offset_rad < 0.0f ? 50 : -50)) / kCountsPerRad; // the tibia is reversed
+        TEST_ASSERT_DOUBLE_WITHIN(1 / kCountsPerRad, most_rad, goal_rad);
+    }
+}
+
+// Whatever a servo refuses while it is being set up: it is told, and the others go on.
+void test_a_servo_that_refuses_its_set_up_is_told()
+{
+    Bench bench;
+    bench.turns_rad_per_s = 0.0;
+    bench.start();
+    const auto narrow = [&] { // its limits change between being read and being used
+        if (bench.driver.servo[kFemur].has_place) {
+            brace_servos_poke(bench.servos.get(), kFemur, 11, 1, 3);
+            brace_servos_poke(bench.servos.get(), kFemur, 48, 4, 100);
+        }
+    };
+    bool is_told = false;
+    for (int i = 0; i < 400 && !is_told; ++i) {
+        bench.run(0.001, narrow);
+        is_told = bench.report(kFemur).state == BRACE_SERVO_MODE;
+    }
+    TEST_ASSERT_TRUE(is_told);
+    TEST_ASSERT_EQUAL(10, bench.report(kFemur).refused);
+    bench.run(0.2);
     TEST_ASSERT_EQUAL(BRACE_SERVO_READY, bench.report(kTibia).state);
 }
 
@@ -309,6 +469,11 @@ int main()
     UNITY_BEGIN();
     RUN_TEST(test_a_silent_servo_is_told_and_the_others_go_on);
     RUN_TEST(test_a_servo_that_starts_anew_stands_where_it_is_and_is_counted);
+    RUN_TEST(test_a_servo_that_starts_anew_under_a_command_does_not_jump);
+    RUN_TEST(test_a_command_waits_for_an_offset_on_its_way_back);
+    RUN_TEST(test_a_bounded_servo_does_not_snap_when_the_controller_starts_anew);
+    RUN_TEST(test_an_alert_that_stays_hides_nothing_of_the_others);
+    RUN_TEST(test_a_servo_that_waits_too_long_before_it_answers_is_refused);
     RUN_TEST(test_a_hardware_error_is_told_and_the_joint_is_still_measured);
     RUN_TEST(test_servos_that_know_no_fast_sync_read_are_asked_otherwise);
     RUN_TEST(test_a_line_that_hears_itself_disturbs_nothing);
@@ -320,6 +485,8 @@ int main()
     RUN_TEST(test_no_burst_that_the_crc_misses_sends_a_servo_elsewhere);
     RUN_TEST(test_no_burst_that_the_crc_misses_makes_another_servo_of_it);
     RUN_TEST(test_a_servo_beyond_its_turn_is_refused_and_not_moved);
+    RUN_TEST(test_position_limits_are_kept);
+    RUN_TEST(test_a_servo_that_refuses_its_set_up_is_told);
     RUN_TEST(test_commands_that_make_no_sense_are_refused);
     RUN_TEST(test_a_servo_that_holds_goes_on_holding_when_the_controller_starts_anew);
     RUN_TEST(test_nobody_is_told_to_hold_who_shall_not);

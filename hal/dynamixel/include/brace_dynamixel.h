@@ -51,7 +51,8 @@ typedef enum {
     BRACE_SERVO_READY = 3,
     BRACE_SERVO_UNKNOWN = 4,  /* refused: no model of ours, or one that measures no current */
     BRACE_SERVO_MODE = 5,     /* refused: it is in no position mode (3, 4 or 5), or its drive mode is reversed, or it
-                               * stands beyond its turn in mode 3 */
+                               * waits for more than a quarter of timeout_us before it answers, or it stands beyond its
+                               * position limits in mode 3, or it refused ten times in a row what sets it up */
     BRACE_SERVO_FAILED = 6    /* has switched itself off: hardware_error says why. Only a reboot helps */
 } brace_servo_state_t;
 
@@ -90,10 +91,11 @@ typedef struct {
     uint8_t step;               /* of being identified */
     uint8_t misses;             /* in a row */
     bool is_new, state_is_due, temperature_is_next;
-    uint8_t drive_mode;
+    uint8_t drive_mode, return_delay;
+    uint8_t refusals;           /* in a row, while it is being identified */
     bool has_sample, has_wild, has_goal;
-    bool has_limit;             /* current_limit is what the servo has said, once */
-    bool has_place;             /* base is where the servo has said that it stands, once */
+    bool has_limits;            /* the limits are what the servo has said, once */
+    bool has_place;             /* goal_sent is where the servo has said that it stands or is to stand, once */
     brace_servo_raw_t sample, wild;
     uint32_t asked_us;          /* when it was last asked while silent */
     float torque_per_count_n_mm;
@@ -101,6 +103,7 @@ typedef struct {
     uint32_t commanded_us;
     bool is_commanded;
     int32_t base, goal_sent;    /* set-point without the offset, and with it as sent */
+    int32_t place_least, place_most; /* goals that the servo takes in mode 3 */
     uint16_t current_limit, current_sent;
 } brace_servo_t;
 
@@ -132,7 +135,8 @@ int32_t brace_dynamixel_start(brace_dynamixel_t *driver, const brace_servo_setup
 void brace_dynamixel_serve(brace_dynamixel_t *driver, uint32_t now_us);
 
 /* As joint_read and joint_command in brace_hal.h. A finite torque limit needs operating mode 5 (current-based
- * position); in another mode it is E_UNSUPPORTED. E_DEVICE: the servo is silent, refused, or has no torque. */
+ * position); in another mode it is E_UNSUPPORTED. E_DEVICE: the servo is silent, refused, or has no torque; or an
+ * offset that nobody has commanded for 100 ms goes back, and the command is more than 0.02 rad away from it. */
 int32_t brace_dynamixel_read(brace_dynamixel_t *driver, int32_t joint_index, brace_hal_joint_t *joint);
 int32_t brace_dynamixel_command(brace_dynamixel_t *driver, int32_t joint_index,
                                 const brace_hal_joint_command_t *command);

@@ -17,10 +17,12 @@ const dxl_model_t *dxl_model(uint16_t model);
 enum {
     DXL_AT_IDENTITY = 0, /* model 2, information 4, firmware, id, baud rate, return delay, drive mode, mode */
     DXL_IDENTITY_BYTES = 12,
-    DXL_AT_CURRENT_LIMIT = 38,
+    DXL_AT_LIMITS = 38, /* current 2, 4 free, velocity 4, most position 4, least position 4 */
+    DXL_LIMITS_BYTES = 18,
     DXL_AT_TORQUE = 64, /* torque, LED, 2 free, status return level, registered, hardware error */
     DXL_STATE_BYTES = 7,
-    DXL_AT_GOAL_CURRENT = 102,
+    DXL_AT_GOAL_CURRENT = 102, /* current 2, velocity 4, profile 8, position 4 */
+    DXL_GOALS_BYTES = 18,
     DXL_AT_GOAL_POSITION = 116,
     DXL_AT_PRESENT = 126, /* current 2, velocity 4, position 4 */
     DXL_PRESENT_BYTES = 10,

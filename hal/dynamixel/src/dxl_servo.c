@@ -7,11 +7,14 @@
 
 enum {
     SILENT_MISSES = 10, /* in a row: the servo is silent */
+    REFUSALS_MOST = 10, /* in a row */
     COMMAND_HOLDS_US = 100000
 };
 
 #define VELOCITY_RAD_PER_S 0.0239809f /* of a count: 0.229 turns a minute */
 #define FADE_RAD_PER_US 0.1e-6f
+#define NEAR_RAD 0.02f /* as far as an offset goes back in 0.2 s */
+#define RETURN_DELAY_US 2u /* of a count */
 
 /* The CRC misses some bursts on the line. Each of them makes a sample impossible, or makes it jump by more than this. A
  * servo that really jumps is believed one sample later. */
@@ -114,16 +117,19 @@ void dxl_servo_lose_answer(brace_servo_t *servo, uint32_t now_us)
 
 /* Torque follows from the model, and the mode says which goals may be sent. The CRC misses some bursts: who a servo is,
  * is believed when two answers say the same. */
-static void take_identity(brace_servo_t *servo, const brace_servo_joint_t *joint, const uint8_t *data)
+static void take_identity(brace_servo_t *servo, const brace_servo_setup_t *setup, const brace_servo_joint_t *joint,
+                          const uint8_t *data)
 {
-    enum { FIRMWARE = 6, DRIVE_MODE = 10, OPERATING_MODE = 11, REVERSED = 1, DEPENDS_ON_OTHER = 2 };
+    enum { FIRMWARE = 6, RETURN_DELAY = 9, DRIVE_MODE = 10, OPERATING_MODE = 11, REVERSED = 1, DEPENDS_ON_OTHER = 2 };
     const uint16_t number = (uint16_t)value_of(data, 2);
     const bool is_confirmed = servo->report.model == number && servo->report.operating_mode == data[OPERATING_MODE] &&
-                              servo->drive_mode == data[DRIVE_MODE];
+                              servo->drive_mode == data[DRIVE_MODE] && servo->return_delay == data[RETURN_DELAY];
     servo->report.model = number;
     servo->report.firmware = data[FIRMWARE];
     servo->report.operating_mode = data[OPERATING_MODE];
     servo->drive_mode = data[DRIVE_MODE];
+    servo->return_delay = data[RETURN_DELAY];
+    servo->refusals = 0;
     const dxl_model_t *model = dxl_model(number);
     if (!is_confirmed) {
         servo->report.state = BRACE_SERVO_STARTING;
@@ -131,23 +137,31 @@ static void take_identity(brace_servo_t *servo, const brace_servo_joint_t *joint
     } else if (model == NULL) {
         servo->report.state = BRACE_SERVO_UNKNOWN;
     } else if (data[OPERATING_MODE] < DXL_MODE_POSITION || data[OPERATING_MODE] > DXL_MODE_CURRENT_POSITION ||
-               (data[DRIVE_MODE] & (REVERSED | DEPENDS_ON_OTHER)) != 0u) {
+               (data[DRIVE_MODE] & (REVERSED | DEPENDS_ON_OTHER)) != 0u ||
+               4u * RETURN_DELAY_US * data[RETURN_DELAY] > setup->timeout_us) {
         servo->report.state = BRACE_SERVO_MODE;
     } else {
         servo->report.state = BRACE_SERVO_STARTING;
         servo->torque_per_count_n_mm = 1e-3f * model->step_ma * model->n_mm_per_a * joint->torque_ratio *
                                        (joint->is_reversed ? -1.0f : 1.0f);
-        servo->step = DXL_STEP_READ_LIMIT;
-        servo->has_limit = false;
+        servo->step = DXL_STEP_READ_LIMITS;
+        servo->has_limits = false;
     }
 }
 
-/* As the model, the limit is believed when two answers say the same. */
-static void take_limit(brace_servo_t *servo, uint16_t limit)
+/* As the model, the limits are believed when two answers say the same. */
+static void take_limits(brace_servo_t *servo, const uint8_t *data)
 {
-    servo->step = servo->has_limit && servo->current_limit == limit ? DXL_STEP_READ_STATE : DXL_STEP_READ_LIMIT;
-    servo->current_limit = servo->current_sent = limit;
-    servo->has_limit = true;
+    enum { CURRENT = 0, MOST_POSITION = 10, LEAST_POSITION = 14 };
+    const uint16_t current = (uint16_t)value_of(&data[CURRENT], 2);
+    const int32_t most = signed32(&data[MOST_POSITION]), least = signed32(&data[LEAST_POSITION]);
+    const bool is_believed = servo->has_limits && servo->current_limit == current && servo->place_most == most &&
+                             servo->place_least == least;
+    servo->step = is_believed ? DXL_STEP_READ_STATE : DXL_STEP_READ_LIMITS;
+    servo->current_limit = servo->current_sent = current;
+    servo->place_most = most;
+    servo->place_least = least;
+    servo->has_limits = true;
 }
 
 /* Torque that is off although it was on: the servo has started anew, or has switched itself off. */
@@ -170,7 +184,7 @@ static void take_state(brace_servo_t *servo, bool holds, const uint8_t *data)
     const bool needs_place = !servo->has_goal && (servo->report.has_torque || holds);
     if (needs_place) {
         servo->report.state = BRACE_SERVO_STARTING;
-        servo->step = DXL_STEP_READ_PLACE;
+        servo->step = servo->report.has_torque ? DXL_STEP_READ_GOALS : DXL_STEP_READ_PLACE;
         servo->has_place = false;
     } else {
         servo->report.state = BRACE_SERVO_READY;
@@ -178,38 +192,74 @@ static void take_state(brace_servo_t *servo, bool holds, const uint8_t *data)
     }
 }
 
-/* Where the servo has to stand from now on. As a sample that jumps, it is believed when the next answer agrees. */
-static void take_place(brace_servo_t *servo, int32_t place)
+/* Where the servo has to stand from now on. What is commanded beside it stays: a servo which has started anew stands
+ * where it is, and the next command, which is the one before, does not move it. */
+static void stand_at(brace_servo_t *servo, const brace_servo_joint_t *joint, int32_t place, uint8_t next_step)
 {
-    const bool is_believed = servo->has_place && distance(place, servo->base) <= POSITION_JUMP;
-    const bool is_in_turn = place >= 0 && place < DXL_COUNTS_PER_TURN;
-    servo->base = servo->goal_sent = place;
+    servo->base = place - dxl_counts(joint, servo->offset_rad);
+    servo->has_goal = true;
+    servo->step = next_step;
+}
+
+/* The goals of a servo that holds: it goes on holding where it was told to. As a sample that jumps, they are believed
+ * when the next answer agrees. A bound of its current is a controller's before this one. The servo may have yielded at
+ * that bound, far from its goal, and without the bound it would snap there. So it is to stand where it is. */
+static void take_goals(brace_servo_t *servo, const brace_servo_joint_t *joint, const uint8_t *data)
+{
+    enum { CURRENT = 0, POSITION = 14 };
+    const uint16_t current = (uint16_t)value_of(&data[CURRENT], 2);
+    const int32_t goal = signed32(&data[POSITION]);
+    const bool is_believed = servo->has_place && servo->current_sent == current &&
+                             distance(goal, servo->goal_sent) <= POSITION_JUMP;
+    const bool is_bound =
+        servo->report.operating_mode == DXL_MODE_CURRENT_POSITION && current < servo->current_limit;
+    servo->current_sent = current;
+    servo->goal_sent = goal;
     servo->has_place = true;
-    if (is_believed && servo->report.operating_mode == DXL_MODE_POSITION && !is_in_turn) {
-        servo->report.state = BRACE_SERVO_MODE; /* it takes no goal where it stands, and the nearest would move it */
+    if (is_believed && is_bound) {
+        servo->step = DXL_STEP_READ_PLACE;
+        servo->has_place = false;
     } else if (is_believed) {
-        servo->has_goal = true;
-        servo->offset_rad = 0.0f;
-        servo->step = servo->report.has_torque ? DXL_STEP_READ_STATE : DXL_STEP_WRITE_PLACE;
+        stand_at(servo, joint, goal, DXL_STEP_READ_STATE);
     }
 }
 
-void dxl_servo_take(brace_servo_t *servo, const brace_servo_joint_t *joint, bool holds, const uint8_t *data)
+/* Where the servo stands, believed as its goals are. */
+static void take_place(brace_servo_t *servo, const brace_servo_joint_t *joint, int32_t place)
 {
+    const bool is_believed = servo->has_place && distance(place, servo->goal_sent) <= POSITION_JUMP;
+    const bool takes_it = servo->report.operating_mode != DXL_MODE_POSITION ||
+                          (place >= servo->place_least && place <= servo->place_most);
+    servo->goal_sent = place;
+    servo->has_place = true;
+    if (is_believed && !takes_it) {
+        servo->report.state = BRACE_SERVO_MODE; /* it takes no goal where it stands, and the nearest would move it */
+    } else if (is_believed) {
+        stand_at(servo, joint, place, DXL_STEP_WRITE_PLACE);
+    }
+}
+
+void dxl_servo_take(brace_servo_t *servo, const brace_servo_setup_t *setup, uint32_t index, const uint8_t *data)
+{
+    const brace_servo_joint_t *joint = &setup->joint[index];
+    servo->refusals = 0;
     switch (servo->step) {
     case DXL_STEP_IDENTIFY:
-        take_identity(servo, joint, data);
+        take_identity(servo, setup, joint, data);
         break;
-    case DXL_STEP_READ_LIMIT:
-        take_limit(servo, (uint16_t)value_of(data, 2));
+    case DXL_STEP_READ_LIMITS:
+        take_limits(servo, data);
         break;
     case DXL_STEP_READ_STATE:
     case DXL_STEP_READ_STATE_AGAIN:
-        take_state(servo, holds, data);
+        take_state(servo, setup->holds, data);
         servo->temperature_is_next = true;
         break;
+    case DXL_STEP_READ_GOALS:
+        take_goals(servo, joint, data);
+        break;
     case DXL_STEP_READ_PLACE:
-        take_place(servo, signed32(data));
+        take_place(servo, joint, signed32(data));
         break;
     case DXL_STEP_WRITE_PLACE:
         servo->step = DXL_STEP_WRITE_TORQUE;
@@ -226,11 +276,21 @@ void dxl_servo_take(brace_servo_t *servo, const brace_servo_joint_t *joint, bool
     }
 }
 
-/* What every answer says, whatever it answers. true: its data may be used. */
+void dxl_servo_refuse(brace_servo_t *servo)
+{
+    if (servo->report.state == BRACE_SERVO_STARTING) {
+        servo->refusals++;
+        servo->report.state = servo->refusals >= REFUSALS_MOST ? BRACE_SERVO_MODE : BRACE_SERVO_STARTING;
+    }
+}
+
+/* What every answer says, whatever it answers. true: its data may be used. An alert that is known already, of an error
+ * that leaves the torque on, is no reason to ask for the state before its turn: it comes with every answer. */
 bool dxl_servo_note(brace_servo_t *servo, uint8_t error)
 {
+    const bool is_news = (error & DXL_ERROR_ALERT) != 0u && servo->report.hardware_error == 0u;
     servo->misses = 0;
-    servo->state_is_due = servo->state_is_due || (error & DXL_ERROR_ALERT) != 0u;
+    servo->state_is_due = servo->state_is_due || is_news;
     if ((error & DXL_ERROR_NUMBER) != 0u) {
         dxl_count(&servo->report.refused);
     }
@@ -251,6 +311,12 @@ void dxl_servo_fade(brace_servo_t *servo, uint32_t now_us, uint32_t passed_us)
     }
 }
 
+bool dxl_servo_accepts(const brace_servo_t *servo, float offset_rad, uint32_t now_us)
+{
+    const bool goes_back = servo->is_commanded && now_us - servo->commanded_us > COMMAND_HOLDS_US;
+    return !goes_back || dxl_magnitude(offset_rad - servo->offset_rad) <= NEAR_RAD;
+}
+
 uint16_t dxl_servo_current(const brace_servo_t *servo)
 {
     const float counts = servo->limit_n_mm / dxl_magnitude(servo->torque_per_count_n_mm);
@@ -263,5 +329,5 @@ int32_t dxl_servo_goal(const brace_servo_t *servo, const brace_servo_joint_t *jo
     if (servo->report.operating_mode != DXL_MODE_POSITION) {
         return goal;
     }
-    return goal < 0 ? 0 : goal > DXL_COUNTS_PER_TURN - 1 ? DXL_COUNTS_PER_TURN - 1 : goal;
+    return goal < servo->place_least ? servo->place_least : goal > servo->place_most ? servo->place_most : goal;
 }

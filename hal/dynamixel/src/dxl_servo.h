@@ -16,8 +16,9 @@
  * READ_STATE_AGAIN. */
 enum {
     DXL_STEP_IDENTIFY = 0,
-    DXL_STEP_READ_LIMIT,
+    DXL_STEP_READ_LIMITS,
     DXL_STEP_READ_STATE,
+    DXL_STEP_READ_GOALS,
     DXL_STEP_READ_PLACE,
     DXL_STEP_WRITE_PLACE,
     DXL_STEP_WRITE_TORQUE,
@@ -46,15 +47,20 @@ void dxl_servo_sample(brace_servo_t *servo, const uint8_t *data, uint32_t taken_
 bool dxl_servo_note(brace_servo_t *servo, uint8_t error);
 
 /* Takes the answer to the servo's present step, and goes on to the next one.
- *   holds: the driver gives a servo without torque its present position as goal, then switches its torque on
  *   data: as many bytes as the step's answer has */
-void dxl_servo_take(brace_servo_t *servo, const brace_servo_joint_t *joint, bool holds, const uint8_t *data);
+void dxl_servo_take(brace_servo_t *servo, const brace_servo_setup_t *setup, uint32_t joint, const uint8_t *data);
+
+/* The servo has refused its present step. Ten times in a row: it cannot be set up as it is. */
+void dxl_servo_refuse(brace_servo_t *servo);
 
 /* An answer did not come. After ten in a row the servo counts as silent. */
 void dxl_servo_lose_answer(brace_servo_t *servo, uint32_t now_us);
 
 /* An offset that nobody has commanded for 100 ms goes back to nothing, at 0.1 rad/s. */
 void dxl_servo_fade(brace_servo_t *servo, uint32_t now_us, uint32_t passed_us);
+
+/* May an offset be commanded now? Not one that would move the servo at once, away from an offset on its way back. */
+bool dxl_servo_accepts(const brace_servo_t *servo, float offset_rad, uint32_t now_us);
 
 /* What the servo is to be told: its current's limit and its position [counts]. */
 uint16_t dxl_servo_current(const brace_servo_t *servo);

@@ -25,8 +25,9 @@ enum {
 static uint32_t bytes_of_step(uint8_t step)
 {
     static const uint8_t bytes[] = {[DXL_STEP_IDENTIFY] = DXL_IDENTITY_BYTES,
-                                    [DXL_STEP_READ_LIMIT] = 2,
+                                    [DXL_STEP_READ_LIMITS] = DXL_LIMITS_BYTES,
                                     [DXL_STEP_READ_STATE] = DXL_STATE_BYTES,
+                                    [DXL_STEP_READ_GOALS] = DXL_GOALS_BYTES,
                                     [DXL_STEP_READ_PLACE] = 4,
                                     [DXL_STEP_WRITE_PLACE] = 0,
                                     [DXL_STEP_WRITE_TORQUE] = 0,
@@ -72,7 +73,7 @@ static int32_t joint_asked(const brace_dynamixel_t *driver, uint8_t id)
 
 static bool take_single(brace_dynamixel_t *driver, const dxl_packet_t *packet)
 {
-    uint8_t data[1 + DXL_IDENTITY_BYTES]; /* the longest */
+    uint8_t data[1 + DXL_LIMITS_BYTES]; /* the longest */
     const int32_t joint = joint_asked(driver, packet->id);
     if (joint < 0) {
         return false;
@@ -89,8 +90,11 @@ static bool take_single(brace_dynamixel_t *driver, const dxl_packet_t *packet)
         return true;
     }
     driver->asked &= (uint8_t)~(1u << joint);
-    if (dxl_servo_note(&driver->servo[joint], data[0]) && !is_sample) {
-        dxl_servo_take(&driver->servo[joint], &driver->setup.joint[joint], driver->setup.holds, &data[1]);
+    const bool is_taken = dxl_servo_note(&driver->servo[joint], data[0]);
+    if (!is_sample && is_taken) {
+        dxl_servo_take(&driver->servo[joint], &driver->setup, (uint32_t)joint, &data[1]);
+    } else if (!is_sample) {
+        dxl_servo_refuse(&driver->servo[joint]);
     }
     return true;
 }
@@ -264,15 +268,17 @@ static bool ask_one(brace_dynamixel_t *driver, uint32_t joint)
     switch (servo->step) {
     case DXL_STEP_IDENTIFY:
         return dxl_ask_read(out, id, DXL_AT_IDENTITY, DXL_IDENTITY_BYTES);
-    case DXL_STEP_READ_LIMIT:
-        return dxl_ask_read(out, id, DXL_AT_CURRENT_LIMIT, 2);
+    case DXL_STEP_READ_LIMITS:
+        return dxl_ask_read(out, id, DXL_AT_LIMITS, DXL_LIMITS_BYTES);
     case DXL_STEP_READ_STATE:
     case DXL_STEP_READ_STATE_AGAIN:
         return dxl_ask_read(out, id, DXL_AT_TORQUE, DXL_STATE_BYTES);
-    case DXL_STEP_READ_PLACE: /* a servo that holds goes on holding where it was told to */
-        return dxl_ask_read(out, id, servo->report.has_torque ? DXL_AT_GOAL_POSITION : DXL_AT_PRESENT_POSITION, 4);
+    case DXL_STEP_READ_GOALS:
+        return dxl_ask_read(out, id, DXL_AT_GOAL_CURRENT, DXL_GOALS_BYTES);
+    case DXL_STEP_READ_PLACE:
+        return dxl_ask_read(out, id, DXL_AT_PRESENT_POSITION, 4);
     case DXL_STEP_WRITE_PLACE:
-        return dxl_ask_write(out, id, DXL_AT_GOAL_POSITION, (uint32_t)servo->base, 4);
+        return dxl_ask_write(out, id, DXL_AT_GOAL_POSITION, (uint32_t)servo->goal_sent, 4);
     case DXL_STEP_WRITE_TORQUE:
         return dxl_ask_write(out, id, DXL_AT_TORQUE, 1, 1);
     default: /* DXL_STEP_READ_TEMPERATURE */
@@ -403,6 +409,9 @@ int32_t brace_dynamixel_command(brace_dynamixel_t *driver, int32_t joint_index,
     }
     if (command->torque_limit_n_mm < INFINITY && servo->report.operating_mode != DXL_MODE_CURRENT_POSITION) {
         return BRACE_HAL_E_UNSUPPORTED;
+    }
+    if (!dxl_servo_accepts(servo, command->offset_rad, driver->now_us)) {
+        return BRACE_HAL_E_DEVICE;
     }
     servo->offset_rad = command->offset_rad;
     servo->limit_n_mm = command->torque_limit_n_mm;
