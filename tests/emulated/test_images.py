@@ -5,9 +5,11 @@ from __future__ import annotations
 import hashlib
 import json
 import re
+import struct
 import subprocess
 from pathlib import Path
 
+import numpy as np
 import pytest
 from board import IMAGES, PROJECT, image
 
@@ -99,6 +101,18 @@ def test_files_beside_the_image(name: str) -> None:
     assert 0 <= len(images[0].flat()) - size["flash_bytes"] < 16  # code begins at a multiple of 16 after the vectors
     assert size["ram_bytes"] == data + bss and size["stack_bytes"] == 8192
     assert size["flash_of_bytes"] == board.flash_bytes and size["ram_of_bytes"] == board.ram_bytes
+
+
+def test_a_board_of_servos_has_its_ceilings(tmp_path: Path) -> None:
+    """Torque, least and greatest angle, speed of each joint: bounded, and wide enough for the set that is built in."""
+    elf, plain = image("brace-stm32f405"), tmp_path / "plain.bin"
+    output_of("arm-none-eabi-objcopy", "-O", "binary", elf, plain)
+    at = symbols(elf)["ceilings"] - 0x0800_0000
+    table = plain.read_bytes()[at : at + 48]
+    for torque_n_mm, least_rad, most_rad, speed_rad_per_s in struct.iter_unpack("<4f", table):
+        assert 8000.0 <= torque_n_mm < 1e5
+        assert -8.0 < least_rad <= np.float32(-3.2) and np.float32(3.2) <= most_rad < 8.0
+        assert 0.1 < speed_rad_per_s < 10.0
 
 
 def test_a_port_can_start() -> None:

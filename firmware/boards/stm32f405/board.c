@@ -29,6 +29,14 @@ static const brace_servo_setup_t servos = {
     .holds = true,
 };
 
+/* What no parameter passes: an MX-106's stall torque at 14.8 V, a turn, and 1 rad/s of what take-ups and loading tests
+ * add to a set-point. */
+static const brace_hal_ceiling_t ceilings[BRACE_SERVO_JOINTS] = {
+    {.torque_most_n_mm = 10000.0f, .angle_least_rad = -3.2f, .angle_most_rad = 3.2f, .speed_most_rad_per_s = 1.0f},
+    {.torque_most_n_mm = 10000.0f, .angle_least_rad = -3.2f, .angle_most_rad = 3.2f, .speed_most_rad_per_s = 1.0f},
+    {.torque_most_n_mm = 10000.0f, .angle_least_rad = -3.2f, .angle_most_rad = 3.2f, .speed_most_rad_per_s = 1.0f},
+};
+
 uint32_t board_now_us(void)
 {
     return door.now_us != NULL ? door.now_us(door.context) : 0u; /* a fault may come before the clock */
@@ -89,6 +97,7 @@ const brace_hal_t *board_start(void)
     };
     board.reset_by_fault = kept_reset_cause(0) == BRACE_RESET_FAULT;
     door = *brace_hal_stm32f405(&board);
+    door.ceiling = ceilings;
     const bool has_line = stm32f405_servo_line(&wires) == BRACE_HAL_OK; /* not at 16 MHz, when the PLL does not start */
     if (!has_line || !servo_joints_start(&servos, &line)) {
         door.joint_command = NULL;
