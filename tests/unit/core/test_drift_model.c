@@ -132,6 +132,20 @@ static void test_the_tibia_s_share(void)
     TEST_ASSERT_TRUE(drift_compliances(&limb).shank_mm_per_n > 0.0f);
 }
 
+/* A rate so large that cold joints would push the wrong way says nothing of the rate. */
+static void test_joints_colder_than_any_tell_no_rate(void)
+{
+    be(SAMPLE_PAPER, 0.3f, 0.5f);
+    reading = (brace_drift_reading_t){
+        .theta1_rad = 0.74f, .theta2_rad = 1.0f, .dx_mm = 0.5f, .dz_mm = 0.4f, .warmer_degc = -200.0f};
+    const brace_stiffness_t k = model_k();
+    const float none[DRIFT_OFFSETS] = {0.0f};
+    drift_expected_t at;
+    drift_expect(&limb, &k, &reading, none, 0.05f, &at);
+    TEST_ASSERT_EQUAL_FLOAT(0.0f, at.per_offset[0][DRIFT_THERMAL]);
+    TEST_ASSERT_EQUAL_FLOAT(0.0f, at.per_offset[1][DRIFT_THERMAL]);
+}
+
 /* Warm joints are softer, both by the same rate; the estimate is how far that rate is off. */
 static void test_warmth_softens_both_joints(void)
 {
@@ -170,6 +184,7 @@ int main(void)
     RUN_TEST(test_the_force_shifts_as_the_limb_s_own_K_does);
     RUN_TEST(test_a_softer_femur_is_that_limb);
     RUN_TEST(test_the_tibia_s_share);
+    RUN_TEST(test_joints_colder_than_any_tell_no_rate);
     RUN_TEST(test_warmth_softens_both_joints);
     return UNITY_END();
 }

@@ -322,6 +322,20 @@ static void test_what_a_slot_does_not_tell_is_zero(void)
     }
 }
 
+/* A slot is empty where no block begins. Where one does whose header no firmware reads, it is damaged, not empty. */
+static void test_a_header_that_nobody_reads_is_damaged(void)
+{
+    static const uint32_t format = 4, header_bytes = 6, member_bytes = 12, places[] = {format, header_bytes, member_bytes};
+    for (uint32_t i = 0; i < 3u; i++) {
+        setUp();
+        put_block(0, 1, 7, true);
+        memory.bytes[0][places[i]] ^= 1u;
+        expect_after_start(BRACE_PARAMETERS_DEFAULT, 0);
+        TEST_ASSERT_EQUAL(BRACE_SLOT_DAMAGED, status_now().slot[0].condition);
+        TEST_ASSERT_EQUAL(BRACE_SLOT_EMPTY, status_now().slot[1].condition);
+    }
+}
+
 static void test_a_value_out_of_range_is_named(void)
 {
     put_refused_block(0, 7);
@@ -785,6 +799,7 @@ int main(void)
     RUN_TEST(test_a_block_without_its_mark_does_not_count);
     RUN_TEST(test_a_block_of_another_dictionary);
     RUN_TEST(test_what_a_slot_does_not_tell_is_zero);
+    RUN_TEST(test_a_header_that_nobody_reads_is_damaged);
     RUN_TEST(test_a_value_out_of_range_is_named);
     RUN_TEST(test_a_refused_set_leaves_the_other_in_force);
     RUN_TEST(test_marks_never_run_out);

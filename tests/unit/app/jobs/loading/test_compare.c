@@ -65,9 +65,12 @@ static void test_each_slope_beside_its_entry_of_the_model(void)
 /* Where nobody can say how sure the model is, no score is told. */
 static void test_a_model_of_unknown_sigma_has_no_score(void)
 {
-    test.result.theta1_rad = NAN;
     for (int axis = BRACE_AXIS_X; axis <= BRACE_AXIS_Z; axis++) {
+        test.result.theta1_rad = 1.0f;
         const brace_loading_result_t *r = compared((brace_axis_t)axis);
+        TEST_ASSERT_FALSE(isnan(r->sigma_model_k_x_n_per_mm) || isnan(r->z_x));
+        test.result.theta1_rad = NAN;
+        r = compared((brace_axis_t)axis);
         TEST_ASSERT_TRUE(isnan(r->sigma_model_k_x_n_per_mm) && isnan(r->sigma_model_k_z_n_per_mm));
         TEST_ASSERT_TRUE(isnan(r->z_x) && isnan(r->z_z));
     }
