@@ -171,6 +171,23 @@ def test_a_slipped_decimal_is_found_and_mended(tmp_path: Path) -> None:
             assert faults[0].suggestion == pytest.approx(right) and faults[0].repair
 
 
+def test_a_wild_reading_is_no_slipped_decimal_of_the_next_one(tmp_path: Path) -> None:
+    """Beside a wild reading the line through the neighbours is half as far off: just where a decimal point would be."""
+    for row in range(3, 200):
+        rows = loading_rows(noise_n=0.02)
+        for name in ("fx_n", "fz_n"):
+            here = float(rows[row][column(name)])
+            for by in (-1, 1):
+                beside = float(rows[row + by][column(name)])
+                if rows[row][column("run")] != rows[row + by][column("run")]:
+                    continue
+                # as wild as makes ten times the reading beside it due there
+                spoiled = [list(line) for line in rows]
+                _set(spoiled, name, lambda _, wild=here + 18.0 * beside: wild, slice(row, row + 1))
+                faults = load_dataset(write_loading(tmp_path, spoiled)).faults
+                assert row + 1 + by not in {fault.row for fault in faults if "decimal" in fault.why}
+
+
 def test_the_papers_table_as_printed(paper_table: Path) -> None:
     dataset = load_dataset(paper_table)
     by_place = {(fault.row, fault.field): fault for fault in dataset.faults}

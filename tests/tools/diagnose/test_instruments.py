@@ -7,6 +7,8 @@ import csv
 import re
 from collections.abc import Callable
 from pathlib import Path
+from types import SimpleNamespace
+from typing import cast
 
 import numpy as np
 import pytest
@@ -14,8 +16,12 @@ from handmade import loading_record
 
 from brace.dataset import load_dataset
 from brace.diagnose.diagnosis import Diagnosis
+from brace.diagnose.loading.choose import LabelSet
+from brace.diagnose.loading.troubles.kinds import OUTLIERS
+from brace.diagnose.loading.troubles.likeliest import Trouble, with_trouble
 from brace.diagnose.options import Options
 from brace.diagnose.run import diagnose
+from brace.identify.record import Record
 from brace.model import load_limb
 from brace.native.plant import LoadingPlayer
 
@@ -298,3 +304,21 @@ def test_a_channel_that_rounds_beside_one_that_is_noisy(tmp_path: Path, limb: Pa
     """What is left of the channel that rounds has the shape of its rounding, and says nothing."""
     found = spoiled(tmp_path / "record", limb, one_axis_is_noisy, values={})
     assert found.verdict == "none", found.sentence
+
+
+def test_single_readings_that_stand_out_are_told_once() -> None:
+    """Two rounds may find some each, the same row in both of its channels."""
+    record = cast(Record, SimpleNamespace(channels=("fx_n", "fz_n")))
+
+    def found(name: str, *readings: tuple[int, int]) -> Trouble:
+        columns = np.zeros((2, 9, len(readings)))
+        for place, (channel, row) in enumerate(readings):
+            columns[channel, row, place] = 1.0
+        return Trouble(name, "fx_n", readings[0][1] + 1, columns, cast(LabelSet, None), 9.0, 1.0, 0.1, "")
+
+    zeros, first, second = found("zeros", (0, 1)), found(OUTLIERS, (0, 5), (0, 7)), found(OUTLIERS, (1, 5), (1, 2))
+    assert with_trouble(record, (zeros,), first) == (zeros, first)
+    kept, whole = with_trouble(record, (zeros, first), second)
+    assert kept is zeros and whole.columns.shape == (2, 9, 4)
+    assert (whole.name, whole.field, whole.row) == (OUTLIERS, "fx_n, fz_n", 3)
+    assert "(row 3, 6, 8)" in whole.shown

@@ -200,8 +200,8 @@ static void test_a_limb_that_its_load_folds_is_refused(void)
         int refused_late = 0;
         for (float force_n = 20.0f; force_n < 4000.0f; force_n *= 1.2f) {
             const brace_vec3_t towards_hip_n = {-0.9f * force_n, 0.0f, -0.4f * force_n};
-            const brace_status_t whole = model_loaded(&model, &parameters.limb, unbent_rad, springs, towards_hip_n, down,
-                                                      &place, &rest);
+            const brace_status_t whole =
+                model_loaded(&model, &parameters.limb, unbent_rad, springs, towards_hip_n, down, &place, &rest);
             rest = whole == BRACE_OK ? before : rest;
             TEST_ASSERT_EQUAL_MEMORY(&before, &rest, sizeof rest);
             int32_t status = model_loaded_begin(&model, unbent_rad, springs, towards_hip_n, down, &work);

@@ -325,7 +325,7 @@ static void test_what_a_slot_does_not_tell_is_zero(void)
 /* A slot is empty where no block begins. Where one does whose header no firmware reads, it is damaged, not empty. */
 static void test_a_header_that_nobody_reads_is_damaged(void)
 {
-    static const uint32_t format = 4, header_bytes = 6, member_bytes = 12, places[] = {format, header_bytes, member_bytes};
+    static const uint32_t places[] = {4, 6, 12}; /* of the format, the header's bytes, the members' bytes */
     for (uint32_t i = 0; i < 3u; i++) {
         setUp();
         put_block(0, 1, 7, true);

@@ -180,6 +180,29 @@ def _share(part: np.ndarray, whole: np.ndarray, otherwise: float) -> np.ndarray:
     return np.clip(np.where(moves, part / np.where(moves, whole, 1.0), otherwise), 0.0, 2.0)
 
 
+def _wild_beside(columns: Columns, moved: np.ndarray, force: np.ndarray) -> np.ndarray:
+    """How far the worse of a row's two neighbours lies off a line that neither of the two rows is on; 0: not known.
+    A wild reading throws the line through its neighbours' neighbours off by half as much, where they are sound."""
+    run = columns["run"]
+    rows = np.arange(run.size)
+
+    def off_line(at: int, one: int, two: int) -> np.ndarray:
+        known = np.ones(run.size, dtype=bool)
+        for step in (at, one, two):
+            inside = (rows + step >= 0) & (rows + step < run.size)
+            known &= inside & (np.roll(run, -step) == run)
+        there, first, second = (np.roll(moved, -step) for step in (at, one, two))
+        share = _share(there - first, first - second, abs(at - one))
+        due = np.roll(force, -one) + share * (np.roll(force, -one) - np.roll(force, -two))
+        return np.where(known, np.abs(np.roll(force, -at) - due), np.nan)
+
+    worst = np.zeros(run.size)
+    for at, lines in ((1, ((2, 3), (-1, -2))), (-1, ((-2, -3), (1, 2)))):
+        near, across = (off_line(at, one, two) for one, two in lines)
+        worst = np.fmax(worst, np.where(np.isnan(near), across, near))
+    return worst
+
+
 def _slipped_decimals(columns: Columns, meta: Meta) -> Iterator[DataFault]:
     """A single reading far off the line through its neighbours, and in place once its decimal point is moved."""
     run, floor_n = columns["run"], max(meta.number("sensor.resolution_n"), 1e-3)
@@ -202,7 +225,7 @@ def _slipped_decimals(columns: Columns, meta: Meta) -> Iterator[DataFault]:
         off = np.abs(force - expected)
         typical = max(float(np.median(off[~np.isnan(off)])) if not np.isnan(off).all() else 0.0, floor_n)
         large = np.maximum(np.abs(force), np.abs(expected)) > 12 * typical
-        for row in np.flatnonzero((off > 12 * typical) & large)[:200]:
+        for row in np.flatnonzero((off > 12 * typical) & large & (off > _wild_beside(columns, moved, force)))[:200]:
             near = max(4 * typical, 0.02 * abs(expected[row]))
             for factor in (0.1, 10.0, 0.01, 100.0):
                 if abs(force[row] * factor - expected[row]) < near and abs(force[row] * factor) > 8 * typical:

@@ -17,7 +17,7 @@ from brace.diagnose.loading.evidence import log_likelihood, score
 from brace.diagnose.loading.extensions import outside
 from brace.diagnose.loading.fit import fit
 from brace.diagnose.loading.data_faults.gate import gate
-from brace.diagnose.loading.troubles.likeliest import likeliest
+from brace.diagnose.loading.troubles.likeliest import likeliest, with_trouble
 from brace.diagnose.loading.noise_after_base import with_growth, with_known_noise, with_less_noise
 from brace.diagnose.loading.parts import locked_rows
 from brace.identify.record import Record, load_record, setting_of
@@ -136,7 +136,7 @@ def _without_troubles(found: Pass, variants: Sequence[Variant], advance: Advance
             break
         record = cleaner.record.beside(trouble.columns)
         again = _searched(record, found.trust, variants, advance)
-        cleaner = replace(again, troubles=(*cleaner.troubles, trouble))
+        cleaner = replace(again, troubles=with_trouble(record, cleaner.troubles, trouble))
     unexplained = cleaner.decision.verdict == "unknown" or (cleaner.troubles and cleaner.decision.outside.lead > 0.0)
     return found if unexplained else cleaner
 

@@ -99,6 +99,26 @@ def likeliest(record: Record, sets: Sequence[LabelSet]) -> Trouble | None:
     return likely if likely is not None and likely.lead > MAY_BE and likely.name not in NOT_TOLD else None
 
 
+def with_trouble(record: Record, troubles: Sequence[Trouble], found: Trouble) -> tuple[Trouble, ...]:
+    """The troubles and one more. Single readings that stand out in two rounds are told once."""
+    before = [one.columns for one in troubles if one.name == found.name == OUTLIERS]
+    if not before:
+        return (*troubles, found)
+    columns = np.concatenate([*before, found.columns], axis=2)
+    whole = replace(
+        found,
+        field=_channels(record, columns),
+        row=first_row(columns) + 1,
+        columns=columns,
+        shown=shown(record, OUTLIERS, columns, np.array([found.value]), found.sigma),
+    )
+    return (*(one for one in troubles if one.name != OUTLIERS), whole)
+
+
+def _channels(record: Record, columns: np.ndarray) -> str:
+    return ", ".join(name for place, name in enumerate(record.channels) if np.any(columns[place] != 0.0))
+
+
 @dataclass(frozen=True)
 class _Option:
     """One way of one kind of trouble beside the effects of `rest`. `spread`: one sigma of each size, 0 where nothing is
@@ -187,11 +207,11 @@ def _told(
     columns = option.columns
     if option.kind == ZEROS:  # runs may share a zero: what is alike in all of them is no bias
         wide = columns * _flat(record, columns)
-    where = [name for place, name in enumerate(record.channels) if np.any(columns[place] != 0.0)]
     row = first_row(columns) + 1 if option.kind in (GAIN_STEP, ZERO_STEP, SLIP, OUTLIERS) else None
     sentence = shown(record, option.kind, columns, sizes, option.sigma)
     rest = replace(option.rest, best=replace(option.rest.best, fit=fitted))
-    return Trouble(option.kind, ", ".join(where), row, wide, rest, lead, float(sizes[0]), option.sigma, sentence)
+    field, value = _channels(record, columns), float(sizes[0])
+    return Trouble(option.kind, field, row, wide, rest, lead, value, option.sigma, sentence)
 
 
 def _flat(record: Record, columns: np.ndarray) -> np.ndarray:
