@@ -85,6 +85,8 @@ BREAKS = [  # file, what stands there, what stands there instead
     ("flash_program.c", "watchdog_feed(0); /* the", "/* the"),
     ("flash_program.c", "i < count && sound;", "i < count;"),
     ("flash_program.c", "sound = finishes_within(PROGRAM_US) && (*flash(FLASH_SR) & ERRORS) == 0u;", "sound = true;"),
+    ("flash_slots.c", "        serial_finish(FINISH_US);\n", ""),
+    ("flash_slots.c", "        servo_line_finish(FINISH_US);\n", ""),
     ("flash_slots.c", "offset <= slot_bytes && count <= slot_bytes - offset", "offset + count <= slot_bytes"),
     ("board_key.c", "(byte ^ complement) == UINT8_MAX", "byte != UINT8_MAX"),
     ("board_key.c", "if (first_with_key() < (uint32_t)BLOCK_COUNT) {", "if (false) {"),

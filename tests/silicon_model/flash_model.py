@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from chip import Chip
 from clock_model import Rcc
 
@@ -32,7 +34,7 @@ class Flash:
         self.sticks = False  # BSY never ends
         self.programmed: list[tuple[int, int]] = []
         self.erased: list[int] = []
-        self.fed_before_erase: list[float] = []
+        self.at_erase: Callable[[], None] = lambda: None  # before the processor stands still
         self.optcr = OPTIONS_OF_A_NEW_CHIP
         self.option_keys: list[int] = []
         self.options_written: list[int] = []
@@ -209,6 +211,7 @@ class Flash:
             self.sr |= self.fails_next
             self.fails_next = 0
         else:
+            self.at_erase()
             first, size = self.sector(number)
             self.memory[first : first + size] = b"\xff" * size
             self.erased.append(number)

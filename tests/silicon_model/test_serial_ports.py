@@ -143,3 +143,30 @@ def test_overrun_between_status_and_data_does_not_hang(silicon: Maker) -> None:
     usart.arrive(7)
     chip.chip.serve_interrupts()
     assert read(chip, CONSOLE) == b"\x07"
+
+
+def test_an_erase_waits_for_what_is_on_its_way(silicon: Maker) -> None:
+    """The processor stands still for up to 2 s, and the direction pin of RS-485 falls in an interrupt."""
+    chip = silicon()
+    chip.start()
+    usart, port = modbus(chip), chip.ports["D"]
+    assert chip.serial_setup_port(MODBUS, 9600, EVEN) == OK
+    assert write(chip, MODBUS, bytes(range(250))) == 250
+    at_erase: list[tuple[int, int]] = []
+    chip.flash.at_erase = lambda: at_erase.append((len(usart.sent), port.outputs >> 4 & 1))
+    assert chip.nvm_erase(0) == OK
+    assert at_erase == [(250, 0)]
+    assert usart.drive_wrong == 0
+
+
+def test_a_line_that_never_ends_does_not_hold_up_an_erase(silicon: Maker) -> None:
+    chip = silicon()
+    chip.start()
+    modbus(chip)
+    assert chip.serial_setup_port(MODBUS, 1200, EVEN) == OK
+    assert write(chip, MODBUS, bytes(250)) == 250  # 2.3 s
+    began_us = chip.chip.time_us
+    taken_us: list[float] = []
+    chip.flash.at_erase = lambda: taken_us.append(chip.chip.time_us - began_us)
+    assert chip.nvm_erase(0) == OK
+    assert 250e3 < taken_us[0] < 400e3

@@ -98,3 +98,11 @@ def test_an_overrun_is_read_away(chip: Silicon, line: ServoUsart) -> None:
     receive(chip)
     line.arrive(0x77)
     assert receive(chip) == b"\x77"
+
+
+def test_an_erase_waits_for_the_packet_on_its_way(chip: Silicon, line: ServoUsart) -> None:
+    assert send(chip, bytes(128)) == OK
+    at_erase: list[bool] = []
+    chip.flash.at_erase = lambda: at_erase.append(line.drives())
+    assert chip.nvm_erase(0) == OK
+    assert at_erase == [False]

@@ -1,11 +1,14 @@
 #include "flash_slots.h"
 
 #include "flash_program.h"
+#include "serial.h"
+#include "servo_line.h"
 
 enum {
     SECTOR_COUNT = 12,
     ERASE_SMALL_US = 1000000, /* 16 KiB take at most 0.5 s */
-    ERASE_LARGE_US = 4000000  /* 128 KiB take at most 2 s */
+    ERASE_LARGE_US = 4000000, /* 128 KiB take at most 2 s */
+    FINISH_US = 300000        /* an answer of 256 bytes at 9600 baud */
 };
 
 #define FLASH_START 0x08000000u
@@ -100,6 +103,9 @@ int32_t flash_slots_erase(void *context, uint32_t slot)
         return BRACE_HAL_E_RANGE;
     }
     if (layout->nvm_ram == 0) {
+        /* The processor stands still meanwhile, and a transmitter that it leaves on its line keeps all others off. */
+        serial_finish(FINISH_US);
+        servo_line_finish(FINISH_US);
         return slot_bytes == 0u ? BRACE_HAL_E_DEVICE
                                 : flash_erase_sector(layout->nvm_sector[slot], slot_bytes > 0x4000u ? ERASE_LARGE_US
                                                                                                     : ERASE_SMALL_US);

@@ -146,6 +146,18 @@ int32_t serial_read(void *context, brace_serial_port_t port, uint8_t *bytes, uin
     return (int32_t)done;
 }
 
+void serial_finish(uint32_t at_most_us)
+{
+    const uint32_t start_us = clock_now_us();
+    for (uint32_t index = 0; index < USART_COUNT; index++) {
+        const uint32_t passed_us = clock_now_us() - start_us;
+        if (usarts[index].ready && passed_us < at_most_us) {
+            (void)clock_poll_until(&REGISTER(places[index].base, USART_CR1), USART_CR1_TXEIE | USART_CR1_TCIE, 0u,
+                                   at_most_us - passed_us);
+        }
+    }
+}
+
 /* ------------------------------------------------------------------------------------------ interrupt -- */
 
 static void receive(usart_t *usart, uint32_t base, uint32_t status)

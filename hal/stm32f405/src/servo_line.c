@@ -4,6 +4,7 @@
 #include "interrupts.h"
 #include "pins.h"
 #include "processor.h"
+#include "servo_line.h"
 #include "stm32f405_registers.h"
 
 enum { PIN_FUNCTION = 8, CHANNEL = 5, FROM_MEMORY = 1, RECEIVED_BYTES = 256, BAUD_MIN = 9600, BAUD_MAX = 4500000 };
@@ -111,6 +112,13 @@ int32_t stm32f405_servo_send(void *context, const uint8_t *bytes, uint32_t count
         FIELD(DMA2_S6CR_CHSEL, CHANNEL) | FIELD(DMA2_S6CR_DIR, FROM_MEMORY) | DMA2_S6CR_MINC | DMA2_S6CR_EN;
     REGISTER(USART6_BASE, USART_CR1) |= USART_CR1_TCIE;
     return BRACE_HAL_OK;
+}
+
+void servo_line_finish(uint32_t at_most_us)
+{
+    if (line.is_sending) {
+        (void)clock_poll_until(&REGISTER(USART6_BASE, USART_CR1), USART_CR1_TCIE, 0u, at_most_us);
+    }
 }
 
 /* Behind the last bit, but not where DMA was late by a byte: then more bytes are to come. */
