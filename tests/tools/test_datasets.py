@@ -183,7 +183,7 @@ def test_a_wild_reading_is_no_slipped_decimal_of_the_next_one(tmp_path: Path) ->
                     continue
                 # as wild as makes ten times the reading beside it due there
                 spoiled = [list(line) for line in rows]
-                _set(spoiled, name, lambda _, wild=here + 18.0 * beside: wild, slice(row, row + 1))
+                spoiled[row][column(name)] = f"{here + 18.0 * beside:.6f}"
                 faults = load_dataset(write_loading(tmp_path, spoiled)).faults
                 assert row + 1 + by not in {fault.row for fault in faults if "decimal" in fault.why}
 

@@ -92,19 +92,22 @@ Half a value may be read, not written.
 Also 08 (echo and the line's counters), 17 (who answers: "Brace", version, dictionary's hash) and 43/14 (device
 identification). RTU is 8E1 at `controller.modbus_baud`, address `controller.modbus_address`; over TCP the unit is that
 address, 0 or 255. A block is written whole or not at all; commands are written one a request; what belongs to
-one question (`asked_...`) is written in one request, and answered when the write is. K at a posture and K at a tip are
-answered in the same registers: the question of the two that was asked last reads back, the other as no number. Read back,
-`set_mode` is the mode, `clear_faults` the faults, and `commit` and `rollback` are 1 while a set is being stored, 0 once it
-is in force, else 256 less the store's refusal; `take_up` is the last one that was begun, `let_go` 0. Function 06's two
-requests have to come one after the other on their port.
+one question (`asked_...`) is written in one request, and answered when the write is. K at a posture and K at a tip
+share their answer registers. The question that was asked last can be read back; the registers of the other question
+read NaN, a whole number all ones. Read back, `set_mode` is the mode and `clear_faults` the faults. `commit` and
+`rollback` are 1 while a set is being stored and 0 once it is in force. If it could not be stored, they are 255 to 249
+for the refusals -81 to -87 ([errors.md](errors.md)). `take_up` is the last one that was begun, `let_go` 0. Function
+06's two requests have to come one after the other on their port.
 
 | exception | meaning here |
 |---|---|
 | 01 | no such function; or not in this mode: parameters and `commit` want CONFIGURATION |
 | 02 | no such registers, or a write that begins with a value's second half |
-| 03 | a count, length or value that can not be; a tip out of reach; force or sag where an open gap carries nothing |
+| 03 | a count, length or value that can not be; a tip out of reach; force or sag where an open gap carries nothing; \
+a value beyond the board's ceilings (-74); a `commit_crc` of another set |
 | 04 | it could not be done: no play to take up; no valid K, or no known force, to answer from |
-| 06 | a set is being stored: ask again |
+| 06 | a set is being stored, or a commit came less than 10 s after the one before (-75): ask again |
+| 07 | somebody else is the owner, or there is no proof that you are (-70 to -73): `last_refusal` tells which |
 | 11 | TCP only: no such unit behind this connection |
 
 """

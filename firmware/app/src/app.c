@@ -9,7 +9,7 @@
 /* Of what must not change, so many words are looked over, and half as many beside a job's work: all of them in less
  * than 100 ms in either case. */
 #define GUARDED_WORDS_PER_MS 8u
-#define GUARDED_WORDS_MOST 24u /* of the 364 */
+#define GUARDED_WORDS_MOST 24u /* of the 365 */
 #define TOLD_MOST 3u /* a tick in which the wires have done more (wire/wire.h) has no room for a job's step */
 #define STEPS_IN_A_QUIET_TICK 2u
 #define LISTENED_US 20000u /* a tick that comes later has not listened meanwhile, and has not moved the limb either */

@@ -11,8 +11,8 @@ int32_t serial_setup(void *context, brace_serial_port_t port, uint32_t baud, bra
 int32_t serial_write(void *context, brace_serial_port_t port, const uint8_t *bytes, uint32_t count);
 int32_t serial_read(void *context, brace_serial_port_t port, uint8_t *bytes, uint32_t room);
 
-/* Waits until what was written has left and each transmitter is off its line, but no longer than that. For whoever stops
- * the processor: a direction pin falls in an interrupt, and until then nobody else can use the line. */
+/* Waits until what was written has left and each transmitter is off its line, but no longer than that. For whoever
+ * stops the processor: a direction pin falls in an interrupt, and until then nobody else can use the line. */
 void serial_finish(uint32_t at_most_us);
 
 #endif

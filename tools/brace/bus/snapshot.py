@@ -14,7 +14,7 @@ from brace.wire.frames import FD_MESSAGES, MESSAGES, MULTIPLEXED
 from brace.wire.layout import Layout, Value
 
 # Halves with one number that lie further apart are of two rounds of the 8-bit counter: the shortest round is 256 ticks
-# of 250 us, 0.064 s.
+# of 500 us, 0.128 s.
 PAIR_S = 0.040
 _STIFFNESS_A, _STIFFNESS_B = MESSAGES["stiffness_a"], MESSAGES["stiffness_b"]
 _EIGENVALUES, _POSTURE = MESSAGES["eigenvalues"], MESSAGES["posture"]

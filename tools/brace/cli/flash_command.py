@@ -35,7 +35,7 @@ def add(commands: Subcommands) -> None:
     parser.add_argument(
         "--tool",
         choices=("openocd", "st-flash", "dfu-util"),
-        help="default: the one that what is plugged in needs",
+        help="default: chosen by the probe or board that is plugged in",
     )
     parser.add_argument(
         "--probe", type=_plain, metavar="SERIAL", help="serial number of the probe, when there are several"

@@ -42,7 +42,7 @@ def add(commands: Subcommands) -> None:
         "--temp",
         type=common.number,
         metavar="DEGC",
-        help="the joints' temperature, of every row with --csv; default: the one that the compliances are given for",
+        help="the joints' temperature, of every row with --csv; default: thermal.reference_degc of the model",
     )
     parser.add_argument(
         "--arith",

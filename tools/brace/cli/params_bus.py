@@ -46,7 +46,7 @@ def add(actions: Subcommands) -> None:
     parser = actions.add_parser(
         "rollback",
         help="the set before the one in force",
-        description="Puts the set before back in force; a second one undoes it where both sets are still kept.",
+        description="Puts the set before back in force. A second roll-back is refused: push the other set again.",
     )
     add_bus(parser)
     common.add_json(parser)

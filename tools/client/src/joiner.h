@@ -1,6 +1,6 @@
 /* Joins the frames of one snapshot. It never gives a K of two ticks: frames count as one snapshot's when they carry one
  * sequence number, came within BRACE_JOINER_SPAN_US of each other, and nothing was lost in between. The span is shorter
- * than the shortest round of the 8-bit number (256 ticks of 250 us), so that an old half finds no partner a round
+ * than the shortest round of the 8-bit number (256 ticks of 500 us), so that an old half finds no partner a round
  * later. */
 #ifndef BRACE_JOINER_H
 #define BRACE_JOINER_H

@@ -1,8 +1,9 @@
 /* The limb controller: samples in, K out, once a tick. This header is its manual.
  *
  * src/app.c holds the tick as one straight list of calls: sense the joints and the force; which side of each
- * backlash is loaded; posture; K; one step of each job that runs; faults and mode; command the drives; publish the
- * snapshot; answer the wires; feed the watchdog.
+ * backlash is loaded; posture; K; one step of each job that moves the limb or stores parameters; faults and mode;
+ * command the drives; publish the snapshot; answer the wires; one step of one job that takes long; look at sensors and
+ * memory; feed the watchdog.
  *
  * One brace_app_t per limb and no global state: many limbs run in one process. The controller knows the world through
  * brace_hal_t only. No heap, no recursion, no stdio, no clock of its own. One caller, never from an interrupt.
@@ -33,7 +34,8 @@ brace_status_t brace_app_start(brace_app_t *app, const brace_hal_t *hal);
 
 /* One tick; call it every parameters.controller.tick_us.
  *   now_us: the HAL's clock; may wrap
- * Cost on a Cortex-M4F: at most 12,000 instructions in every mode, HAL excluded; ./dev bench measures it. */
+ * Cost on a Cortex-M4F: at most 12,000 instructions for a limb in its plane and 16,000 for a limb in space, in every
+ * mode, HAL excluded; ./dev bench measures it. */
 void brace_app_tick(brace_app_t *app, uint32_t now_us);
 
 #endif

@@ -35,7 +35,7 @@ typedef struct {
 
 typedef struct {
     brace_stiffness_t k;               /* in the limb's plane; flags: UNCALIBRATED, OUT_OF_RANGE (outside the drives'
-                                          travel), LOAD_UNKNOWN (a limb in space, without FPU), and the model's own */
+                                          travel), and the model's own */
     brace_stiffness_spatial_t in_space;
     brace_displacement_t moved_mm;     /* by force and weight, in the limb's plane; NaN: not counted */
     float moved_across_mm;             /* the same across that plane; NaN: not counted, or limb in its plane */

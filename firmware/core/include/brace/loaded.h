@@ -98,7 +98,7 @@ void brace_loaded_collapse(const brace_limb_t *limb, const brace_gravity_t *weig
  *         load as brace/general.h. tests/engine/test_core_under_load.py judges random limbs. Of 6,000 limbs, one was
  *         off by more: by 4 %, near the straight knee, where its tip moved by 41 mm of 217 mm. Where two of
  *         Newton's steps do not settle, as under a load that folds the limb, there is no K.
- * Cost on a Cortex-M4F: at most 2,500 instructions (2,417 measured) for every posture; stack at most 800 bytes. */
+ * Cost on a Cortex-M4F: at most 2,500 instructions (2,313 measured) for every posture; stack at most 800 bytes. */
 brace_status_t brace_loaded_stiffness(const brace_loaded_t *loaded, float theta1_rad, float theta2_rad,
                                       const brace_load_t *load, brace_loaded_stiffness_t *result);
 

@@ -1,4 +1,4 @@
-/* K at the tip from the joint angles: the result types and the tick functions.
+/* K at the tip from the joint angles: the result types. The functions are in brace/planar.h and brace/general.h.
  *
  * K takes two steps. When parameters change, brace_planar_collapse turns the limb's compliance chain into a few
  * constants (some thousand instructions). Each tick, brace_planar_stiffness evaluates them at the posture, with a fixed

@@ -856,7 +856,8 @@ void brace_can_unpack_upload_word_answer_0(const uint8_t data[8], brace_can_uplo
 
 typedef struct {
     uint32_t token;
-    /* the CRC of the block uploaded; 0 where the staged entries are to be stored */
+    /* the CRC of the block uploaded, or of the whole set where entries are staged; 0 for staged entries, on a
+     * bench only */
     uint32_t crc;
 } brace_can_commit_request_t;
 uint32_t brace_can_pack_commit_request(const brace_can_commit_request_t *message, uint8_t data[8]);

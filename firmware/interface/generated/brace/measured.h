@@ -276,8 +276,8 @@ typedef struct {
     uint32_t commits_refused;
     /* how often a slot of the parameters was erased, counted since start */
     uint32_t erases;
-    /* the status of the last command that was refused over any wire (docs/protocol.md), in 8 bits; 0 while there
-     * was none */
+    /* the status of the last command that was refused over any wire (docs/errors.md), in 8 bits; 0 while there was
+     * none */
     uint32_t last_refusal;
 } brace_measured_t;
 
