@@ -41,6 +41,7 @@ def test_a_flank_is_held_and_let_go(brace: Callable[..., Outcome], with_play: Pa
         assert nothing.code == 5 and (wire != "can" or "nothing to let go" in nothing.err), nothing.err
         refused = brace("take-up", "femur+", "--bus", url)  # it has no play
         assert refused.code == 5 and "refuses" in refused.err and "try:" in refused.err
+        assert wire != "can" or "no play to take up" in refused.err, refused.err
 
 
 def test_what_is_no_flank_is_refused(brace: Callable[..., Outcome]) -> None:

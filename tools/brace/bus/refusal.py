@@ -96,6 +96,13 @@ def error_of(what: str, status: int, detail: int, where: str) -> BraceError:
             why=f"status {status}",
             next_step="brace query shows how the last take-up of each joint went",
         )
+    if what == "take_up" and status == _UNSUPPORTED:
+        return DeviceFaultError(
+            "there is no play to take up: the joint's gap_rad is 0, or nothing moves the joint",
+            where=where,
+            why=f"the controller refuses take_up with status {status}",
+            next_step="brace params pull shows gap_rad of each joint; brace params push stores another one",
+        )
     if what == _IN_SPACE and status == _UNSUPPORTED:
         return no_coxa_joint(where, f"status {status}")
     if (what == _IN_SPACE or what.startswith("k_under_load_")) and status == _SINGULAR:
