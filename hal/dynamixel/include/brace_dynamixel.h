@@ -102,8 +102,10 @@ typedef struct {
     float offset_rad, limit_n_mm;
     uint32_t commanded_us;
     bool is_commanded;
+    bool goes_back;             /* nobody commands the offset any more */
     int32_t base, goal_sent;    /* set-point without the offset, and with it as sent */
-    int32_t place_least, place_most; /* goals that the servo takes in mode 3 */
+    int32_t place_least;        /* goals that the servo takes in mode 3: from here */
+    int32_t place_most;         /* to here */
     uint16_t current_limit, current_sent;
 } brace_servo_t;
 

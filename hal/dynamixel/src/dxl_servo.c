@@ -13,7 +13,6 @@ enum {
 
 #define VELOCITY_RAD_PER_S 0.0239809f /* of a count: 0.229 turns a minute */
 #define FADE_RAD_PER_US 0.1e-6f
-#define NEAR_RAD 0.02f /* as far as an offset goes back in 0.2 s */
 #define RETURN_DELAY_US 2u /* of a count */
 
 /* The CRC misses some bursts on the line. Each of them makes a sample impossible, or makes it jump by more than this. A
@@ -197,6 +196,7 @@ static void take_state(brace_servo_t *servo, bool holds, const uint8_t *data)
 static void stand_at(brace_servo_t *servo, const brace_servo_joint_t *joint, int32_t place, uint8_t next_step)
 {
     servo->base = place - dxl_counts(joint, servo->offset_rad);
+    servo->goes_back = servo->offset_rad != 0.0f;
     servo->has_goal = true;
     servo->step = next_step;
 }
@@ -307,14 +307,8 @@ void dxl_servo_fade(brace_servo_t *servo, uint32_t now_us, uint32_t passed_us)
         servo->offset_rad = dxl_magnitude(servo->offset_rad) <= step_rad ? 0.0f
                             : servo->offset_rad > 0.0f               ? servo->offset_rad - step_rad
                                                                      : servo->offset_rad + step_rad;
-        servo->is_commanded = servo->offset_rad != 0.0f;
+        servo->is_commanded = servo->goes_back = servo->offset_rad != 0.0f;
     }
-}
-
-bool dxl_servo_accepts(const brace_servo_t *servo, float offset_rad, uint32_t now_us)
-{
-    const bool goes_back = servo->is_commanded && now_us - servo->commanded_us > COMMAND_HOLDS_US;
-    return !goes_back || dxl_magnitude(offset_rad - servo->offset_rad) <= NEAR_RAD;
 }
 
 uint16_t dxl_servo_current(const brace_servo_t *servo)

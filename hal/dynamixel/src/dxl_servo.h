@@ -11,6 +11,7 @@
 #define DXL_COUNTS_PER_RAD 651.898647f /* 4096 / 2 pi */
 #define DXL_MIDDLE 2048
 #define DXL_TURNS_MOST 256
+#define DXL_NEAR_RAD 0.02f /* as far as an offset goes back in 0.2 s */
 
 /* What a servo is asked alone (brace_servo_t.step). A servo that has been silent goes through all steps up to
  * READ_STATE_AGAIN. */
@@ -60,7 +61,10 @@ void dxl_servo_lose_answer(brace_servo_t *servo, uint32_t now_us);
 void dxl_servo_fade(brace_servo_t *servo, uint32_t now_us, uint32_t passed_us);
 
 /* May an offset be commanded now? Not one that would move the servo at once, away from an offset on its way back. */
-bool dxl_servo_accepts(const brace_servo_t *servo, float offset_rad, uint32_t now_us);
+static inline bool dxl_servo_accepts(const brace_servo_t *servo, float offset_rad)
+{
+    return !servo->goes_back || dxl_magnitude(offset_rad - servo->offset_rad) <= DXL_NEAR_RAD;
+}
 
 /* What the servo is to be told: its current's limit and its position [counts]. */
 uint16_t dxl_servo_current(const brace_servo_t *servo);

@@ -410,13 +410,14 @@ int32_t brace_dynamixel_command(brace_dynamixel_t *driver, int32_t joint_index,
     if (command->torque_limit_n_mm < INFINITY && servo->report.operating_mode != DXL_MODE_CURRENT_POSITION) {
         return BRACE_HAL_E_UNSUPPORTED;
     }
-    if (!dxl_servo_accepts(servo, command->offset_rad, driver->now_us)) {
+    if (!dxl_servo_accepts(servo, command->offset_rad)) {
         return BRACE_HAL_E_DEVICE;
     }
     servo->offset_rad = command->offset_rad;
     servo->limit_n_mm = command->torque_limit_n_mm;
     servo->commanded_us = driver->now_us;
     servo->is_commanded = true;
+    servo->goes_back = false;
     return BRACE_HAL_OK;
 }
 
