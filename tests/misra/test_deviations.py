@@ -63,3 +63,14 @@ def test_output_is_read(tmp_path: Path) -> None:
     (tmp_path / "a.c").write_text("int a;\nint b;\n")
     output = "a.c:2: misra-c2012-8.4\na.c:2: misra-c2012-8.4\na.c:1: variableScope\n\n"
     assert misra.parse(output, tmp_path) == [misra.Finding("8.4", "a.c", 2, "int b;")]
+
+
+def test_a_header_that_has_moved_lets_nothing_be_kept(tmp_path: Path) -> None:
+    header = tmp_path / "firmware" / "core" / "limb.h"
+    header.parent.mkdir(parents=True)
+    header.write_text("void f(void);\n")
+    kept = misra.kept_results(tmp_path)
+    (kept / "limb.a1").write_text("analysed")
+    assert (misra.kept_results(tmp_path) / "limb.a1").is_file()
+    header.write_text("/* f does nothing */\nvoid f(void);\n")
+    assert not (misra.kept_results(tmp_path) / "limb.a1").exists()
