@@ -6,8 +6,8 @@
 #include "stiffness/stiffness.h"
 #include "tip_load.h"
 
-/* Of what must not change, so many words are looked over, and half as many beside a job's work: with ticks of up to 3 ms
- * all of them in less than 100 ms in either case; with longer ones, where a job works in every tick, in up to 180. */
+/* Of what must not change, so many words are looked over, and half as many beside a job's work: with ticks of up to
+ * 3 ms all of them in less than 100 ms; with longer ones, where a job works in every tick, in up to 180 ms. */
 #define GUARDED_WORDS_PER_MS 8u
 #define GUARDED_WORDS_MOST 24u /* of the 365 */
 #define TOLD_MOST 3u /* a tick in which the wires have done more (wire/wire.h) has no room for a job's step */
