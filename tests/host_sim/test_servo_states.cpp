@@ -396,7 +396,7 @@ void test_position_limits_are_kept()
     }
 }
 
-// Whatever a servo refuses while it is being set up: it is told, and the others go on.
+// A servo may refuse what sets it up. The driver reports that servo as refused, and goes on with the others.
 void test_a_servo_that_refuses_its_set_up_is_told()
 {
     Bench bench;

@@ -6,10 +6,10 @@
 #include "stiffness/stiffness.h"
 #include "tip_load.h"
 
-/* Of what must not change, so many words are looked over, and half as many beside a job's work: with ticks of up to
- * 3 ms all of them in less than 100 ms; with longer ones, where a job works in every tick, in up to 180 ms. */
+/* Of the 365 words that must not change, so many are looked over, and so many fewer beside a job's work: all of them in
+ * less than 100 ms, however long the ticks are. */
 #define GUARDED_WORDS_PER_MS 8u
-#define GUARDED_WORDS_MOST 24u /* of the 365 */
+#define GUARDED_WORDS_FEWER 4u
 #define TOLD_MOST 3u /* a tick in which the wires have done more (wire/wire.h) has no room for a job's step */
 #define STEPS_IN_A_QUIET_TICK 2u
 #define LISTENED_US 20000u /* a tick that comes later has not listened meanwhile, and has not moved the limb either */
@@ -299,8 +299,9 @@ static void step_guard(controller_t *controller, bool has_worked)
     }
     const guard_span_t span = guarded(controller, controller->guard.span);
     const uint32_t due_words = controller->parameters.in_force.controller.tick_us * GUARDED_WORDS_PER_MS / 1000u;
-    const uint32_t most_words = due_words < GUARDED_WORDS_MOST ? due_words : GUARDED_WORDS_MOST;
-    const uint32_t words = has_worked ? most_words / 2u : most_words;
+    const uint32_t half_words = due_words / 2u;
+    const uint32_t fewer_words = half_words < GUARDED_WORDS_FEWER ? half_words : GUARDED_WORDS_FEWER;
+    const uint32_t words = has_worked ? due_words - fewer_words : due_words;
     if (!guard_step(&controller->guard, &span, GUARDED_SPANS, words)) {
         controller->memory_is_wrong = true;
     }

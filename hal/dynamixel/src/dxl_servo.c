@@ -202,8 +202,9 @@ static void stand_at(brace_servo_t *servo, const brace_servo_joint_t *joint, int
 }
 
 /* The goals of a servo that holds: it goes on holding where it was told to. As a sample that jumps, they are believed
- * when the next answer agrees. A bound of its current is a controller's before this one. The servo may have yielded at
- * that bound, far from its goal, and without the bound it would snap there. So it is to stand where it is. */
+ * when the next answer agrees. An earlier controller may have bounded its current. A servo that has yielded at such a
+ * bound stands far from its goal, and without the bound it would snap to the goal. So the servo gets its present place
+ * as its goal. */
 static void take_goals(brace_servo_t *servo, const brace_servo_joint_t *joint, const uint8_t *data)
 {
     enum { CURRENT = 0, POSITION = 14 };

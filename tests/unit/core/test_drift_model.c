@@ -132,7 +132,7 @@ static void test_the_tibia_s_share(void)
     TEST_ASSERT_TRUE(drift_compliances(&limb).shank_mm_per_n > 0.0f);
 }
 
-/* A rate so large that cold joints would push the wrong way says nothing of the rate. */
+/* At a rate and a temperature for which a compliance would be negative, the force does not depend on the rate. */
 static void test_joints_colder_than_any_tell_no_rate(void)
 {
     be(SAMPLE_PAPER, 0.3f, 0.5f);

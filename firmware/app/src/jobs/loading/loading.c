@@ -349,7 +349,7 @@ static void judge(brace_loading_t *test)
     }
 }
 
-/* (measured - model) over the sigma of both; NaN: nobody knows it. */
+/* (measured - model) over the sigma of both; NaN where the sigma is not known. */
 static float deviation(float measured, float sigma_measured, float model, float sigma_model)
 {
     const float variance = sigma_measured * sigma_measured + sigma_model * sigma_model;

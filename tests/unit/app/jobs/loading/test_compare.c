@@ -62,7 +62,7 @@ static void test_each_slope_beside_its_entry_of_the_model(void)
     assert_score(-3.0, 0.3, k->k_zz_n_per_mm, sigma.k_zz_n_per_mm, r->z_z);
 }
 
-/* Where nobody can say how sure the model is, no score is told. */
+/* Where the sigma of the model is not known, the score is not a number. */
 static void test_a_model_of_unknown_sigma_has_no_score(void)
 {
     for (int axis = BRACE_AXIS_X; axis <= BRACE_AXIS_Z; axis++) {

@@ -100,7 +100,7 @@ def likeliest(record: Record, sets: Sequence[LabelSet]) -> Trouble | None:
 
 
 def with_trouble(record: Record, troubles: Sequence[Trouble], found: Trouble) -> tuple[Trouble, ...]:
-    """The troubles and one more. Single readings that stand out in two rounds are told once."""
+    """Adds a trouble to those found before. Two sets of single readings that stand out become one."""
     before = [one.columns for one in troubles if one.name == found.name == OUTLIERS]
     if not before:
         return (*troubles, found)
