@@ -113,12 +113,12 @@ def include_folders() -> list[str]:
 
 
 def kept_results(root: Path = ROOT) -> Path:
-    """What cppcheck keeps of its last run; nothing after a change of any header. A comment that moves lines changes no
-    file for cppcheck, and then a declaration stands at two places."""
+    """What cppcheck keeps of its last run; nothing after any change. A comment that moves lines changes no file for
+    cppcheck, and then its findings stand at other lines."""
     kept = root / "build" / "misra"
-    stamp, now = kept / "headers", hashlib.sha256()
-    for header in sorted(path for part in ("firmware", "hal") for path in (root / part).rglob("*.h")):
-        now.update(str(header.relative_to(root)).encode() + header.read_bytes())
+    stamp, now = kept / "texts", hashlib.sha256()
+    for text in sorted(path for part in ("firmware", "hal") for path in (root / part).rglob("*.[ch]")):
+        now.update(str(text.relative_to(root)).encode() + text.read_bytes())
     if not stamp.is_file() or stamp.read_text() != now.hexdigest():
         shutil.rmtree(kept, ignore_errors=True)
         kept.mkdir(parents=True)

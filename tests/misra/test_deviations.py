@@ -65,7 +65,7 @@ def test_output_is_read(tmp_path: Path) -> None:
     assert misra.parse(output, tmp_path) == [misra.Finding("8.4", "a.c", 2, "int b;")]
 
 
-def test_a_header_that_has_moved_lets_nothing_be_kept(tmp_path: Path) -> None:
+def test_a_text_that_has_moved_lets_nothing_be_kept(tmp_path: Path) -> None:
     header = tmp_path / "firmware" / "core" / "limb.h"
     header.parent.mkdir(parents=True)
     header.write_text("void f(void);\n")
