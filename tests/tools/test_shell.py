@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import argparse
+import json
 import os
 import resource
 import shutil
@@ -13,8 +15,9 @@ from pathlib import Path
 import pytest
 
 from brace.cli import common, main, streams
-from brace.cli.subcommands import SUBCOMMANDS
+from brace.cli.command_line import build_parser
 from brace.cli.completion_command import completion
+from brace.cli.subcommands import SUBCOMMANDS
 from conftest import DATA, PROJECT
 
 HELP_S, EMPTY_S = 0.1, 0.02
@@ -96,6 +99,23 @@ def test_completion(shell: str, tmp_path: Path) -> None:
         pytest.skip(f"no {shell}")
     assert set(words_after(shell, "brace ta", tmp_path)) == {"take-up"}
     assert "--theta1" in words_after(shell, "brace k --the", tmp_path)
+
+
+def test_completion_as_json(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["completion", "bash", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out) == {"shell": "bash", "script": completion("bash").rstrip("\n")}
+
+
+def test_every_subcommand_has_json() -> None:
+    """The subcommands of a subcommand, too."""
+
+    def without(parser: argparse.ArgumentParser) -> list[str]:
+        below = [action for action in parser._actions if isinstance(action, argparse._SubParsersAction)]
+        if below:
+            return [prog for action in below for child in action.choices.values() for prog in without(child)]
+        return [] if "--json" in parser._option_string_actions else [parser.prog]
+
+    assert without(build_parser()) == []
 
 
 def test_completion_for_zsh(tmp_path: Path) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import random
 from collections.abc import Callable
 from pathlib import Path
@@ -56,3 +57,7 @@ def test_the_command_writes_it_and_refuses_one_node_twice(brace: Callable[..., O
     commas = brace("dbc", "--nodes", "1,2")
     assert commas.code == 2 and "--nodes 1 2" in commas.err
     assert brace("dbc", "--nodes", 128).code == 2
+    told = json.loads(brace("dbc", "--nodes", 1, 2, "--json").out)
+    assert told["nodes"] == [1, 2] and loaded(told["dbc"]).get_message_by_frame_id(0x182).name == "stiffness_a_2"
+    told = json.loads(brace("dbc", "--fd", "--out", out, "--json").out)
+    assert told == {"nodes": [1], "fd": True, "written": [str(out)]} and loaded(out.read_text()).messages

@@ -22,12 +22,17 @@ def add(commands: Subcommands) -> None:
         "fish: brace completion fish > ~/.config/fish/completions/brace.fish.",
     )
     parser.add_argument("shell", choices=SHELLS, help="the shell")
+    common.add_json(parser)
     parser.set_defaults(run=run)
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Executes the subcommand."""
-    common.emit(completion(arguments.shell).rstrip("\n"))
+    script = completion(arguments.shell).rstrip("\n")
+    if arguments.json:
+        common.print_json({"shell": arguments.shell, "script": script})
+    else:
+        common.emit(script)
     return 0
 
 

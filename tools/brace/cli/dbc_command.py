@@ -25,6 +25,7 @@ def add(commands: Subcommands) -> None:
     )  # fmt: skip
     parser.add_argument("--fd", action="store_true", help="the frames of CAN FD; read it beside the one without")
     parser.add_argument("--out", type=common.path, metavar="FILE.dbc", help="default: standard output")
+    common.add_json(parser)
     parser.set_defaults(run=run)
 
 
@@ -50,11 +51,18 @@ def run(arguments: argparse.Namespace) -> int:
             next_step="give each number once",
         )
     text = for_nodes((FD if arguments.fd else CLASSIC).read_text(), arguments.nodes)
+    told = {"nodes": arguments.nodes, "fd": arguments.fd}
     if arguments.out is None:
-        common.emit(text.rstrip("\n"))
+        if arguments.json:
+            common.print_json({**told, "dbc": text})
+        else:
+            common.emit(text.rstrip("\n"))
         return 0
     with OutputSet() as outputs:
         outputs.add(arguments.out, text)
         outputs.commit()
-    common.say(f"-> {arguments.out}")
+    if arguments.json:
+        common.print_json({**told, "written": [arguments.out]})
+    else:
+        common.say(f"-> {arguments.out}")
     return 0

@@ -15,8 +15,7 @@ def add(commands: Subcommands) -> None:
         "export",
         help=SUBCOMMANDS["export"],
         description="Writes the limb in its plane as a MuJoCo model whose servos and springs give its K, or its "
-        "lengths, "
-        "travel, weights and friction as a URDF. What the format has no words for is said.",
+        "lengths, travel, weights and friction as a URDF. What the format has no words for is said.",
     )
     common.add_model(parser)
     parser.add_argument("--mujoco", type=common.path, metavar="FILE.xml", help="MuJoCo model (MJCF)")
