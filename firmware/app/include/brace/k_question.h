@@ -37,8 +37,8 @@ typedef struct {
     brace_stiffness_t k;               /* in the limb's plane; flags: UNCALIBRATED, OUT_OF_RANGE (outside the drives'
                                           travel), and the model's own */
     brace_stiffness_spatial_t in_space;
-    brace_displacement_t moved_mm;     /* by force and weight, in the limb's plane; NaN: not counted */
-    float moved_across_mm;             /* the same across that plane; NaN: not counted, or limb in its plane */
+    brace_displacement_t moved_mm;     /* by force and weight, in the limb's plane */
+    float moved_across_mm;             /* the same across that plane; NaN: limb in its plane */
     float buckling_factor;             /* infinity: none; NaN: not counted, or limb in space */
 } brace_k_answer_t;
 

@@ -19,7 +19,8 @@
  *
  * Angles are in the joint's own sense (theta1, theta2), on the joint's side of the reduction. Time is in the caller's
  * microseconds and may wrap. Each joint has one brace_backlash_t, which one thread uses; joints are independent.
- * No heap, no recursion, no libm. Loops run over a state's rows, at most 7 (brace_backlash_init: at most 1000).
+ * No heap, no recursion; of libm sqrtf and fmaf. Loops run over a state's rows, at most 7 (brace_backlash_init: at most
+ * 1000).
  * A refused call changes nothing; only brace_backlash_tick goes to FAULT on a bad sample. docs/bench.md has figures.
  */
 #ifndef BRACE_BACKLASH_H
