@@ -4,6 +4,7 @@
  *   take_up:JOINT:FLANK:LIMIT_MS | let_go | load:AXIS:STEPS:STEP_MM:DWELL_MS | end_test: begins it
  *   wait: until it has ended | steps:MS: a control loop for so long | silent:MS: hangs for so long
  *   reads:MS: reads the load for so long, which over CAN does not come where controller.load_hz is 0
+ *   read:MS: reads K with that time-out, its number in the place of the state
  *   stop | clear:FAULTS | gravity:DIRECTION:LEAN | entry:INDEX: its 32 bits in the place of the state */
 #include <stdio.h>
 #include <stdlib.h>
@@ -85,6 +86,12 @@ static brace_client_status_t act(brace_client_t *limb, const char *name, const f
     }
     if (strcmp(name, "reads") == 0) {
         return read_for(limb, (int)n[0]);
+    }
+    if (strcmp(name, "read") == 0) {
+        brace_client_snapshot_t now = {.sequence = UINT32_MAX};
+        const brace_client_status_t status = brace_client_read(limb, BRACE_PART_K, (int)n[0], &now);
+        *value = now.sequence;
+        return status;
     }
     if (strcmp(name, "silent") == 0) {
         pause_ms((long)n[0]);

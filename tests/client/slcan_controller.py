@@ -7,11 +7,18 @@ import socket
 import struct
 import threading
 import time
+from collections.abc import Callable
+from pathlib import Path
 from types import TracebackType
 
-from brace.wire.frames import DICTIONARY_HASH, PROTOCOL
+import cantools
+
+from brace.wire.frames import DICTIONARY_HASH, PROTOCOL, REQUESTS
 
 IDENTIFY, READ_ENTRY, CONTACT_FORCE = 20, 1, 6
+COMMANDS = [REQUESTS[name].command for name in ("take_up", "let_go", "write_entry", "loading_test_stop")]
+DATABASE = Path(__file__).resolve().parents[2] / "firmware" / "interface" / "brace.dbc"
+STREAM_S = 0.02
 
 
 class SlcanController:
@@ -30,11 +37,18 @@ class SlcanController:
         echo_first: bool = False,
         refuses_force: tuple[int, int] | None = None,
         noise_first: bytes = b"",
+        entries: Callable[[int], int | None] | None = None,
+        streams: Callable[[float], int | None] | None = None,
     ) -> None:
+        """entries: values of entries, which else are 12345.5; None: no answer. streams: numbers of the snapshots whose K is sent every
+        20 ms, from the seconds since a client has come; none where it gives none."""
         self.node, self.hash, self.speaks, self.answers, self.errors = node, hash_, speaks, answers, errors
         self.garbage, self.flood, self.hangs_up, self.echo_first = garbage, flood, hangs_up, echo_first
         self.refuses_force, self.noise_first = refuses_force, noise_first  # status and detail; sent once
+        self.entries, self.streams = entries, streams
+        self.database = cantools.database.load_file(DATABASE) if streams else None
         self.requests: list[bytes] = []
+        self.heard_s: list[float] = []
         self.forced: list[float] = []
         self._server = socket.create_server(("127.0.0.1", 0))
         self._server.settimeout(0.1)
@@ -60,13 +74,14 @@ class SlcanController:
                 continue
             with line:
                 line.settimeout(0.02)
+                line.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
                 try:
                     self._serve(line)
                 except OSError:
                     pass  # the client has gone
 
     def _serve(self, line: socket.socket) -> None:
-        rest, beat = b"", 0.0
+        rest, beat, came, sent = b"", 0.0, time.monotonic(), 0.0
         line.sendall(self.noise_first)
         if self.flood:  # faster than it can be read
             line.settimeout(5.0)
@@ -79,6 +94,9 @@ class SlcanController:
                     self._frame(line, 0x700 + self.node, struct.pack("<BBHI", 5, 1, 0, self.hash))
                 if self.garbage:
                     line.sendall(self.garbage)
+            if self.streams and time.monotonic() >= sent:
+                sent = time.monotonic() + STREAM_S
+                self._stiffness(line, self.streams(time.monotonic() - came))
             try:
                 part = line.recv(4096)
             except TimeoutError:
@@ -98,6 +116,7 @@ class SlcanController:
         if identifier != 0x600 + self.node or not self.answers:
             return
         self.requests.append(data)
+        self.heard_s.append(time.monotonic())
         code, token = data[0], data[1]
         if self.echo_first and len(self.requests) == 2:  # another client asks the same; the answer is to it
             self._frame(line, 0x600 + self.node, data)
@@ -114,7 +133,11 @@ class SlcanController:
                 self._answer(line, code, part, token, fields)
         elif code == READ_ENTRY:
             index = int.from_bytes(data[2:4], "little")
-            if index == 77:
+            if self.entries:
+                value = self.entries(index)
+                if value is not None:
+                    self._answer(line, code, 0, token, struct.pack("<HI", index, value))
+            elif index == 77:
                 self._answer(line, code, 7, token, struct.pack("<bI", -3, index) + b"\0")
             elif index == 78:  # an older answer of another token comes first, then a foreign code
                 self._answer(line, code, 0, (token - 1) & 255, struct.pack("<HI", index, 111))
@@ -131,6 +154,16 @@ class SlcanController:
             self._answer(line, code, 0, token, step.to_bytes(3, "little") * 2)
             if tick > 1.0:
                 self._answer(line, code, 1, token, step.to_bytes(3, "little") * 2)
+
+        elif code in COMMANDS:
+            self._answer(line, code, 0, token, data[2:8])
+
+    def _stiffness(self, line: socket.socket, number: int | None) -> None:
+        """Both frames of K."""
+        for name in ("stiffness_a", "stiffness_b") if number is not None else ():
+            message = self.database.get_message_by_name(name)
+            values = {signal.name: 0 for signal in message.signals} | {"sequence": number}
+            self._frame(line, message.frame_id + self.node - 1, message.encode(values, strict=False))
 
     def _answer(self, line: socket.socket, code: int, part: int, token: int, fields: bytes) -> None:
         self._frame(line, 0x580 + self.node, bytes((code + 32 * part, token)) + fields)

@@ -25,7 +25,7 @@ MOTION_PROBE = BUILD / "tests" / "client" / "motion_probe"
 TAKE_UP_AND_LET_GO = BUILD / "tools" / "client" / "take_up_and_let_go"
 INDEX = {entry.name: entry.index for entry in MEASURED}
 USAGE, TIMEOUT, REFUSED, UNSUPPORTED = 1, 5, 11, 12
-NONE, RUNNING, DONE, IS_REFUSED, FAILED, STOPPED, TIMED_OUT, OWNER_LOST = 0, 2, 3, 4, 5, 6, 7, 8
+NONE, RUNNING, DONE, IS_REFUSED, FAILED, STOPPED, TIMED_OUT, OWNER_LOST, NOT_BEGUN = 0, 2, 3, 4, 5, 6, 7, 8, 9
 UP = "take_up:2:-1"  # the tibia has play, the femur has none
 LONG_TEST = "load:1:20:0.2:200"  # 81 rows of 0.2 s
 KEY = bytes(range(16))
@@ -186,7 +186,9 @@ def test_a_motion_has_a_limit(bench: Sim) -> None:
 def test_what_can_not_be_is_not_asked(bench: Sim, tmp_path: Path) -> None:
     done, why = acts(bench.modbus, "take_up:3:1", "take_up:2:0", "load:0:2:0.5:20", "load:0:2:99:20")
     assert [act.status for act in done] == [USAGE, USAGE, UNSUPPORTED, USAGE] and "connect over CAN" in why
-    assert [act.state for act in done] == [NONE] * 4
+    assert [(act.state, act.reason) for act in done] == [(NOT_BEGUN, -act.status) for act in done]
+    done, why = acts(bench.can, "steps:20", "wait")
+    assert [(act.status, act.state) for act in done] == [(0, NONE), (USAGE, NONE)] and "no motion was begun" in why
     for text in ("00", "0" * 33, "no key", "0" * 31 + "g"):
         path = tmp_path / "bad.key"
         path.write_text(text)

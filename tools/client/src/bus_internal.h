@@ -16,7 +16,8 @@ struct brace_bus {
     unsigned char chunk[512];
     size_t chunk_at, chunk_end;
     bool has_status; /* SLCAN: the adapter has answered 'F' */
-    uint32_t lost, errors;
+    uint64_t empty_us, chunk_us; /* SLCAN: when the port was last found empty; when the chunk came */
+    uint32_t lost, errors, unacknowledged;
 };
 
 uint64_t brace_bus_now_us(void);

@@ -16,7 +16,7 @@
 #include <termios.h>
 #include <unistd.h>
 
-enum { ENTER_MS = 1000 };
+enum { ENTER_MS = 1000, WAITED_US = 100000 };
 
 /* When the other end of a connection has closed, that must be a status and no signal to the robot's process. */
 static ssize_t put(int fd, const char *text, size_t length)
@@ -66,6 +66,7 @@ static brace_bus_status_t enter(brace_bus_t *bus, char rate, int timeout_ms)
     const char hello[] = {'\r', '\r', 'C', '\r', 'S', rate, '\r', 'O', '\r'};
     bus->is_slcan = true;
     bus->rate = rate;
+    bus->empty_us = bus->empty_us == 0u ? brace_bus_now_us() : bus->empty_us;
     return write_all(bus, hello, sizeof hello, timeout_ms);
 }
 
@@ -249,7 +250,6 @@ static bool read_frame(const char *line, size_t length, brace_bus_frame_t *frame
     frame->id = id;
     frame->length = (uint8_t)count;
     frame->fd = line[0] != 't';
-    frame->received_us = brace_bus_now_us();
     return true;
 }
 
@@ -292,10 +292,19 @@ static bool next_frame(brace_bus_t *bus, brace_bus_frame_t *frame)
         bus->line_length = 0u;
         bus->line_is_too_long = false;
         if (whole) {
+            frame->received_us = bus->chunk_us;
             return true;
         }
     }
     return false;
+}
+
+/* When what was just read came. What has waited in the port for long may be as old as the time when the port was last
+ * found empty. */
+static uint64_t came_us(const brace_bus_t *bus)
+{
+    const uint64_t now_us = brace_bus_now_us();
+    return now_us - bus->empty_us > WAITED_US ? bus->empty_us : now_us;
 }
 
 brace_bus_status_t brace_slcan_receive(brace_bus_t *bus, brace_bus_frame_t *frame, int timeout_ms)
@@ -308,6 +317,8 @@ brace_bus_status_t brace_slcan_receive(brace_bus_t *bus, brace_bus_frame_t *fram
         }
         bus->chunk_at = 0u;
         bus->chunk_end = size > 0 ? (size_t)size : 0u;
+        bus->empty_us = size < 0 ? brace_bus_now_us() : bus->empty_us;
+        bus->chunk_us = came_us(bus);
         const int left_ms = brace_bus_left_ms(deadline_us);
         if (left_ms == 0) { /* ends also when more always comes but none is a frame */
             return next_frame(bus, frame) ? BRACE_BUS_OK : BRACE_BUS_E_TIMEOUT;
@@ -315,6 +326,7 @@ brace_bus_status_t brace_slcan_receive(brace_bus_t *bus, brace_bus_frame_t *fram
         if (size < 0) {
             struct pollfd news = {.fd = bus->fd, .events = POLLIN};
             poll(&news, 1, left_ms);
+            bus->empty_us = brace_bus_now_us(); /* it was until now */
         }
     }
     return BRACE_BUS_OK;

@@ -14,6 +14,8 @@
 #include <time.h>
 #include <unistd.h>
 
+enum { SKIPPED_MOST = 4096 }; /* frames of no use to a client that one call takes from the queue */
+
 brace_bus_status_t brace_socketcan_open(brace_bus_t *bus, const char *name, char *why, unsigned why_room)
 {
     struct ifreq request;
@@ -103,40 +105,68 @@ static void read_notes(brace_bus_t *bus, struct msghdr *message, brace_bus_frame
     }
 }
 
+/* Sorts an error frame. Where nobody else is on the bus, a controller that sends finds no acknowledgement and nothing
+ * else wrong. */
+static void count_error(brace_bus_t *bus, const struct canfd_frame *got)
+{
+    const canid_t harmless = CAN_ERR_ACK | CAN_ERR_CRTL | CAN_ERR_PROT | CAN_ERR_BUSERROR;
+    const uint8_t of_sending = CAN_ERR_CRTL_TX_WARNING | CAN_ERR_CRTL_TX_PASSIVE | CAN_ERR_CRTL_ACTIVE;
+    const bool is_of_sending = (got->can_id & CAN_ERR_CRTL) == 0u || (got->data[1] & ~of_sending) == 0u;
+    const bool is_of_acknowledging =
+        (got->can_id & CAN_ERR_PROT) == 0u || got->data[3] == CAN_ERR_PROT_LOC_ACK || (got->can_id & CAN_ERR_ACK) != 0u;
+    const bool says_something = (got->can_id & (CAN_ERR_ACK | CAN_ERR_CRTL | CAN_ERR_PROT)) != 0u;
+    const bool is_unheard = (got->can_id & CAN_ERR_MASK & ~harmless) == 0u && says_something && is_of_sending &&
+                            is_of_acknowledging;
+    bus->unacknowledged += is_unheard;
+    bus->errors += !is_unheard;
+}
+
+/* Takes one frame from the queue. returns OK; E_TIMEOUT: none is there; E_FULL: it was of no use to a client */
+static brace_bus_status_t take_frame(brace_bus_t *bus, brace_bus_frame_t *frame)
+{
+    struct canfd_frame got; /* a classic frame is its beginning */
+    struct iovec part = {.iov_base = &got, .iov_len = sizeof got};
+    union {
+        struct cmsghdr aligned;
+        char room[CMSG_SPACE(sizeof(struct timeval)) + CMSG_SPACE(sizeof(uint32_t))];
+    } notes;
+    struct msghdr message = {.msg_iov = &part, .msg_iovlen = 1, .msg_control = &notes, .msg_controllen = sizeof notes};
+    const ssize_t size = recvmsg(bus->fd, &message, 0);
+    if (size < 0) {
+        return errno == EAGAIN || errno == EINTR ? BRACE_BUS_E_TIMEOUT : BRACE_BUS_E_DOWN;
+    }
+    const bool fd = size == (ssize_t)CANFD_MTU, is_whole = fd || size == (ssize_t)CAN_MTU;
+    if (is_whole && !fd && (got.can_id & CAN_ERR_FLAG) != 0u) {
+        count_error(bus, &got);
+    }
+    if (!is_whole || (got.can_id & (CAN_EFF_FLAG | CAN_RTR_FLAG | CAN_ERR_FLAG)) != 0u || got.len > (fd ? 64u : 8u)) {
+        return BRACE_BUS_E_FULL;
+    }
+    frame->id = got.can_id;
+    frame->length = got.len;
+    frame->fd = fd;
+    memcpy(frame->data, got.data, got.len);
+    memset(frame->data + got.len, 0, sizeof frame->data - got.len);
+    read_notes(bus, &message, frame);
+    return BRACE_BUS_OK;
+}
+
+/* E_TIMEOUT means that the queue is empty, so that what comes next is new. */
 brace_bus_status_t brace_socketcan_receive(brace_bus_t *bus, brace_bus_frame_t *frame, int timeout_ms)
 {
     const uint64_t deadline_us = brace_bus_now_us() + (uint64_t)timeout_ms * 1000u;
-    for (;;) {
-        struct canfd_frame got; /* a classic frame is its beginning */
-        struct iovec part = {.iov_base = &got, .iov_len = sizeof got};
-        union {
-            struct cmsghdr aligned;
-            char room[CMSG_SPACE(sizeof(struct timeval)) + CMSG_SPACE(sizeof(uint32_t))];
-        } notes;
-        struct msghdr message = {
-            .msg_iov = &part, .msg_iovlen = 1, .msg_control = &notes, .msg_controllen = sizeof notes};
-        const ssize_t size = recvmsg(bus->fd, &message, 0);
-        if (size == (ssize_t)CAN_MTU || size == (ssize_t)CANFD_MTU) {
-            const bool fd = size == (ssize_t)CANFD_MTU;
-            bus->errors += !fd && (got.can_id & CAN_ERR_FLAG) != 0u;
-            if ((got.can_id & (CAN_EFF_FLAG | CAN_RTR_FLAG | CAN_ERR_FLAG)) == 0u && got.len <= (fd ? 64u : 8u)) {
-                frame->id = got.can_id;
-                frame->length = got.len;
-                frame->fd = fd;
-                memcpy(frame->data, got.data, got.len);
-                memset(frame->data + got.len, 0, sizeof frame->data - got.len);
-                read_notes(bus, &message, frame);
-                return BRACE_BUS_OK;
-            }
-        }
-        if (size < 0 && errno != EAGAIN && errno != EINTR) {
-            return BRACE_BUS_E_DOWN;
+    for (int skipped = 0; skipped < SKIPPED_MOST;) {
+        const brace_bus_status_t status = take_frame(bus, frame);
+        if (status == BRACE_BUS_E_FULL) {
+            skipped++;
+            continue;
         }
         const int left_ms = brace_bus_left_ms(deadline_us);
-        if (left_ms == 0) {
-            return BRACE_BUS_E_TIMEOUT;
+        if (status != BRACE_BUS_E_TIMEOUT || left_ms == 0) {
+            return status;
         }
         struct pollfd news = {.fd = bus->fd, .events = POLLIN};
         poll(&news, 1, left_ms);
     }
+    return BRACE_BUS_E_TIMEOUT;
 }

@@ -8,8 +8,9 @@
 #include "brace/can_messages.h"
 #include "brace/refusals.h"
 
-enum { STATUS_MS = 250, FIRST_TRY_MS = 250, AGAIN_MS = 1000, OLD_US = 100000, APART_US = 32000, MOST_APART_US = 1024000,
-       LIFE_MS = 5 };
+enum { STATUS_MS = 250, FIRST_TRY_MS = 250, AGAIN_MS = 1000, LIFE_MS = 5 };
+enum { APART_US = 32000, MOST_APART_US = 1024000, FOREIGN_US = 1000000 };
+enum { OLD_US = 100000, KEPT_US = 1000000 /* the slowest stream's period: brace_can_read */ };
 
 /* What a call waits for. */
 typedef struct {
@@ -78,6 +79,7 @@ static void hear(brace_client_t *client, const brace_bus_frame_t *frame, waiting
     }
     client->errors_before = client->bus->errors;
     client->lost_before = client->bus->lost;
+    client->unacknowledged_before = client->bus->unacknowledged;
     if (base == BRACE_CAN_ID_HEARTBEAT) {
         brace_can_heartbeat_t heartbeat;
         brace_can_unpack_heartbeat(frame->data, &heartbeat);
@@ -87,6 +89,7 @@ static void hear(brace_client_t *client, const brace_bus_frame_t *frame, waiting
         take_answer(frame, waiting);
     } else if (base == BRACE_CAN_ID_REQUEST) {
         client->force_is_taken |= brace_client_is_about_force(frame->data[0] & 31u);
+        client->foreign_us[frame->data[1]] = frame->received_us;
         if (waiting != NULL) {
             waiting->is_taken |= !waiting->is_command && (frame->data[0] & 31u) == waiting->code &&
                                  frame->data[1] == waiting->token;
@@ -137,6 +140,10 @@ static brace_bus_status_t receive_alive(brace_client_t *client, brace_bus_frame_
     int left_ms = timeout_ms;
     do {
         brace_client_tend(client, until_us);
+        if (client->is_down) {
+            client->is_down = false;
+            return BRACE_BUS_E_DOWN;
+        }
         const int life_ms = brace_bus_left_ms(client->next_life_us);
         status = receive(client, frame, client->lives && life_ms < left_ms ? life_ms : left_ms);
         left_ms = brace_bus_left_ms(until_us);
@@ -215,6 +222,13 @@ static brace_client_status_t explain_silence(brace_client_t *client, const char 
                        "'ip link set %s down', then up with 'type can bitrate 500000'",
             client->url, client->url);
     }
+    if (client->bus->unacknowledged != client->unacknowledged_before) {
+        return brace_client_fail(
+            client, BRACE_CLIENT_E_SILENT,
+            "%s: nobody acknowledges what is sent; is the controller powered and wired, the bus terminated, the bit "
+            "rate the controller's?",
+            client->url);
+    }
     return brace_client_fail(
         client, BRACE_CLIENT_E_SILENT,
         "%s: nothing at all is heard; is the controller powered and wired, its bit rate this bus' own, "
@@ -227,6 +241,12 @@ static brace_client_status_t explain_silence(brace_client_t *client, const char 
 /* How a request is sent. Commands are sealed on a guarded board, and on a bench their tokens tell masters apart. */
 typedef enum { ASKS, COMMANDS, COMMANDS_ONCE } manner_t;
 
+/* Has another client asked with this token of late? An answer to that one may still come. */
+static bool is_foreign(const brace_client_t *client, uint8_t token)
+{
+    return client->foreign_us[token] != 0u && brace_bus_now_us() - client->foreign_us[token] < FOREIGN_US;
+}
+
 /* Each try gets a new token, because parts of two answers may be of two ticks and must not be mixed. */
 static uint8_t next_token(brace_client_t *client, manner_t manner)
 {
@@ -234,6 +254,9 @@ static uint8_t next_token(brace_client_t *client, manner_t manner)
         return (uint8_t)brace_owner_next_counter(&client->owner);
     }
     client->token++;
+    for (int i = 0; manner == ASKS && i < 255 && is_foreign(client, client->token); i++) {
+        client->token++;
+    }
     if (manner != ASKS) { /* signs of life have 0 in the lower four bits */
         client->token = (uint8_t)(client->master << 4 | (1u + client->token % 15u));
     }
@@ -261,8 +284,8 @@ static brace_bus_status_t show(brace_client_t *client, uint32_t entry, brace_sig
 void brace_can_show_life(brace_client_t *client, brace_sign_t sign)
 {
     const uint8_t token = client->owner.is_open ? (uint8_t)sign.counter : (uint8_t)(client->master << 4);
-    /* The status is left: the next call that reads the bus reports a bus that is down. */
-    (void)show(client, BRACE_CLIENT_COMMAND(life_mac), sign, token, LIFE_MS);
+    const brace_bus_status_t shown = show(client, BRACE_CLIENT_COMMAND(life_mac), sign, token, LIFE_MS);
+    client->is_down |= shown == BRACE_BUS_E_DOWN; /* the kernel tells it once */
 }
 
 /* One try; a command's seal goes before it. */
@@ -499,6 +522,7 @@ static const char *part_in_words(uint32_t wanted)
 brace_client_status_t brace_can_read(brace_client_t *client, uint32_t wanted, uint64_t deadline_us,
                                      brace_client_snapshot_t *snapshot)
 {
+    const uint64_t begun_us = brace_bus_now_us();
     begin(client, deadline_us);
     int wait_ms = 0; /* first take frames that wait already, and of these the newest */
     for (;;) {
@@ -511,9 +535,10 @@ brace_client_status_t brace_can_read(brace_client_t *client, uint32_t wanted, ui
             wait_ms = 0;
             continue;
         }
-        /* A queue that was full holds only old frames, so wait for the next one. */
-        const uint64_t now_us = brace_bus_now_us();
-        if (newest(client, wanted, left_ms > 0 && now_us > OLD_US ? now_us - OLD_US : 0u, snapshot)) {
+        /* A queue that was full holds only old frames, so wait for the next one. Where none comes, the one before will
+         * do, unless it is older than the slowest controller's would be: then the controller has gone. */
+        const uint64_t of_us = left_ms > 0 ? brace_bus_now_us() : begun_us, most_us = left_ms > 0 ? OLD_US : KEPT_US;
+        if (newest(client, wanted, of_us > most_us ? of_us - most_us : 0u, snapshot)) {
             return BRACE_CLIENT_OK;
         }
         if (left_ms == 0) {

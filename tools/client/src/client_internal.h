@@ -27,6 +27,7 @@ typedef struct {
     uint32_t silences;                     /* that the controller had counted before */
     uint64_t asked_us, limit_us, news_us;  /* when it was asked for, has to have ended, and was last told of */
     uint64_t next_poll_us;
+    bool in_fault; /* the controller, when it was last asked */
 } brace_client_motion_t;
 
 struct brace_client {
@@ -48,16 +49,20 @@ struct brace_client {
     uint64_t read_us[PARTS_MOST + 1];               /* time of the last one read, for each set of wanted parts */
     uint32_t read_sequence[PARTS_MOST + 1];
     uint32_t heard[4];                                  /* nodes that have sent in this call, one bit each */
-    uint32_t errors_before, lost_before;                /* the bus' counts when our node last sent a readable frame */
+    uint32_t errors_before, lost_before, unacknowledged_before; /* the bus' counts when our node last sent a readable
+                                                                   frame */
     uint64_t ask_errors_us;                             /* when this call asks an SLCAN adapter for errors; 0: never */
     bool speaks_another;                                /* our node's heartbeat has another dictionary */
     uint32_t other_hash;
     uint8_t token;
+    uint64_t foreign_us[256]; /* when another client last asked with each token; 0: never */
+    bool is_down;             /* a sign of life has found the bus down */
     bool force_is_taken; /* another client has asked for K under a force: the controller may have counted its force */
 
     void *modbus; /* modbus_t; null over CAN */
     uint32_t unit;
-    uint64_t late_until_us; /* until this time an answer may come that nobody waits for any more */
+    uint32_t baud;       /* of a serial line; 0 over TCP */
+    bool is_out_of_step; /* an answer may come that nobody waits for any more */
 };
 
 typedef struct {

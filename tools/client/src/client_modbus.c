@@ -24,7 +24,9 @@ bool brace_modbus_is_url(const char *url)
 #include "brace/refusals.h"
 #include "brace/status.h"
 
-enum { TRY_MS = 800, LATE_US = 250000, REST_US = 10000, BETWEEN_BYTES_US = 200000 };
+enum { TRY_MS = 800, ALIVE_TRY_MS = 60 /* the controller waits 130 ms for a sign of life */, BITS_PER_BYTE = 11 };
+enum { READ_INPUT = 4, MARK_REGISTERS = 1, EXCEPTION = 0x80,
+       FRAME_BYTES = 21 /* of request and answer together, without values */ };
 enum { REGISTERS_AT_ONCE = 125, APART_MS = 32, ASKED_MOST = 6, BUSY_MS = 20 };
 enum { WRITE_BLOCK = 16, REQUEST_HEAD = 6, NOT_OURS = 7 /* exceptions: docs/modbus.md */ };
 
@@ -89,6 +91,7 @@ static brace_client_status_t make(brace_client_t *client, modbus_t **made)
         return no_url(client);
     }
     client->unit = (uint32_t)unit;
+    client->baud = is_tcp ? 0u : (uint32_t)baud;
     if (!is_tcp) {
         *made = modbus_new_rtu(text, (int)baud, parity_of(text), 8, 1);
     } else {
@@ -111,11 +114,15 @@ static brace_client_status_t make(brace_client_t *client, modbus_t **made)
     return BRACE_CLIENT_OK;
 }
 
-static void limit_wait(modbus_t *modbus, uint64_t deadline_us)
+/* How long one request of so many registers may take until its answer is whole. */
+static void limit_wait(brace_client_t *client, uint32_t count, uint64_t deadline_us)
 {
     const int left_ms = brace_bus_left_ms(deadline_us);
-    const int wait_ms = left_ms < 1 ? 1 : left_ms < TRY_MS ? left_ms : TRY_MS;
-    modbus_set_response_timeout(modbus, (uint32_t)(wait_ms / 1000), (uint32_t)(wait_ms % 1000) * 1000u);
+    const uint32_t line_ms =
+        client->baud == 0u ? 0u : (FRAME_BYTES + 2u * count) * BITS_PER_BYTE * 1000u / client->baud + 1u;
+    const int try_ms = (client->lives ? ALIVE_TRY_MS : TRY_MS) + (int)line_ms;
+    const int wait_ms = left_ms < 1 ? 1 : left_ms < try_ms ? left_ms : try_ms;
+    modbus_set_response_timeout(client->modbus, (uint32_t)(wait_ms / 1000), (uint32_t)(wait_ms % 1000) * 1000u);
 }
 
 static brace_client_status_t fail(brace_client_t *client, int error)
@@ -169,43 +176,55 @@ static int write_words(modbus_t *modbus, int address, int count, uint16_t *words
     return modbus_write_registers(modbus, address, count, words);
 }
 
-/* Waits for answers that came too late for their own calls. A request sent before they have come would get one of them,
- * and its own answer would come late in turn, and so on. False when the wait takes the whole call. */
-static bool settle(brace_client_t *client, uint64_t deadline_us)
+/* The answer to the read of MARK_REGISTERS; all other answers have another length. returns 0, libmodbus' error for an
+ * exception, or -1: another answer */
+static int look_at_mark(const uint8_t *answer, int length, int header)
 {
-    struct pollfd news = {.fd = modbus_get_socket(client->modbus), .events = POLLIN};
-    for (int left_ms; (left_ms = brace_bus_left_ms(client->late_until_us)) > 0;) {
-        const int call_ms = brace_bus_left_ms(deadline_us);
-        int bytes = 0;
-        if (call_ms == 0) {
-            return false;
-        }
-        if (poll(&news, 1, left_ms < call_ms ? left_ms : call_ms) > 0) {
-            if (ioctl(news.fd, FIONREAD, &bytes) != 0 || bytes == 0) {
-                break; /* the connection has closed: the next request reports it */
-            }
-            (void)modbus_flush(client->modbus);
-            client->late_until_us = brace_bus_now_us() + REST_US;
-        }
+    if (length == header + 2 + 2 * MARK_REGISTERS && answer[header] == READ_INPUT) {
+        return 0;
     }
-    client->late_until_us = 0u;
-    return true;
+    const bool is_exception = length == header + 2 && answer[header] == (READ_INPUT | EXCEPTION);
+    return is_exception ? MODBUS_ENOBASE + answer[header + 1] : -1;
+}
+
+/* After an answer that did not come: it may still come, and would be taken for the next one's, and so on. So this asks
+ * for something whose answer is like no other, and drops all that comes before it. returns 0, or libmodbus' error */
+static int fall_into_step(brace_client_t *client, uint64_t deadline_us)
+{
+    const uint8_t request[] = {(uint8_t)client->unit, READ_INPUT, 0u, 0u, 0u, MARK_REGISTERS};
+    const int header = modbus_get_header_length(client->modbus), bytes = header > 1 ? 0 : 2; /* RTU: the check */
+    uint8_t answer[MODBUS_TCP_MAX_ADU_LENGTH];
+    int found = -1;
+    if (!client->is_out_of_step) {
+        return 0;
+    }
+    (void)modbus_flush(client->modbus);
+    limit_wait(client, MARK_REGISTERS, deadline_us);
+    if (modbus_send_raw_request(client->modbus, request, (int)sizeof request) < 0) {
+        return errno;
+    }
+    while (found < 0) {
+        const int length = brace_bus_left_ms(deadline_us) > 0 ? modbus_receive_confirmation(client->modbus, answer) : 0;
+        if (length <= 0) {
+            return length < 0 ? errno : ETIMEDOUT;
+        }
+        found = look_at_mark(answer, length - bytes, header);
+    }
+    client->is_out_of_step = found != 0;
+    return found;
 }
 
 /* One request. returns 0, or libmodbus' error */
 static int transfer_once(brace_client_t *client, transfer_t how, uint32_t address, uint32_t count, uint16_t *words,
                          uint64_t deadline_us)
 {
-    const uint64_t sent_us = brace_bus_now_us();
-    limit_wait(client->modbus, deadline_us);
+    limit_wait(client, count, deadline_us);
     if (how(client->modbus, (int)address, (int)count, words) == (int)count) {
         return 0;
     }
     const int error = errno;
-    (void)modbus_flush(client->modbus); /* a late answer must not be taken for the next one */
-    client->late_until_us = error == ETIMEDOUT || error == EAGAIN ? sent_us + LATE_US
-                            : error == EMBBADDATA                 ? brace_bus_now_us() + REST_US
-                                                                  : 0u;
+    const bool is_answer = error > MODBUS_ENOBASE && error <= EMBXGTAR; /* an exception */
+    client->is_out_of_step |= !is_answer;
     return error;
 }
 
@@ -215,10 +234,8 @@ static brace_client_status_t transfer(brace_client_t *client, transfer_t how, ui
     int error = ETIMEDOUT, broken = 0; /* broken: how an answer was that came so */
     do {
         brace_client_tend(client, deadline_us);
-        if (!settle(client, deadline_us)) {
-            break;
-        }
-        error = transfer_once(client, how, address, count, words, deadline_us);
+        error = fall_into_step(client, deadline_us);
+        error = error == 0 ? transfer_once(client, how, address, count, words, deadline_us) : error;
         if (error == 0) {
             return BRACE_CLIENT_OK;
         }
@@ -236,8 +253,8 @@ brace_client_status_t brace_modbus_open(brace_client_t *client, uint64_t deadlin
     if (made != BRACE_CLIENT_OK) {
         return made;
     }
-    modbus_set_byte_timeout(modbus, 0u, BETWEEN_BYTES_US);
-    limit_wait(modbus, deadline_us);
+    modbus_set_byte_timeout(modbus, 0u, 0u); /* the time-out is for the whole answer */
+    limit_wait(client, REGISTERS_AT_ONCE, deadline_us);
     errno = 0;
     if (modbus_connect(modbus) != 0) {
         const int error = errno == EINPROGRESS || errno == 0 ? ETIMEDOUT : errno;
@@ -480,12 +497,11 @@ static int show(brace_client_t *client, uint32_t place, brace_sign_t sign, uint6
     return transfer_once(client, write_words, BRACE_REGISTER_COMMANDS + 2u * place, 4u, words, deadline_us);
 }
 
-/* A refused sign of life shows in the controller's is_held and silences, a lost connection in the next request. */
+/* A refused sign of life shows in the controller's is_held and silences, a lost connection in the next request. It is
+ * sent out of step, too: what matters is that it comes. */
 void brace_modbus_show_life(brace_client_t *client, brace_sign_t sign, uint64_t deadline_us)
 {
-    if (settle(client, deadline_us)) {
-        (void)show(client, BRACE_CLIENT_COMMAND_PLACE(life_counter), sign, deadline_us);
-    }
+    (void)show(client, BRACE_CLIENT_COMMAND_PLACE(life_counter), sign, deadline_us);
 }
 
 /* The check is over the request from its function on. */
@@ -538,12 +554,14 @@ brace_client_status_t brace_modbus_command(brace_client_t *client, uint32_t code
     }
     for (;;) {
         brace_client_tend(client, deadline_us);
-        if (!settle(client, deadline_us)) {
-            return fail(client, ETIMEDOUT);
+        error = fall_into_step(client, deadline_us);
+        if (error != 0 && may_pass(error) && brace_bus_left_ms(deadline_us) > 0) {
+            continue;
         }
-        error = is_sealed && client->owner.is_open ? show(client, BRACE_CLIENT_COMMAND_PLACE(seal_counter),
-                                                          seal_of(client, address, words, 2u * count), deadline_us)
-                                                   : 0;
+        if (error == 0 && is_sealed && client->owner.is_open) {
+            error = show(client, BRACE_CLIENT_COMMAND_PLACE(seal_counter),
+                         seal_of(client, address, words, 2u * count), deadline_us);
+        }
         if (error == 0) {
             error = transfer_once(client, write_words, address, 2u * count, words, deadline_us);
         }

@@ -83,21 +83,35 @@ static int32_t signed_outcome(uint32_t told)
     return told < 128u ? (int32_t)told : (int32_t)told - 256;
 }
 
-/* A take-up that runs or has ended. A failed one has ended when the limb is back. */
-static void judge_take_up(brace_client_t *client, const progress_t *progress)
+/* May the limb still be on its way, or on its way back? In a fault it goes back, too, and the mode does not tell when
+ * it is there. */
+static bool may_move(const progress_t *progress, uint32_t moving_mode)
+{
+    return progress->mode == moving_mode || progress->mode == BRACE_MODE_FAULT;
+}
+
+/* A take-up that runs or has ended. A failed one has ended when the limb is back. One that a fault has ended has no
+ * outcome any more. */
+static void judge_take_up(brace_client_t *client, const progress_t *progress, bool is_new)
 {
     const int32_t outcome = signed_outcome(progress->outcome);
     if (outcome == (int32_t)BRACE_TAKEUP_DONE) {
         end(client, BRACE_MOTION_DONE, 0, brace_take_up_outcome_text(outcome));
-    } else if (outcome < 0 && progress->mode != BRACE_MODE_TAKING_UP) {
+    } else if (may_move(progress, BRACE_MODE_TAKING_UP)) {
+        return;
+    } else if (outcome < 0) {
         end(client, BRACE_MOTION_FAILED, outcome, brace_take_up_outcome_text(outcome));
+    } else if (outcome == (int32_t)BRACE_TAKEUP_NONE && !is_new) {
+        end(client, BRACE_MOTION_FAILED, 0,
+            "a fault, a restart or somebody else has ended the take-up, and the limb is let go; look at the faults, "
+            "and ask again");
     }
 }
 
 static void judge_loading_test(brace_client_t *client, const progress_t *progress)
 {
     const int32_t outcome = signed_outcome(progress->outcome);
-    if (progress->mode == BRACE_MODE_LOADING_TEST) {
+    if (may_move(progress, BRACE_MODE_LOADING_TEST)) {
         return; /* on its way, or on its way back */
     }
     const brace_motion_state_t state = outcome == (int32_t)BRACE_LOADING_DONE      ? BRACE_MOTION_DONE
@@ -109,7 +123,10 @@ static void judge_loading_test(brace_client_t *client, const progress_t *progres
 static void judge_way_back(brace_client_t *client, const progress_t *progress)
 {
     const bool still_takes_up = client->motion.kind == BRACE_LETS_GO && progress->mode == BRACE_MODE_TAKING_UP;
-    if (!still_takes_up && progress->mode != BRACE_MODE_LOADING_TEST) {
+    if (progress->mode == BRACE_MODE_START) {
+        end(client, BRACE_MOTION_STOPPED, 0,
+            "the controller has started anew and knows of nothing that was taken up; look where the limb stands");
+    } else if (!still_takes_up && !may_move(progress, BRACE_MODE_LOADING_TEST)) {
         end(client, BRACE_MOTION_DONE, 0, "the limb is back where it began");
     }
 }
@@ -134,6 +151,7 @@ static void judge(brace_client_t *client, const progress_t *progress)
 {
     brace_client_motion_t *motion = &client->motion;
     const bool is_new = brace_bus_now_us() - motion->asked_us < BEGIN_US;
+    motion->in_fault = progress->mode == BRACE_MODE_FAULT;
     if (progress->silences != motion->silences) {
         end(client, BRACE_MOTION_OWNER_LOST, 0,
             "the controller heard no sign of life for 130 ms, so the limb stands and is held; call brace_client_step "
@@ -144,7 +162,7 @@ static void judge(brace_client_t *client, const progress_t *progress)
         return;
     }
     switch (motion->kind) {
-    case BRACE_TAKES_UP: judge_take_up(client, progress); break;
+    case BRACE_TAKES_UP: judge_take_up(client, progress, is_new); break;
     case BRACE_LOADS: judge_loading_test(client, progress); break;
     default: judge_way_back(client, progress); break;
     }
@@ -158,8 +176,11 @@ static void judge(brace_client_t *client, const progress_t *progress)
 
 static void give_up(brace_client_t *client)
 {
+    const bool in_fault = client->motion.in_fault;
     (void)brace_client_stop(client, STOP_MS); /* without signs of life the limb stands all the same */
-    end(client, BRACE_MOTION_TIMED_OUT, 0, "the motion was not done within its limit, and the limb was told to stop");
+    end(client, in_fault ? BRACE_MOTION_FAILED : BRACE_MOTION_TIMED_OUT, 0,
+        in_fault ? "a fault stays; the limb had the motion's limit to go back, and was told to stop; look at the faults"
+                 : "the motion was not done within its limit, and the limb was told to stop");
 }
 
 /* An answer that does not come once is no news; the limit of the motion goes on. */
@@ -204,14 +225,28 @@ brace_client_status_t brace_client_wait(brace_client_t *client, brace_motion_t *
         poll(NULL, 0, PAUSE_MS);
         status = brace_client_step(client, STEP_MS, motion);
     }
-    if (status != BRACE_CLIENT_OK || client->motion.now.state == BRACE_MOTION_DONE ||
-        client->motion.now.state == BRACE_MOTION_NONE) {
+    if (status != BRACE_CLIENT_OK) {
         return status;
     }
-    return client->motion.now.state == BRACE_MOTION_TIMED_OUT ? BRACE_CLIENT_E_TIMEOUT : BRACE_CLIENT_E_REFUSED;
+    switch (client->motion.now.state) {
+    case BRACE_MOTION_DONE: return BRACE_CLIENT_OK;
+    case BRACE_MOTION_NONE: return brace_client_fail(client, BRACE_CLIENT_E_USAGE, "no motion was begun");
+    case BRACE_MOTION_NOT_BEGUN: return (brace_client_status_t)client->motion.now.reason;
+    case BRACE_MOTION_TIMED_OUT: return BRACE_CLIENT_E_TIMEOUT;
+    default: return BRACE_CLIENT_E_REFUSED;
+    }
 }
 
 /* ------------------------------------------------------------------------------------------ beginning -- */
+
+/* Nothing was asked for. A motion that runs already goes on; one of before is not told again. returns status */
+static brace_client_status_t not_begun(brace_client_t *client, brace_client_status_t status)
+{
+    if (!is_under_way(client)) {
+        client->motion.now = (brace_motion_t){.state = BRACE_MOTION_NOT_BEGUN, .reason = (int32_t)status};
+    }
+    return status;
+}
 
 /* A sign of life goes before the command, so that the motion begins at once. A motion that runs already goes on when
  * this one is refused. */
@@ -223,13 +258,16 @@ static brace_client_status_t begin(brace_client_t *client, brace_command_t *comm
     const bool ran = is_under_way(client);
     uint32_t silences;
     if (limit_ms < 1 || limit_ms > LIMIT_MOST_MS) {
-        return brace_client_fail(client, BRACE_CLIENT_E_USAGE, "limit of a motion %d ms: 1 to %d", limit_ms,
-                                 LIMIT_MOST_MS);
+        return not_begun(client, brace_client_fail(client, BRACE_CLIENT_E_USAGE, "limit of a motion %d ms: 1 to %d",
+                                                   limit_ms, LIMIT_MOST_MS));
     }
     brace_client_status_t status = brace_client_become_owner(client, deadline_us);
     if (status == BRACE_CLIENT_OK) {
         status = brace_client_entry_u32(client, BRACE_CLIENT_ENTRY(silences), brace_bus_left_ms(deadline_us),
                                         &silences);
+    }
+    if (status != BRACE_CLIENT_OK && status != BRACE_CLIENT_E_REFUSED) {
+        return not_begun(client, status);
     }
     if (status == BRACE_CLIENT_OK) {
         client->motion = (brace_client_motion_t){.now = {.state = BRACE_MOTION_ASKED},
@@ -262,9 +300,9 @@ brace_client_status_t brace_client_begin_take_up(brace_client_t *client, uint32_
                                .values = {joint | (flank > 0 ? (uint32_t)FLANK_POSITIVE : (uint32_t)FLANK_NEGATIVE)},
                                .count = 1u};
     if (joint >= (uint32_t)JOINTS || (flank != 1 && flank != -1)) {
-        return brace_client_fail(client, BRACE_CLIENT_E_USAGE,
-                                 "joint %u, flank %d: 0 coxa, 1 femur, 2 tibia; the side to load is 1 or -1",
-                                 (unsigned)joint, flank);
+        return not_begun(client, brace_client_fail(client, BRACE_CLIENT_E_USAGE,
+                                                   "joint %u, flank %d: 0 coxa, 1 femur, 2 tibia; the side to load is "
+                                                   "1 or -1", (unsigned)joint, flank));
     }
     (void)brace_can_pack_take_up_request(&request, command.question.data);
     return begin(client, &command, BRACE_TAKES_UP, joint, timeout_ms, limit_ms);
@@ -291,12 +329,13 @@ brace_client_status_t brace_client_begin_loading_test(brace_client_t *client, co
     brace_command_t command = {.question = {.code = BRACE_REQUEST_LOADING_TEST_START}, .is_once = true};
     const bool is_number = plan->step_mm >= 0.0f; /* NaN would be sent as 'not known' */
     if (brace_can_pack_loading_test_start_request(&request, command.question.data) != 0u || !is_number) {
-        return brace_client_fail(client, BRACE_CLIENT_E_USAGE,
-                                 "a value of the loading test lies outside its range; client_motion.h states them");
+        return not_begun(client, brace_client_fail(client, BRACE_CLIENT_E_USAGE,
+                                                   "a value of the loading test lies outside its range; "
+                                                   "client_motion.h states them"));
     }
     if (client->bus == NULL) {
-        return brace_client_fail(client, BRACE_CLIENT_E_UNSUPPORTED,
-                                 "%s: no loading test over Modbus; connect over CAN", client->url);
+        return not_begun(client, brace_client_fail(client, BRACE_CLIENT_E_UNSUPPORTED,
+                                                   "%s: no loading test over Modbus; connect over CAN", client->url));
     }
     return begin(client, &command, BRACE_LOADS, 0u, timeout_ms, limit_ms);
 }

@@ -167,8 +167,9 @@ typedef struct {
 
 /* Opens a bus, finds the controller, and refuses one with another dictionary. node [1, 127; 0: the first that sends]
  * counts on CAN only; a Modbus URL names its unit. bit_rate [bit/s; 0: 1 000 000] is set on SLCAN adapters only.
- * timeout_ms [100, 60 000] is for the whole call; 2500 is enough to find a controller. On anything but OK *client is
- * null and `why`, when not null, gets one line (at most why_room characters with its end). */
+ * timeout_ms [100, 60 000] is for the whole call but the look-up of a host's name; 2500 is enough to find a controller.
+ * On anything but OK *client is null and `why`, when not null, gets one line (at most why_room characters with its
+ * end). */
 brace_client_status_t brace_client_open(const char *url, uint32_t node, uint32_t bit_rate, int timeout_ms,
                                         brace_client_t **client, char *why, unsigned why_room);
 
@@ -178,8 +179,8 @@ void brace_client_close(brace_client_t *client);
 void brace_client_identity(const brace_client_t *client, brace_client_identity_t *identity);
 
 /* The newest snapshot that has all wanted parts (BRACE_PART_..., added) and was not read before. If there is none, the
- * call waits for the next one. Its frames are of one tick: they carry one number, came together, and nothing was lost
- * between them. Over Modbus the parts of BRACE_PART_ALL are always there, and each call reads anew. BRACE_PART_SPACE
+ * call waits for the next one; where none comes in time, it gives one that came up to a second before the call. Its
+ * frames are of one tick: they carry one number, came together, and nothing was lost between them. Over Modbus the parts of BRACE_PART_ALL are always there, and each call reads anew. BRACE_PART_SPACE
  * and BRACE_PART_LOAD are a second and a third read, each of one tick, which may be later than that of the other parts.
  * For K in space of a limb without a coxa joint the call returns E_TIMEOUT over CAN, where no such frame comes, and
  * E_UNSUPPORTED over Modbus. BRACE_PART_LOAD over CAN returns E_TIMEOUT while controller.load_hz is 0;

@@ -1,7 +1,7 @@
 /* Commands of the robot's computer to a limb controller: what moves the limb, stop, clear; and the key of a guarded
  * board. docs/security.md says who may command.
  *
- *   brace_client_begin_take_up(limb, 1, +1, 500, 30000);
+ *   (void)brace_client_begin_take_up(limb, 1, +1, 500, 30000); // what comes of it, brace_client_step tells
  *   while (brace_client_step(limb, 20, &motion) == BRACE_CLIENT_OK && motion.state <= BRACE_MOTION_RUNNING) {
  *       control_the_robot();
  *   }
@@ -29,17 +29,19 @@ typedef enum {
     BRACE_MOTION_RUNNING = 2,   /* the limb moves */
     BRACE_MOTION_DONE = 3,      /* it ended as it should */
     BRACE_MOTION_REFUSED = 4,   /* the controller did not begin it */
-    BRACE_MOTION_FAILED = 5,    /* it began and failed; what was taken up is let go */
+    BRACE_MOTION_FAILED = 5,    /* it began and failed, or a fault ended it; what was taken up is let go */
     BRACE_MOTION_STOPPED = 6,   /* somebody has stopped it: the limb stands */
     BRACE_MOTION_TIMED_OUT = 7, /* it took longer than its limit, and the client has told it to stop */
-    BRACE_MOTION_OWNER_LOST = 8 /* the controller heard no sign of life in time: the limb stands */
+    BRACE_MOTION_OWNER_LOST = 8, /* the controller heard no sign of life in time: the limb stands */
+    BRACE_MOTION_NOT_BEGUN = 9  /* the call that was to begin it failed before it asked for anything */
 } brace_motion_state_t;
 
 /* brace_client_why has the line for people. */
 typedef struct {
     brace_motion_state_t state;
     int32_t reason; /* REFUSED: as brace_client_refusal; FAILED: a number of brace_take_up_outcome_text or
-                       brace_loading_outcome_text; else 0 */
+                       brace_loading_outcome_text, 0 where a fault ended it; NOT_BEGUN: the call's status; else
+                       0 */
 } brace_motion_t;
 
 typedef struct {
@@ -58,8 +60,10 @@ void brace_client_set_key(brace_client_t *client, const uint8_t key[BRACE_CLIENT
 
 /* Each asks for a motion and waits at most timeout_ms for the controller's answer.
  *   limit_ms: the whole motion may take so long [1, 3 600 000]; then the client tells the limb to stop
- * returns OK: it runs; call brace_client_step. E_REFUSED: the controller does not begin it; a motion that runs already
- *   goes on. E_TIMEOUT and other failures to answer: it may have begun; brace_client_step finds out. */
+ * returns OK: it runs; call brace_client_step. E_REFUSED: the controller does not begin it. E_USAGE, E_UNSUPPORTED: it
+ *   was not asked for. E_TIMEOUT and other failures to answer: it may have begun; brace_client_step finds out, and
+ *   tells NOT_BEGUN where the call failed before it asked. Where a motion runs already, that one goes on unless a new
+ *   one has begun, and brace_client_step tells of it. */
 
 /* The motor of a joint (0 coxa, 1 femur, 2 tibia) moves through its backlash until one side of it, `flank` [+1, -1],
  * is loaded, and holds that. DONE: it holds, and needs no further signs of life. */
@@ -85,8 +89,8 @@ brace_client_status_t brace_client_step(brace_client_t *client, int timeout_ms, 
 
 /* Steps until the motion has ended, which its limit bounds.
  *   motion: written whatever is returned; null is allowed
- * returns OK: DONE. E_REFUSED: REFUSED, FAILED, STOPPED or OWNER_LOST. E_TIMEOUT: TIMED_OUT. Else as
- *   brace_client_step */
+ * returns OK: DONE. E_REFUSED: REFUSED, FAILED, STOPPED or OWNER_LOST. E_TIMEOUT: TIMED_OUT. E_USAGE: no motion was
+ *   begun. NOT_BEGUN: what the call returned that was to begin it. Else as brace_client_step */
 brace_client_status_t brace_client_wait(brace_client_t *client, brace_motion_t *motion);
 
 /* The limb stands where it is. Anybody may, without a key too. Nothing is let go: brace_client_begin_let_go does that
