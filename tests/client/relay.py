@@ -57,8 +57,13 @@ def kept(part: bytes, loses: Callable[[bytes], bool]) -> bytes:
 
 
 @contextlib.contextmanager
-def relayed(url: str, doubles: bool = False, loses: Callable[[bytes], bool] | None = None) -> Iterator[Relay]:
-    """To the controller at this URL, for one client at a time."""
+def relayed(
+    url: str,
+    doubles: bool = False,
+    loses: Callable[[bytes], bool] | None = None,
+    drops: Callable[[int], bool] | None = None,
+) -> Iterator[Relay]:
+    """To the controller at this URL, for one client at a time. drops: of the client's pieces, by their number from 1."""
     scheme, _, place = url.partition("://")
     host, _, port = place.rpartition(":")
     with socket.create_server(("127.0.0.1", 0)) as server:
@@ -70,6 +75,8 @@ def relayed(url: str, doubles: bool = False, loses: Callable[[bytes], bool] | No
                 while part := source.recv(65536):
                     if is_client:
                         relay.sent.append((time.monotonic(), part))
+                    if is_client and drops and drops(len(relay.sent)):
+                        continue
                     if is_client and doubles:  # whole lines
                         lines, mark, rest = (rest + part).rpartition(b"\r")
                         part = _doubled(lines) + mark

@@ -132,10 +132,10 @@ brace_client_status_t brace_modbus_drift(brace_client_t *client, uint64_t deadli
 /* A question of some commands that follow one another, each a float's or a whole number's bits, and all answers. */
 brace_client_status_t brace_modbus_ask(brace_client_t *client, uint32_t first, const uint32_t *values, uint32_t count,
                                        uint64_t deadline_us, brace_answered_t *answered);
-/* Writes a command, sealed where a session is open; code: its request on CAN, for words. Waits while the unit is busy,
- * and does not write again when no answer comes. */
+/* Writes a command, sealed where a session is open; code: its request on CAN, for words. Waits while the unit is busy.
+ * When no answer comes, writes again what is not is_once. */
 brace_client_status_t brace_modbus_command(brace_client_t *client, uint32_t code, uint32_t place,
-                                           const uint32_t *values, uint32_t count, bool is_sealed,
+                                           const uint32_t *values, uint32_t count, bool is_sealed, bool is_once,
                                            uint64_t deadline_us);
 void brace_modbus_show_life(brace_client_t *client, brace_sign_t sign, uint64_t deadline_us);
 brace_client_status_t brace_modbus_load(brace_client_t *client, uint64_t deadline_us, brace_client_load_t *load);

@@ -543,7 +543,7 @@ static brace_client_status_t fail_command(brace_client_t *client, uint32_t code,
 }
 
 brace_client_status_t brace_modbus_command(brace_client_t *client, uint32_t code, uint32_t place,
-                                           const uint32_t *values, uint32_t count, bool is_sealed,
+                                           const uint32_t *values, uint32_t count, bool is_sealed, bool is_once,
                                            uint64_t deadline_us)
 {
     const uint32_t address = BRACE_REGISTER_COMMANDS + 2u * place;
@@ -568,7 +568,7 @@ brace_client_status_t brace_modbus_command(brace_client_t *client, uint32_t code
         if (error == 0) {
             return BRACE_CLIENT_OK;
         }
-        if (error != EMBXSBUSY || brace_bus_left_ms(deadline_us) <= BUSY_MS) {
+        if ((error != EMBXSBUSY && (is_once || !may_pass(error))) || brace_bus_left_ms(deadline_us) <= BUSY_MS) {
             return fail_command(client, code, error, deadline_us);
         }
         poll(NULL, 0, BUSY_MS);
@@ -694,7 +694,7 @@ brace_client_status_t brace_modbus_ask(brace_client_t *client, uint32_t first, c
 }
 
 brace_client_status_t brace_modbus_command(brace_client_t *client, uint32_t code, uint32_t place,
-                                           const uint32_t *values, uint32_t count, bool is_sealed,
+                                           const uint32_t *values, uint32_t count, bool is_sealed, bool is_once,
                                            uint64_t deadline_us)
 {
     (void)code;
@@ -702,6 +702,7 @@ brace_client_status_t brace_modbus_command(brace_client_t *client, uint32_t code
     (void)values;
     (void)count;
     (void)is_sealed;
+    (void)is_once;
     (void)deadline_us;
     return absent(client);
 }

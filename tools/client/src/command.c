@@ -133,7 +133,7 @@ static brace_client_status_t send_command(brace_client_t *client, brace_command_
 {
     if (client->bus == NULL) {
         return brace_modbus_command(client, command->question.code, command->place, command->values, command->count,
-                                    true, deadline_us);
+                                    true, command->is_once, deadline_us);
     }
     for (;;) {
         const brace_client_status_t status =
@@ -146,11 +146,12 @@ static brace_client_status_t send_command(brace_client_t *client, brace_command_
     }
 }
 
-/* The controller may have ended the session, or may have started anew as another kind of board. A command whose seal was
- * lost is refused as somebody else's. */
+/* The controller may have ended the session, or may have started anew as another kind of board. A command whose seal
+ * was lost is refused as somebody else's. */
 static bool is_not_known(int32_t refusal)
 {
-    return refusal == BRACE_REFUSED_OWNED || refusal == BRACE_REFUSED_STRANGER || refusal == BRACE_REFUSED_REPLAY || refusal == BRACE_REFUSED_NO_KEY;
+    return refusal == BRACE_REFUSED_OWNED || refusal == BRACE_REFUSED_STRANGER || refusal == BRACE_REFUSED_REPLAY ||
+           refusal == BRACE_REFUSED_NO_KEY;
 }
 
 /* A session that another program with the key has left on this bus ends after a second; until then all counts as a
@@ -193,7 +194,7 @@ brace_client_status_t brace_client_stop(brace_client_t *client, int timeout_ms)
     const brace_client_status_t status =
         client->bus != NULL ? brace_can_ask(client, &question, deadline_us)
                             : brace_modbus_command(client, question.code, BRACE_CLIENT_COMMAND_PLACE(stop), &any, 1u,
-                                                   false, deadline_us);
+                                                   false, false, deadline_us);
     const int32_t nothing_moves = client->bus != NULL ? (int32_t)BRACE_E_MODE : (int32_t)NOT_IN_THIS_MODE;
     if (status != BRACE_CLIENT_OK && (status != BRACE_CLIENT_E_REFUSED || client->refusal != nothing_moves)) {
         return status;

@@ -1,0 +1,71 @@
+"""A Modbus RTU unit on a pseudo-terminal, in Python: answers late, or not at all. Shares no code with the C client."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import pty
+import struct
+import subprocess
+import threading
+import time
+from collections.abc import Callable, Iterator
+
+from brace.wire.frames import DICTIONARY_HASH
+
+FIRST_WORDS = struct.pack(">fIII", 12345.5, 0x01020304, DICTIONARY_HASH, 0x00010203)
+READ, READ_INPUT = 3, 4
+
+
+def check(data: bytes) -> bytes:
+    """CRC of Modbus, low byte first."""
+    crc = 0xFFFF
+    for byte in data:
+        crc ^= byte
+        for _ in range(8):
+            crc = crc >> 1 ^ (0xA001 if crc & 1 else 0)
+    return struct.pack("<H", crc)
+
+
+def answer_to(request: bytes) -> bytes:
+    """Each value of 32 bits is its own address, but the first ones."""
+    unit, function, address, count = struct.unpack_from(">BBHH", request)
+    if function not in (READ, READ_INPUT):
+        return request[:6] + check(request[:6])
+    words = FIRST_WORDS + b"".join(struct.pack(">I", place) for place in range(8, 400, 2))
+    if function == READ:
+        words = b"".join(struct.pack(">I", place) for place in range(0, 400, 2))
+    content = bytes((unit, function, 2 * count)) + words[2 * address : 2 * (address + count)]
+    return content + check(content)
+
+
+@contextlib.contextmanager
+def rtu_unit(late_s: Callable[[int], float], byte_s: float = 0.0) -> Iterator[str]:
+    """late_s: by the number of the request, from 0. byte_s: between bytes of an answer. Requests wait for their turn.
+    Gives the URL."""
+    ours, theirs = pty.openpty()
+    subprocess.run(["stty", "-F", os.ttyname(theirs), "raw", "-echo"], check=True)
+
+    def serve() -> None:
+        rest, number = b"", 0
+        with contextlib.suppress(OSError):  # the device has been closed
+            while True:
+                rest += os.read(ours, 256)
+                while len(rest) >= 8:
+                    length = 9 + rest[6] if rest[1] == 16 else 8
+                    if len(rest) < length:
+                        break
+                    request, rest = rest[:length], rest[length:]
+                    time.sleep(late_s(number))
+                    number += 1
+                    answer = answer_to(request)
+                    for piece in struct.unpack(f"{len(answer)}c", answer) if byte_s else [answer]:
+                        os.write(ours, piece)
+                        time.sleep(byte_s)
+
+    threading.Thread(target=serve, daemon=True).start()
+    try:
+        yield f"modbus:{os.ttyname(theirs)}"
+    finally:
+        os.close(ours)
+        os.close(theirs)

@@ -1,0 +1,57 @@
+"""Late, slow and lost answers over Modbus: the C client takes none for another one's, and they stop no limb."""
+
+from __future__ import annotations
+
+import itertools
+import struct
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+from conftest import Answer, Sim, simulated
+from relay import relayed
+from rtu_unit import rtu_unit
+from test_commanding import DONE, RUNNING, SPEED, UP, acts, with_play  # noqa: F401, a fixture
+
+from brace.bus.ownership import register_of
+
+SILENT, WRITE = 7, 16
+SILENCE_S = 0.25  # on a busy machine; where a lost request was waited for, 0.3
+LATE_S = 1.0  # the client tries again after 0.8 s
+INDICES = range(20, 36)
+
+
+@pytest.mark.parametrize("late", [{8}, {8, 9}, {8, 10, 12}])
+def test_a_late_answer_is_not_the_next_one_s(late: set[int]) -> None:
+    """Modbus RTU does not number its requests; an entry's value is its register here. A call of 2 s has time for one late
+    answer, not for two of them."""
+    with rtu_unit(lambda number: LATE_S if number in late else 0.0) as url:
+        done, why = acts(url, *(f"entry:{index}" for index in INDICES))
+    told = [(index, act.state) for index, act in zip(INDICES, done) if act.status == 0]
+    assert all(value == 2 * index for index, value in told), why
+    assert len(told) >= len(INDICES) - (len(late) - 1) and done[-1].status == 0, why
+
+
+def test_an_answer_that_trickles_ends_with_the_time_out(probe: Callable[..., Answer]) -> None:
+    with rtu_unit(lambda number: 0.0, byte_s=0.19) as url:
+        answer = probe(url, "identity")
+    assert answer.code == SILENT and answer.told_in_time, answer.err
+
+
+@pytest.fixture(scope="module")
+def bench(tmp_path_factory: pytest.TempPathFactory, with_play: Path) -> Iterator[Sim]:  # noqa: F811
+    with simulated(tmp_path_factory.mktemp("bench"), with_play, "--speed", SPEED) as running:
+        yield running
+
+
+def test_lost_requests_stop_no_limb(bench: Sim) -> None:
+    """Among them signs of life. Each takes 60 ms until it is given up, of the 130 ms after which the limb would stand."""
+    with relayed(bench.modbus, drops=lambda number: number > 14 and number % 9 == 0) as relay:
+        done, why = acts(relay.url, UP, "reads:300", "wait", "let_go", "wait")
+        signs_s = [
+            at_s for at_s, request in relay.requests()
+            if struct.unpack_from(">BH", request) == (WRITE, register_of("life_counter"))
+        ]  # fmt: skip
+    assert [done[place].state for place in (0, 2, 4)] == [RUNNING, DONE, DONE], why
+    while_it_moves_s = [later - earlier for earlier, later in itertools.pairwise(signs_s)]
+    assert len(while_it_moves_s) > 10 and max(while_it_moves_s) < SILENCE_S
