@@ -40,8 +40,8 @@ class SlcanController:
         entries: Callable[[int], int | None] | None = None,
         streams: Callable[[float], int | None] | None = None,
     ) -> None:
-        """entries: values of entries, which else are 12345.5; None: no answer. streams: numbers of the snapshots whose K is sent every
-        20 ms, from the seconds since a client has come; none where it gives none."""
+        """entries: values of entries, which else are 12345.5; None: no answer. streams: numbers of the snapshots whose
+        K is sent every 20 ms, from the seconds since a client has come; None: nothing is sent."""
         self.node, self.hash, self.speaks, self.answers, self.errors = node, hash_, speaks, answers, errors
         self.garbage, self.flood, self.hangs_up, self.echo_first = garbage, flood, hangs_up, echo_first
         self.refuses_force, self.noise_first = refuses_force, noise_first  # status and detail; sent once

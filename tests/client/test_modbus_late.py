@@ -23,8 +23,8 @@ INDICES = range(20, 36)
 
 @pytest.mark.parametrize("late", [{8}, {8, 9}, {8, 10, 12}])
 def test_a_late_answer_is_not_the_next_one_s(late: set[int]) -> None:
-    """Modbus RTU does not number its requests; an entry's value is its register here. A call of 2 s has time for one late
-    answer, not for two of them."""
+    """Modbus RTU does not number its requests; an entry's value is its register here. A call of 2 s has time for one
+    late answer, not for two of them."""
     with rtu_unit(lambda number: LATE_S if number in late else 0.0) as url:
         done, why = acts(url, *(f"entry:{index}" for index in INDICES))
     told = [(index, act.state) for index, act in zip(INDICES, done) if act.status == 0]
@@ -45,7 +45,7 @@ def bench(tmp_path_factory: pytest.TempPathFactory, with_play: Path) -> Iterator
 
 
 def test_lost_requests_stop_no_limb(bench: Sim) -> None:
-    """Among them signs of life. Each takes 60 ms until it is given up, of the 130 ms after which the limb would stand."""
+    """Among them signs of life. Each takes 60 ms until it is given up; after 130 ms the limb would stand."""
     with relayed(bench.modbus, drops=lambda number: number > 14 and number % 9 == 0) as relay:
         done, why = acts(relay.url, UP, "reads:300", "wait", "let_go", "wait")
         signs_s = [

@@ -1,4 +1,4 @@
-"""What the C client tells of a motion that a fault or a restart of the controller meets: a controller in Python plays it,
+"""What the C client tells of a motion that a fault or a restart of the controller meets. A controller in Python plays it
 step by step, by its entries."""
 
 from __future__ import annotations

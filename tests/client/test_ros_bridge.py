@@ -18,7 +18,6 @@ from brace_bridge.decode import ERROR, OK, WARN, Decoder, LimbHealth, LimbLoad  
 from brace_bridge.decode import LimbStiffness, LimbStiffnessInSpace  # noqa: E402
 
 from brace.bus.frame import Frame  # noqa: E402
-from brace.errors import VersionMismatchError  # noqa: E402
 from brace.wire.frames import DICTIONARY_HASH, MESSAGES, MULTIPLEXED  # noqa: E402
 
 
@@ -103,13 +102,17 @@ def test_halves_of_two_snapshots_give_nothing() -> None:
     assert decoder.add(frame("stiffness_b", sequence=2)) == []
 
 
-def test_another_dictionary_is_refused() -> None:
+def test_a_controller_with_another_dictionary_is_told_and_not_read() -> None:
     decoder = Decoder()
     [health] = decoder.add(frame("heartbeat", dictionary_hash=DICTIONARY_HASH))
     assert isinstance(health, LimbHealth) and (health.level, health.text) == (OK, "No fault is there.")
-    with pytest.raises(VersionMismatchError) as refusal:
-        decoder.add(frame("heartbeat", dictionary_hash=0x1234ABCD))
-    assert "0x1234abcd" in refusal.value.why and f"0x{DICTIONARY_HASH:08x}" in refusal.value.why
+    k = [frame("stiffness_a", sequence=1, k_xx=4.0), frame("stiffness_b", sequence=1, k_zz=0.25)]
+    [health] = decoder.add(frame("heartbeat", dictionary_hash=0x1234ABCD))
+    assert isinstance(health, LimbHealth) and health.level == ERROR
+    assert "0x1234abcd" in health.text and f"0x{DICTIONARY_HASH:08x}" in health.text
+    assert [decoder.add(one) for one in k] == [[], []]
+    decoder.add(frame("heartbeat", dictionary_hash=DICTIONARY_HASH))  # flashed
+    assert decoder.add(k[0]) == [] and len(decoder.add(k[1])) == 1
 
 
 def test_k_in_space_in_si_units() -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import socket
+import time
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -13,6 +14,7 @@ from brace.bus.url import BusUrl
 from brace.errors import MissingLibraryError, NoDeviceError
 
 SEND_S = 1.0
+SKIPPED_MOST = 4096  # frames of other kinds that one call passes over
 _INTERFACES = Path("/sys/class/net")
 
 
@@ -39,19 +41,20 @@ class SocketCanBus:
             raise self._lost(error) from None
 
     def receive(self, timeout_s: float) -> Frame | None:
-        """The next frame; error frames are counted."""
-        try:
-            message = self._bus.recv(timeout_s)
-        except (OSError, self._can.CanError) as error:
-            raise self._lost(error) from None
-        if message is None:
-            return None
-        if message.is_error_frame:
-            self._errors += 1
-            return None
-        if message.is_extended_id or message.is_remote_frame:
-            return None
-        return Frame(message.timestamp, message.arbitration_id, bytes(message.data))
+        """The next frame; error frames are counted. Frames of other kinds do not hide those behind them."""
+        until_s = time.monotonic() + timeout_s
+        for _ in range(SKIPPED_MOST):
+            try:
+                message = self._bus.recv(max(0.0, until_s - time.monotonic()))
+            except (OSError, self._can.CanError) as error:
+                raise self._lost(error) from None
+            if message is None:
+                return None
+            if message.is_error_frame:
+                self._errors += 1
+            elif not (message.is_extended_id or message.is_remote_frame):
+                return Frame(message.timestamp, message.arbitration_id, bytes(message.data))
+        return None
 
     def receive_all(self) -> list[Frame]:
         """Those that have come."""

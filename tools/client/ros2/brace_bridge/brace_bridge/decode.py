@@ -8,9 +8,8 @@ from dataclasses import dataclass
 from brace.bus.frame import Frame
 from brace.bus.drift import cause_text
 from brace.bus.load import Load
-from brace.bus.snapshot import Joiner, Snapshot, emergency_of, heartbeat_of
+from brace.bus.snapshot import Heartbeat, Joiner, Snapshot, emergency_of, heartbeat_of
 from brace.bus.space import SpaceSnapshot
-from brace.errors import VersionMismatchError
 from brace.wire.codes import FAULT, PLAY
 from brace.wire.frames import DICTIONARY_HASH, MESSAGES
 
@@ -118,21 +117,21 @@ class Decoder:
         self._told: dict[int, tuple[int, float]] = {}  # by node: the snapshot whose K in the plane has been given
         self._load_told: dict[int, tuple[int, float]] = {}  # the same of its load
         self._cause: dict[int, str] = {}
+        self._strangers: set[int] = set()  # nodes with another dictionary: their frames mean something else
 
     def add(self, frame: Frame) -> list[Message]:
         """What this frame completes: K alone; K in space; its load; K with eigenvalues and posture once more; with a
-        heartbeat or an emergency the limb's health. VersionMismatchError when a heartbeat tells of another
-        dictionary."""
+        heartbeat or an emergency the limb's health. Of a controller whose heartbeat tells of another dictionary: that
+        it does, and nothing else."""
         heartbeat = heartbeat_of(frame)
         if heartbeat is not None:
             if heartbeat.dictionary_hash != DICTIONARY_HASH:
-                raise VersionMismatchError(
-                    f"controller {heartbeat.node} speaks another dictionary",
-                    where=f"heartbeat of node {heartbeat.node}",
-                    why=f"its hash is 0x{heartbeat.dictionary_hash:08x}, this bridge's 0x{DICTIONARY_HASH:08x}",
-                    next_step="use the brace package of the firmware's version, or brace flash",
-                )
+                self._strangers.add(heartbeat.node)
+                return [_stranger(heartbeat)]
+            self._strangers.discard(heartbeat.node)
             return [self._health(heartbeat.time_s, heartbeat.node, heartbeat.faults)]
+        if frame.node in self._strangers:
+            return []
         emergency = emergency_of(frame)
         if emergency is not None:
             self._cause[emergency.node] = emergency.drift_cause
@@ -161,6 +160,14 @@ class Decoder:
             told.append(f"The drift's likeliest cause is {cause_text(cause)}")
         level = ERROR if _NO_K & set(faults) else WARN if faults else OK
         return LimbHealth(time_s, node, level, " ".join(told) or "No fault is there.", faults, cause)
+
+
+def _stranger(heartbeat: Heartbeat) -> LimbHealth:
+    text = (
+        f"The controller speaks another dictionary: its hash is 0x{heartbeat.dictionary_hash:08x}, this bridge's "
+        f"0x{DICTIONARY_HASH:08x}. Use the brace package of the firmware's version, or brace flash."
+    )
+    return LimbHealth(heartbeat.time_s, heartbeat.node, ERROR, text, ("another_dictionary",), "none")
 
 
 def message_of(snapshot: Snapshot) -> LimbStiffness:

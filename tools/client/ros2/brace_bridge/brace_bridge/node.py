@@ -40,7 +40,7 @@ class Bridge(Node):
         self._base_frame = self.declare_parameter("base_frame", "base_link").value
         self._decoder = Decoder()
         self._topics: dict[str, Publisher] = {}
-        self.failure: BraceError | None = None
+        self.failure: Exception | None = None
         self._listener = threading.Thread(target=self._listen, daemon=True)
         self._listener.start()
 
@@ -50,7 +50,7 @@ class Bridge(Node):
                 frame = self._bus.receive(WAIT_S)
                 for message in [] if frame is None else self._decoder.add(frame):
                     self._publish(message)
-        except BraceError as error:
+        except Exception as error:  # a bridge that no longer listens must not seem to live
             self.failure = error
             rclpy.try_shutdown()
 
@@ -116,9 +116,11 @@ def main() -> int:
         return 130
     except BraceError as error:
         failure = error
-    if failure is not None:
+    if isinstance(failure, BraceError):
         print(failure.render(), file=sys.stderr)
         return failure.exit_code
+    if failure is not None:
+        raise failure
     return 0
 
 
