@@ -63,7 +63,7 @@ def relayed(
     loses: Callable[[bytes], bool] | None = None,
     drops: Callable[[int], bool] | None = None,
 ) -> Iterator[Relay]:
-    """To the controller at this URL, for one client at a time. drops: which of the client's pieces, by number from 1."""
+    """To the controller at this URL, for one client at a time. drops: which of its pieces, by number from 1."""
     scheme, _, place = url.partition("://")
     host, _, port = place.rpartition(":")
     with socket.create_server(("127.0.0.1", 0)) as server:

@@ -1,5 +1,5 @@
-"""What the C client tells of a motion that a fault or a restart of the controller meets. A controller in Python plays it
-step by step, by its entries."""
+"""What the C client tells of a motion that a fault or a restart of the controller meets. A controller in Python plays
+it step by step, by its entries."""
 
 from __future__ import annotations
 

@@ -182,9 +182,9 @@ void brace_client_identity(const brace_client_t *client, brace_client_identity_t
  * call waits for the next one; where none comes in time, it gives one that came up to a second before the call. Its
  * frames are of one tick: they carry one number, came together, and nothing was lost between them. Over Modbus the
  * parts of BRACE_PART_ALL are always there, and each call reads anew. BRACE_PART_SPACE and BRACE_PART_LOAD are a second
- * and a third read, each of one tick, which may be later than that of the other parts. For K in space of a limb without a coxa joint the call returns E_TIMEOUT over CAN, where no such frame comes, and
- * E_UNSUPPORTED over Modbus. BRACE_PART_LOAD over CAN returns E_TIMEOUT while controller.load_hz is 0;
- * brace_client_load then asks.
+ * and a third read, each of one tick, which may be later than that of the other parts. For K in space of a limb without
+ * a coxa joint the call returns E_TIMEOUT over CAN, where no such frame comes, and E_UNSUPPORTED over Modbus.
+ * BRACE_PART_LOAD over CAN returns E_TIMEOUT while controller.load_hz is 0; brace_client_load then asks.
  * returns OK, E_TIMEOUT, E_SILENT, E_BIT_RATE, E_NODE, E_DOWN, E_VERSION, E_UNSUPPORTED */
 brace_client_status_t brace_client_read(brace_client_t *client, uint32_t wanted, int timeout_ms,
                                         brace_client_snapshot_t *snapshot);
