@@ -149,8 +149,8 @@ def _converted(part: Part, mapping: MappingTable, notes: list[str]) -> Table:
         notes.append(f"{part.path.name}: {int(bad.sum())} of {bad.size} rows left out: {told}")
     if part.skipped:
         notes.append(
-            f"{part.path.name}: {part.skipped} line{'s' if part.skipped > 1 else ''} below the table left out: no "
-            "readings"
+            f"{part.path.name}: {part.skipped} line{'s' if part.skipped > 1 else ''} among or below the readings left "
+            "out: no readings"
         )
     keep = np.flatnonzero(~bad)
     return Table(

@@ -25,7 +25,7 @@ class Part:
     remarks: Mapping[str, str] = field(default_factory=dict)
     sheet: str = ""
     how: str = ""  # read: encoding, separator, decimal sign, in words
-    skipped: int = 0  # lines below the table that are no readings
+    skipped: int = 0  # lines among and below the readings that are none
     log: Log | None = None  # what the rows were made from, where sources have clocks of their own
     notes: tuple[str, ...] = ()  # what of the file is not in the rows, and how they were made
 
