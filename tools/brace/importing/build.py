@@ -121,6 +121,8 @@ def _converted(part: Part, mapping: MappingTable, notes: list[str]) -> Table:
         used.append(use)
         cells = part.cells(index)
         for target in use.targets:
+            if target in columns or target in texts:
+                raise _two_columns(part, used, target)
             quantity = TARGETS[mapping.kind][target]
             if not quantity:
                 texts[target] = [use.values.get(cell, cell) for cell in cells]
@@ -157,6 +159,16 @@ def _converted(part: Part, mapping: MappingTable, notes: list[str]) -> Table:
         part,
         {target: values[keep] for target, values in columns.items()},
         {target: [cells[row] for row in keep] for target, cells in texts.items()},
+    )
+
+
+def _two_columns(part: Part, used: Sequence[ColumnUse], target: str) -> BadFileError:
+    names = [f"{use.name!r}" for use in used if target in use.targets]
+    return BadFileError(
+        f"{len(names)} columns are {target}: {', '.join(names)}",
+        where=part.where,
+        why="a dataset has one of it, and which of them is meant is not said",
+        next_step='is = "ignore" for all but one of them in the mapping',
     )
 
 

@@ -61,7 +61,7 @@ def _columns(layout: Sequence[Part], kind: str, file: str) -> list[ColumnUse]:
     for index, header in enumerate(first.names):
         cells = [cell for part in layout for cell in part.cells(index)]
         found.append(_one(index, header, first, cells, kind, file))
-    found = _without_rivals(found, first, kind)
+    found = _perhaps_resultants(_without_rivals(found, first, kind))
     found = _angles_by_size(found, layout)
     found = _perhaps_angles(found, layout) if kind == "loading" else found
     return found if kind == "stiffness_table" else _signs_and_zeros(found, layout, kind)
@@ -151,6 +151,20 @@ def _without_rivals(columns: list[ColumnUse], part: Part, kind: str) -> list[Col
                 f"{columns[other].name!r} (column {columns[other].number})" for other in rivals if other != at
             )
             changed[at] = replace(columns[at], targets=(OPEN,), why=f"it may be {target}, and so may {others}")
+    return changed
+
+
+def _perhaps_resultants(columns: list[ColumnUse]) -> list[ColumnUse]:
+    """A force without an axis beside one along x or z: along the motion, or the length of the vector? It is asked."""
+    changed = list(columns)
+    for plain, along in (("f_n", ("fx_n", "fz_n")), ("d_mm", ("dx_mm", "dz_mm"))):
+        others = [use.name for use in columns if set(use.targets) & set(along)]
+        for at, use in enumerate(columns):
+            if others and plain in use.targets:
+                changed[at] = replace(
+                    use, targets=(OPEN,),
+                    why=f"{plain}, along the motion, or a resultant of {', '.join(map(repr, others))} (ignore)",
+                )  # fmt: skip
     return changed
 
 

@@ -240,6 +240,7 @@ def _displacements(table: Table, axis: np.ndarray, rows: int, notes: list[str]) 
     have, along_z = table.columns, axis == 1
     out = {name: have.get(name, np.zeros(rows)) for name in ("dx_mm", "dz_mm")}
     if "d_mm" in have:
+        _refuse_twice(table, axis, "d_mm", ("dx_mm", "dz_mm"))
         out["dx_mm"] = np.where(along_z, out["dx_mm"], have["d_mm"])
         out["dz_mm"] = np.where(along_z, have["d_mm"], out["dz_mm"])
     lacking = [name for name in ("dx_mm", "dz_mm") if name not in have]
@@ -264,6 +265,7 @@ def _forces(table: Table, axis: np.ndarray, rows: int, notes: list[str]) -> Colu
     have, along_z = table.columns, axis == 1
     out = {name: have.get(name, np.full(rows, math.nan)) for name in ("fx_n", "fz_n")}
     if "f_n" in have:
+        _refuse_twice(table, axis, "f_n", ("fx_n", "fz_n"))
         out["fx_n"] = np.where(along_z, out["fx_n"], have["f_n"])
         out["fz_n"] = np.where(along_z, have["f_n"], out["fz_n"])
     if "weight_n" in have:
@@ -281,6 +283,19 @@ def _forces(table: Table, axis: np.ndarray, rows: int, notes: list[str]) -> Colu
             "and along x nothing was"
         )
     return out
+
+
+def _refuse_twice(table: Table, axis: np.ndarray, plain: str, along: tuple[str, str]) -> None:
+    """A column along the motion stands for the axis's own one; a record keeps one of two readings, and which is not
+    for us to say."""
+    for number, name in enumerate(along):
+        if name in table.columns and bool(np.any((axis == number) & ~np.isnan(table.columns[name]))):
+            raise BadFileError(
+                f"{plain} and {name} are both of the motion along {'xz'[number]}",
+                where=table.part.where,
+                why=f"{plain} is along the motion, and {name} is so too in the runs along {'xz'[number]}",
+                next_step=f'is = "ignore" for the one that is a resultant or is not wanted ({plain}, as a rule)',
+            )
 
 
 def _same_clock(pieces: list[Columns], notes: list[str]) -> None:

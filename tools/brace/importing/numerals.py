@@ -15,6 +15,11 @@ _PLAIN = re.compile(r"[-+]?(?:\d+[.,]?\d*|[.,]\d+)(?:[eE][-+]?\d+)?")
 _GROUPED = re.compile(
     r"[-+]?\d{1,3}(?:(?P<mark>[.,'\u2019\u00a0\u202f ])\d{3})(?:(?P=mark)\d{3})*(?:[.,]\d+)?(?:[eE][-+]?\d+)?"
 )
+# Without the other sign, or with it between groups of three digits, by the decimal sign.
+_THOUSANDS = {
+    ".": re.compile(r"[^,]*|[-+]?[1-9]\d{0,2}(?:,\d{3})+(?:\.\d*)?(?:[eE][-+]?\d+)?"),
+    ",": re.compile(r"[^.]*|[-+]?[1-9]\d{0,2}(?:\.\d{3})+(?:,\d*)?(?:[eE][-+]?\d+)?"),
+}
 _MINUS = str.maketrans({"\u2212": "-", "\u2013": "-", "\u2012": "-", "\u00a0": " ", "\u202f": " "})
 _CLOCK = re.compile(
     r"(?:(?P<date>[\d./-]+)[ T]+)?(?P<h>\d{1,2}):(?P<m>\d{2})(?::(?P<s>\d{2}(?:[.,]\d+)?))?\s*(?P<half>[AaPp][Mm])?Z?"
@@ -72,17 +77,20 @@ def decimal_sign(cells: Iterable[str]) -> tuple[str, str, str]:
 
 
 def number(text: str, decimal: str) -> float:
-    """The number; NaN where the cell is none."""
+    """The number; NaN where the cell is none, and where a comma or point in it is neither the decimal sign nor one of
+    thousands."""
     text = plain(text)
-    if _PLAIN.fullmatch(text) or _GROUPED.fullmatch(text):
-        other = "." if decimal == "," else ","
-        text = re.sub(r"['\u2019 ]", "", text).replace(other, "")
-        try:
-            value = float(text.replace(",", "."))
-        except ValueError:
-            return math.nan
-        return value if math.isfinite(value) else math.nan
-    return math.nan
+    if not is_number(text):
+        return math.nan
+    text = re.sub(r"['\u2019 ]", "", text)
+    if not _THOUSANDS[decimal].fullmatch(text):
+        return math.nan
+    text = text.replace("." if decimal == "," else ",", "")
+    try:
+        value = float(text.replace(",", "."))
+    except ValueError:
+        return math.nan
+    return value if math.isfinite(value) else math.nan
 
 
 def clock_s(text: str) -> float:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -107,7 +107,8 @@ def parts(path: Path, lines: Sequence[Line], *, decimal: str, how: str, sheet: s
     numbers: list[int] = []
     between: list[Line] = []
     skipped = 0
-    sign = decimal or _sign(path, lines[first:], width)
+    readings = (cell for line in lines[first:] if len(line.cells) == width for cell in line.cells)
+    sign = decimal or decimal_sign(path, readings)
 
     def close() -> None:
         if rows:
@@ -283,9 +284,8 @@ def _remarks(lines: Sequence[Line]) -> dict[str, str]:
     return found
 
 
-def _sign(path: Path, lines: Sequence[Line], width: int) -> str:
+def decimal_sign(path: Path, cells: Iterable[str]) -> str:
     """The decimal sign of the readings. Refuses two at once, and what may be both."""
-    cells = (cell for line in lines if len(line.cells) == width for cell in line.cells)
     sign, point, comma = numerals.decimal_sign(cells)
     if sign == "?":
         raise BadFileError(
