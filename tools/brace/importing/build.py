@@ -39,7 +39,7 @@ class Built:
 def build(parts: Sequence[Part], mapping: MappingTable) -> Built:
     """Converts and joins the parts. Refuses where something that must be said has not been."""
     parts = [settled(part, mapping) for part in parts]
-    notes = [f"{part.path.name}: {note}" for part in parts for note in part.notes]
+    notes = [*mapping.notes, *(f"{part.path.name}: {note}" for part in parts for note in part.notes)]
     tables = [_converted(part, mapping, notes) for part in parts]
     conversions = _conversions(mapping)
     try:
@@ -119,6 +119,7 @@ def _converted(part: Part, mapping: MappingTable, notes: list[str]) -> Table:
         if not use.used:
             continue
         used.append(use)
+        _refuse_other_unit(part, index, use)
         cells = part.cells(index)
         for target in use.targets:
             if target in columns or target in texts:
@@ -148,10 +149,10 @@ def _converted(part: Part, mapping: MappingTable, notes: list[str]) -> Table:
         )
     if bad.any():
         told = "; ".join(f"{reason} ({count})" for reason, count in reasons.most_common(4))
-        notes.append(f"{part.path.name}: {int(bad.sum())} of {bad.size} rows left out: {told}")
+        notes.append(f"{part.places[0]}: {int(bad.sum())} of {bad.size} rows left out: {told}")
     if part.skipped:
         notes.append(
-            f"{part.path.name}: {part.skipped} line{'s' if part.skipped > 1 else ''} among or below the readings left "
+            f"{part.places[0]}: {part.skipped} line{'s' if part.skipped > 1 else ''} among or below the readings left "
             "out: no readings"
         )
     keep = np.flatnonzero(~bad)
@@ -160,6 +161,19 @@ def _converted(part: Part, mapping: MappingTable, notes: list[str]) -> Table:
         {target: values[keep] for target, values in columns.items()},
         {target: [cells[row] for row in keep] for target, cells in texts.items()},
     )
+
+
+def _refuse_other_unit(part: Part, index: int, use: ColumnUse) -> None:
+    """A mapping knows columns by their names; a unit in a row of its own may be another in the next file."""
+    stated = unit_of(part.units[index]) if part.units and part.log is None else None
+    meant = unit_of(use.unit) if use.unit else None
+    if stated is not None and meant is not None and stated != meant:
+        raise BadFileError(
+            f"column {use.name!r} is in {stated.text} by the file's row of units, and in {meant.text} by the mapping",
+            where=part.where,
+            why="the mapping was made for a file with other units, or one of the two is wrong",
+            next_step=f'a [[column]] for this file alone (file = "{part.path.name}"), or correct the one that is wrong',
+        )
 
 
 def _two_columns(part: Part, used: Sequence[ColumnUse], target: str) -> BadFileError:
@@ -231,7 +245,7 @@ def _stacked(tables: Sequence[Table], mapping: MappingTable, notes: list[str]) -
     rows = [len(next(iter(table.columns.values()))) for table in tables]
     if mapping.kind == "joint_test":
         if "t_s" not in out:
-            dwell = [mapping.constant(table.part.path.name, "dwell_s") for table in tables]
+            dwell = [mapping.constant(table.part.places, "dwell_s") for table in tables]
             if any(each is None or each.value == "?" for each in dwell):
                 raise BadFileError(
                     "no column is t_s", where=tables[0].part.where, why="friction and creep follow the time",

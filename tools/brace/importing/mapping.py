@@ -109,17 +109,26 @@ class MappingTable:
         found = [use for use in self.columns if use.name == name and use.file in ("", file)]
         return next((use for use in found if use.number == number), found[0] if len(found) == 1 else None)
 
-    def constant(self, file: str, target: str) -> Constant | None:
-        """The file's own constant, or the one of all files."""
-        found = [each for each in self.constants if each.target == target and each.file in ("", file)]
-        return next((each for each in found if each.file), found[0] if found else None)
+    def constant(self, places: Sequence[str], target: str) -> Constant | None:
+        """The constant of the first of the places (a block, its file) that has its own, or the one of all files."""
+        found = {each.file: each for each in self.constants if each.target == target}
+        return next((found[place] for place in (*places, "") if place in found), None)
 
-    def with_constants(self, given: Iterable[Constant]) -> MappingTable:
-        """The same with some constants said."""
+    def with_constants(self, given: Iterable[Constant], tables: Sequence[Sequence[str]]) -> MappingTable:
+        """The same with some constants said. tables: the places of each table. Where each has a constant of its own, the
+        one of all files says nothing any more."""
         kept = self
         for new in given:
-            rest = tuple(c for c in kept.constants if c.target != new.target or (new.file and c.file != new.file))
+            rest = tuple(
+                c
+                for c in kept.constants
+                if c.target != new.target or (new.file and c.file != new.file and not c.file.startswith(new.file + "#"))
+            )
             kept = replace(kept, constants=(*rest, new))
+            own = {c.file for c in kept.constants if c.target == new.target and c.file}
+            if all(own & set(places) for places in tables):
+                left = tuple(c for c in kept.constants if c.target != new.target or c.file)
+                kept = replace(kept, constants=left)
         return kept
 
 

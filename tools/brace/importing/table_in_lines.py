@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from brace.errors import BadFileError
@@ -144,7 +144,7 @@ def parts(path: Path, lines: Sequence[Line], *, decimal: str, how: str, sheet: s
             between.append(line)
     skipped += len(between)
     close()
-    return found
+    return [replace(part, block=number) for number, part in enumerate(found, start=1)] if len(found) > 1 else found
 
 
 def _heads_block(line: Line) -> bool:
