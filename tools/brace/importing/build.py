@@ -190,8 +190,7 @@ def _numbers(part: Part, use: ColumnUse, cells: Sequence[str], target: str) -> t
     """A column in our unit, and which entries are there and are no numbers (OVERLOAD)."""
     values = np.array([numerals.number(cell, part.decimal) for cell in cells])
     if target == "t_s" and np.isnan(values).all():
-        values = np.array(numerals.clocks_s(cells))
-        values = values + np.cumsum(np.concatenate([[0.0], np.where(np.diff(values) < -43200.0, numerals.DAY_S, 0.0)]))
+        values = _clocks(part, use, cells)
     values = _without_marks(values)
     unread = np.array([math.isnan(value) and not numerals.is_missing(cell) for value, cell in zip(values, cells)])
     unit = UNITS.get(use.unit) or unit_of(use.unit)
@@ -204,6 +203,24 @@ def _numbers(part: Part, use: ColumnUse, cells: Sequence[str], target: str) -> t
         )
     sign = -1.0 if use.sign == "-1" else 1.0
     return sign * (unit.factor * values + unit.offset) + use.offset, unread
+
+
+def _clocks(part: Part, use: ColumnUse, cells: Sequence[str]) -> np.ndarray:
+    """Clock times, in the column's unit. Of 12:34 the unit says what its first number is."""
+    unit = unit_of(use.unit)
+    factor_s = unit.factor if unit else 1.0
+    values = np.array(numerals.clocks_s(cells)) / factor_s
+    short = np.array([numerals.short_clock(cell) for cell in cells])
+    if np.isfinite(short).any() and (unit is None or unit.text not in ("h", "min")):
+        raise BadFileError(
+            f"column {use.name!r} has times such as {cells[int(np.flatnonzero(np.isfinite(short))[0])]}",
+            where=part.where,
+            why="they may be hours and minutes, or minutes and seconds",
+            next_step='unit = "h" or unit = "min" in its [[column]]',
+        )
+    values = np.where(np.isfinite(short), short, values)
+    day = numerals.DAY_S / factor_s
+    return np.asarray(values + np.cumsum(np.concatenate([[0.0], np.where(np.diff(values) < -day / 2, day, 0.0)])))
 
 
 _MARKS = (9999.0, 99999.0, 999999.0, 9999999.0, 999.0, 999.9, 9999.9, 99999.9, 32767.0, 65535.0)

@@ -19,6 +19,7 @@ from brace.units import OWN
 
 FULL_TURN = 2 * math.pi
 BENT_BACK = "all its entries are negative, and theta2 is the femur's angle from +x minus the tibia's"
+CLOCK_UNITS = "h: hours and minutes; min: minutes and seconds"
 RAW = ("v", "mv", "volt", "volts", "mv/v", "ma", "a", "counts", "count", "ticks", "lsb", "%", "digits", "raw")
 
 
@@ -78,8 +79,12 @@ def _one(index: int, header: str, part: Part, cells: list[str], kind: str, file:
         return _axis_column(use, cells)
     if target == "t_s" and not readable.any():
         clocks = [cell for cell in cells if not math.isnan(numerals.clock_s(cell))]
+        span = f"{clocks[0]} to {clocks[-1]}" if clocks else ""
+        if numerals.clocks_are_short(cells):
+            return replace(use, unit=OPEN, why="clock times", span=f"{span} ({CLOCK_UNITS})")
         if clocks:
-            return replace(use, unit="s", why="clock times", span=f"{clocks[0]} to {clocks[-1]}")
+            unit = "min" if numerals.clocks_are_minutes(cells) else "s"
+            return replace(use, unit=unit, why="clock times", span=span)
     if quantity and not readable.any():
         return replace(use, targets=(IGNORE,), why="it holds no numbers")
     if not quantity:
