@@ -20,6 +20,7 @@ from brace.units import OWN
 FULL_TURN = 2 * math.pi
 BENT_BACK = "all its entries are negative, and theta2 is the femur's angle from +x minus the tibia's"
 CLOCK_UNITS = "h: hours and minutes; min: minutes and seconds"
+NAMED_MOST = 4  # rivals of a column in its question
 RAW = ("v", "mv", "volt", "volts", "mv/v", "ma", "a", "counts", "count", "ticks", "lsb", "%", "digits", "raw")
 
 
@@ -149,9 +150,9 @@ def _without_rivals(columns: list[ColumnUse], part: Part, kind: str) -> list[Col
                         columns[at], targets=(IGNORE,), why=f"{columns[wanted[0]].name!r} is the {target}"
                     )
                 continue
-            others = ", ".join(
-                f"{columns[other].name!r} (column {columns[other].number})" for other in rivals if other != at
-            )
+            rest = [other for other in rivals if other != at]
+            others = ", ".join(f"{columns[other].name!r} (column {columns[other].number})" for other in rest[:NAMED_MOST])
+            others += f" and {len(rest) - NAMED_MOST} more" if len(rest) > NAMED_MOST else ""
             changed[at] = replace(columns[at], targets=(OPEN,), why=f"it may be {target}, and so may {others}")
     return changed
 

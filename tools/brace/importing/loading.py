@@ -79,9 +79,15 @@ def _moves_across(joined: Columns, run: np.ndarray) -> bool:
     steps = np.abs(np.diff(along))[np.diff(run) == 0]
     steps = steps[steps > 1e-9]
     most = max(
-        (float(np.abs(across[run == n] - np.median(across[run == n])).max()) for n in np.unique(run)), default=0.0
+        (float(np.abs(across[rows] - np.median(across[rows])).max()) for rows in _of_each(run)), default=0.0
     )
     return bool(steps.size) and most > SIDEWAYS_RATIO * float(np.median(steps))
+
+
+def _of_each(numbers: np.ndarray) -> list[np.ndarray]:
+    """The rows of each number, in the order of the numbers."""
+    order = np.argsort(numbers, kind="stable")
+    return np.split(order, np.flatnonzero(np.diff(numbers[order])) + 1) if len(order) else []
 
 
 def _joined(tables: Sequence[Table], notes: list[str]) -> list[Table]:
@@ -230,8 +236,7 @@ def _held_angles(joined: Columns, run: np.ndarray, notes: list[str]) -> Columns:
     for name in ("theta1_rad", "theta2_rad"):
         values = joined[name].copy()
         most = 0.0
-        for number in np.unique(run):
-            rows = run == number
+        for rows in _of_each(run):
             spread = float(np.ptp(values[rows]))
             if 0.0 < spread <= HELD_RAD:
                 most = max(most, spread)
@@ -243,8 +248,7 @@ def _held_angles(joined: Columns, run: np.ndarray, notes: list[str]) -> Columns:
         joined[name] = values
     poses = numbers_of_poses(joined["theta1_rad"], joined["theta2_rad"], 5 * SAME_RAD)
     for name in ("theta1_rad", "theta2_rad"):
-        for pose in np.unique(poses):
-            rows = poses == pose
+        for pose, rows in enumerate(_of_each(poses), start=1):
             if 0.0 < np.ptp(joined[name][rows]):
                 notes.append(
                     f"{name} of pose {pose} differs by {np.ptp(joined[name][rows]):.2g} rad between runs: their median "
@@ -261,7 +265,7 @@ def _without_single_blanks(joined: Columns, run: np.ndarray, notes: list[str]) -
         if name not in joined:
             continue
         blank = np.isnan(joined[name])
-        whole = np.isin(run, [number for number in np.unique(run[blank]) if blank[run == number].all()])
+        whole = np.isin(run, [run[rows[0]] for rows in _of_each(run) if blank[rows].all()])
         single = blank & ~whole & ~drop
         if single.any():
             count = int(single.sum())
@@ -282,8 +286,7 @@ def _relative(joined: Columns, run: np.ndarray, mapping: MappingTable, notes: li
         if use.relative != "yes":
             continue
         for name in ("dx_mm", "dz_mm") if "d_mm" in use.targets else tuple(set(use.targets) & {"dx_mm", "dz_mm"}):
-            for number in np.unique(run):
-                rows = np.flatnonzero(run == number)
+            for rows in _of_each(run):
                 joined[name][rows] -= joined[name][rows[0]]
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -192,7 +193,7 @@ def read(path: Path) -> MappingTable:
     content = document.content
     _known(document, content, ("format", "kind", "meta", "column", "constant"), "")
     kind = content.get("kind")
-    if kind not in TARGETS:
+    if not isinstance(kind, str) or kind not in TARGETS:
         raise _bad(document, "kind", f"kind = {kind!r} is no kind of record", f"one of {', '.join(TARGETS)}")
     columns = tuple(
         _column(document, f"column.{number}", entry, str(kind))
@@ -236,7 +237,12 @@ def _column(document: toml.Document, at: str, entry: dict[str, object], kind: st
     if sign not in ("1", "-1", OPEN):
         raise _bad(document, f"{at}.sign", f"sign = {sign} is no sign", "1 or -1")
     offset, relative, values = entry.get("offset", 0.0), entry.get("relative", False), entry.get("values", {})
-    if isinstance(offset, bool) or not isinstance(offset, (int, float)):
+    number = entry.get("number", 0)
+    if isinstance(number, bool) or not isinstance(number, int):
+        raise _bad(document, f"{at}.number", f"number = {number!r} is no place in the file", "a whole number, from 1")
+    if not targets:
+        raise _bad(document, f"{at}.is", "is = [] says nothing", f'is = "{IGNORE}" leaves the column out')
+    if isinstance(offset, bool) or not isinstance(offset, (int, float)) or not math.isfinite(offset):
         raise _bad(
             document, f"{at}.offset", f"offset = {offset!r} is not a number", "a number in our unit (rad, mm, N)"
         )
@@ -246,7 +252,7 @@ def _column(document: toml.Document, at: str, entry: dict[str, object], kind: st
         raise _bad(document, f"{at}.values", "values says x or z for each entry", '{ "horizontal" = "x" }')
     return ColumnUse(
         name=str(entry.get("name", "")),
-        number=int(str(entry.get("number", 0))),
+        number=number,
         targets=tuple(map(str, targets)),
         file=str(entry.get("file", "")),
         unit=unit,
@@ -278,7 +284,8 @@ def checked_constant(target: str, value: str, unit: str = "", file: str = "") ->
             raise UsageError(f"axis = {value!r} is no axis", why="x is outwards, z up", next_step="x or z")
         return Constant(target, value, "", file, "said")
     try:
-        float(value)
+        if not math.isfinite(float(value)):
+            raise ValueError
     except ValueError:
         raise UsageError(f"{target} = {value!r} is not a number", why="", next_step="e.g. 42.5") from None
     found = unit_of(unit)

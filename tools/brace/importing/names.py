@@ -45,7 +45,7 @@ _WORDS: dict[str, tuple[str, ...]] = {
             "i", "n"),
     "config": ("config", "configuration", "pose", "posture", "haltung", "konfiguration", "stellung", "cfg"),
     "axis": ("axis", "achse", "direction", "richtung", "dir"),
-    "command": ("command", "commanded", "cmd", "soll", "setpoint", "target", "demand", "reference", "ref", "sollwert"),
+    "command": ("command", "commanded", "cmd", "soll", "setpoint", "target", "demand", "reference", "ref", "sollwert", "goal"),
     "actual": ("actual", "measured", "ist", "gemessen", "meas", "istwert", "act"),
     "encoder": ("encoder", "enc", "output", "abtrieb", "drehgeber"),
     "base": ("base", "basis", "sockel", "gestell", "frame", "mount"),

@@ -22,6 +22,7 @@ _SUMMARIES = frozenset(
     ("mean", "average", "avg", "max", "min", "maximum", "minimum", "std", "stdev", "sum", "median", "total", "range")
     + ("mittelwert", "mittel", "durchschnitt", "summe", "standardabweichung", "spannweite")
 )
+_TITLE_MOST = 200  # characters
 _TITLES = frozenset(("run", "rep", "config", "axis", "test"))
 
 
@@ -152,7 +153,7 @@ def _heads_block(line: Line) -> bool:
     line (a row of overloads, a word) stands within one block: it must not cut a run in two."""
     if _sums_up(line):
         return False
-    words = names_of.read(line.text).words
+    words = names_of.read(line.text[:_TITLE_MOST]).words
     if line.filled == 1 and words & _TITLES and re.search(r"\d", line.text):
         return True
     keys = [(key, value) for key, value in _remarks([line]).items() if any(c.isalpha() for c in key)]
