@@ -133,3 +133,23 @@ def test_what_would_change_nothing_is_refused(brace: Brace, tmp_path: Path, said
     path = saved(tmp_path, "one.csv", block("x", (30, 60)))
     refused = brace("import", path, "--set", "axis=x", "--set", said, "--yes", "--out", tmp_path / "out")
     assert refused.code == 2 and "would change nothing" in refused.err and words in refused.err, refused.err
+
+
+@pytest.mark.parametrize("table", ["column", "constant"])
+def test_a_second_entry_for_the_same_is_refused(brace: Brace, tmp_path: Path, table: str) -> None:
+    path, mapping = saved(tmp_path, "one.csv", block("x", (30, 60))), tmp_path / "m.toml"
+    brace("import", path, "--set", "axis=x", "--draft", mapping)
+    entries = mapping.read_text().split("\n\n")
+    again = next(entry for entry in entries if entry.startswith(f"[[{table}]]"))
+    mapping.write_text("\n\n".join([*entries, again]))
+    refused = brace("import", path, "--mapping", mapping, "--out", tmp_path / "out")
+    assert refused.code == 3 and f"a second [[{table}]] for" in refused.err, refused.err
+
+
+def test_a_mapping_that_gives_all_tables_of_a_file_one_posture_is_refused(brace: Brace, tmp_path: Path) -> None:
+    path = saved(tmp_path, "blocks.csv", "Axis: x", block("x", (30, 60)), "Axis: x", block("x", (60, 90)))
+    mapping = tmp_path / "m.toml"
+    brace("import", path, "--set", "blocks.csv:theta1=30deg", "--draft", mapping)
+    refused = brace("import", path, "--mapping", mapping, "--out", tmp_path / "out")
+    assert refused.code == 3 and "this file has Femur angle: 60 deg" in refused.err, refused.err
+    assert 'file = "blocks.csv#2"' in refused.err

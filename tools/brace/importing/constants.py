@@ -153,8 +153,8 @@ def _alike(each: Sequence[Constant], places: Sequence[str]) -> Constant | None:
 
 
 def told_against_remarks(parts: Sequence[Part], table: MappingTable, said: Sequence[Constant]) -> list[str]:
-    """Notes of what was said (--set) against a file's own remark. Refuses a constant of all files that the mapping holds
-    and this file's remark contradicts: it is another file's."""
+    """Notes of what was said (--set) against a table's own remark. Refuses a constant of the mapping that is not this
+    table's alone and that its remark contradicts: it is another's."""
     notes = []
     for part in parts if all(part.log is None for part in parts) else ():
         for target in CONSTANTS[table.kind]:
@@ -165,7 +165,7 @@ def told_against_remarks(parts: Sequence[Part], table: MappingTable, said: Seque
             value, other = f"{used.value} {used.unit}".strip(), told.why if told.unit else f"{told.value} ({told.why})"
             if used in said:
                 notes.append(f"{part.places[0]}: {target} = {value} was said, and the file has {other}")
-            elif not used.file:
+            elif used.file != part.places[0]:
                 raise BadFileError(
                     f"{target} is {value} by the mapping, and this file has {other}",
                     where=str(part.path) + (f", table {part.block}" if part.block else ""),

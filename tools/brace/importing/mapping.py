@@ -203,10 +203,19 @@ def read(path: Path) -> MappingTable:
         _constant(document, f"constant.{number}", entry, str(kind))
         for number, entry in enumerate(_tables(content, "constant"))
     )
+    _refuse_twice(document, "column", [(use.file, use.name, use.number) for use in columns])
+    _refuse_twice(document, "constant", [(each.file, each.target) for each in constants])
     meta = content.get("meta", {})
     if not isinstance(meta, dict) or not all(isinstance(item, dict) for item in meta.values()):
         raise _bad(document, "meta", "meta holds tables of meta.toml", "e.g. [meta.sensor] range_n = 145.0")
     return MappingTable(str(kind), columns, constants, meta)
+
+
+def _refuse_twice(document: toml.Document, name: str, keys: Sequence[tuple[object, ...]]) -> None:
+    for number, key in enumerate(keys):
+        if key in keys[:number]:
+            told = " ".join(str(part) for part in key if part)
+            raise _bad(document, f"{name}.{number}", f"a second [[{name}]] for {told}", "delete one of the two")
 
 
 def _tables(content: Mapping[str, object], name: str) -> list[dict[str, object]]:
