@@ -36,9 +36,11 @@ def refuse_what_would_go(folder: Path, meta: Mapping[str, object]) -> None:
                 why="it is a table in a table, or a date",
                 next_step="write it as text, or --out another folder",
             )
-    if meta.get("zeroed", "per_run") != "per_run":
+    rig = meta.get("rig")
+    zeroed = meta.get("zeroed", rig.get("zeroed", "per_run") if isinstance(rig, Mapping) else "per_run")
+    if zeroed != "per_run":
         raise UsageError(
-            f"--add to a record with zeroed = {meta['zeroed']!r}",
+            f"--add to a record with zeroed = {zeroed!r}",
             where=str(folder / "meta.toml"),
             why="the forces of a loading test count from each run's first reading",
             next_step="--out another folder",
