@@ -59,8 +59,10 @@ def test_what_a_person_added_to_a_record_stays(brace: Brace, tmp_path: Path) -> 
 
 
 @pytest.mark.parametrize(
-    ("entry", "words"), [("when = 2024-05-01", "cannot keep when"), ("zeroed = 'never'", "zeroed = 'never'"), ("[rig]\nzeroed = 'never'", "'never'")]
-)
+    ("entry", "words"),
+    [("when = 2024-05-01", "cannot keep when"), ("zeroed = 'never'", "zeroed = 'never'"),
+     ("[rig]\nzeroed = 'never'", "'never'")],
+)  # fmt: skip
 def test_what_cannot_be_kept_is_refused_before_anything_moves(
     brace: Brace, tmp_path: Path, entry: str, words: str
 ) -> None:

@@ -43,7 +43,8 @@ def test_numbers_that_are_kept_as_text(brace: Brace, tmp_path: Path, sign: str) 
 
 
 def test_rows_beyond_what_the_sheet_says_it_has(brace: Brace, tmp_path: Path) -> None:
-    path = changed(excel(tmp_path)[0], lambda sheet: sheet.replace(b"<sheetData>", b'<dimension ref="A1:G9"/><sheetData>'))
+    said = b'<dimension ref="A1:G9"/><sheetData>'
+    path = changed(excel(tmp_path)[0], lambda sheet: sheet.replace(b"<sheetData>", said))
     done = brace("import", path, "--yes", "--out", tmp_path / "out")
     assert done.code == 0 and load_dataset(tmp_path / "out").rows == Record().rows, done.err
 

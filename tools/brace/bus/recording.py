@@ -50,7 +50,8 @@ class Recording:
                 "the output would replace what a recording before this one left",
                 where=str(self.part),
                 why="a recording that was cut off leaves its frames there, or another one is running",
-                next_step=f"rename it to keep it (it can be read: --bus log:{self.part}) or delete it; or choose another --out",
+                next_step=f"rename it to keep it (it can be read: --bus log:{self.part}) or delete it; or choose "
+                "another --out",
             )
 
     def add(self, frame: Frame) -> None:

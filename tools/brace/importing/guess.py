@@ -151,7 +151,8 @@ def _without_rivals(columns: list[ColumnUse], part: Part, kind: str) -> list[Col
                     )
                 continue
             rest = [other for other in rivals if other != at]
-            others = ", ".join(f"{columns[other].name!r} (column {columns[other].number})" for other in rest[:NAMED_MOST])
+            told = [f"{columns[other].name!r} (column {columns[other].number})" for other in rest[:NAMED_MOST]]
+            others = ", ".join(told)
             others += f" and {len(rest) - NAMED_MOST} more" if len(rest) > NAMED_MOST else ""
             changed[at] = replace(columns[at], targets=(OPEN,), why=f"it may be {target}, and so may {others}")
     return changed

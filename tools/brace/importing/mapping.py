@@ -116,8 +116,8 @@ class MappingTable:
         return next((found[place] for place in (*places, "") if place in found), None)
 
     def with_constants(self, given: Iterable[Constant], tables: Sequence[Sequence[str]]) -> MappingTable:
-        """The same with some constants said. tables: the places of each table. Where each has a constant of its own, the
-        one of all files says nothing any more."""
+        """The same with some constants said. tables: the places of each table. Where each has a constant of its own,
+        the one of all files says nothing any more."""
         kept = self
         for new in given:
             rest = tuple(

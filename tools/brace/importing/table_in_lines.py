@@ -149,8 +149,8 @@ def parts(path: Path, lines: Sequence[Line], *, decimal: str, how: str, sheet: s
 
 
 def _heads_block(line: Line) -> bool:
-    """Whether a line among the readings begins another block: a remark with a key, or a title such as 'run 2'. Any other
-    line (a row of overloads, a word) stands within one block: it must not cut a run in two."""
+    """Whether a line among the readings begins another block: a remark with a key, or a title such as 'run 2'. Any
+    other line (a row of overloads, a word) stands within one block: it must not cut a run in two."""
     if _sums_up(line):
         return False
     words = names_of.read(line.text[:_TITLE_MOST]).words
