@@ -32,7 +32,7 @@ _TABLE: dict[str, dict[str, float]] = {
         "rad": 1.0, "mrad": 1e-3, "deg": math.pi / 180, "arcmin": math.pi / 10800, "gon": math.pi / 200,
         "rev": 2 * math.pi,
     },
-    "time": {"s": 1.0, "ms": 1e-3, "us": 1e-6, "min": 60.0, "h": 3600.0},
+    "time": {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9, "min": 60.0, "h": 3600.0},
     "temperature": {"degC": 1.0, "K": 1.0, "degF": 5 / 9},
     "torque": {
         "N mm": 1.0, "N m": 1e3, "mN m": 1.0, "N cm": 10.0, "kN m": 1e6, "kgf cm": G_M_PER_S2 * 10,
@@ -75,7 +75,7 @@ _SPELLED = {
     "turns": "rev", "revolution": "rev", "revolutions": "rev", "umdrehung": "rev", "umdrehungen": "rev",
     "sec": "s", "secs": "s", "second": "s", "seconds": "s", "sek": "s", "sekunde": "s", "sekunden": "s",
     "millisecond": "ms", "milliseconds": "ms", "msec": "ms", "millisekunden": "ms", "\u00b5s": "us", "\u03bcs": "us",
-    "usec": "us", "microseconds": "us", "minute": "min", "minutes": "min", "minuten": "min", "hour": "h",
+    "usec": "us", "microseconds": "us", "nsec": "ns", "nanoseconds": "ns", "minute": "min", "minutes": "min", "minuten": "min", "hour": "h",
     "hours": "h", "stunden": "h",
     "\u00b0c": "degC", "celsius": "degC", "deg_c": "degC", "deg c": "degC", "grad celsius": "degC",
     "kelvin": "K", "\u00b0f": "degF", "fahrenheit": "degF", "deg f": "degF", "deg_f": "degF",

@@ -299,7 +299,7 @@ def test_rows_that_sum_up_are_no_readings(brace: Brace, tmp_path: Path) -> None:
          + "\nMax,988,63,126,2.54,2.54,16,8\n"),
     ):  # fmt: skip
         done = brace("import", saved(tmp_path, content, name), "--out", tmp_path / name[:3], "--yes")
-        assert done.code == 0 and "1 line below the table left out" in done.err, done.err
+        assert done.code == 0 and "1 line among or below the readings left out" in done.err, done.err
         assert load_dataset(tmp_path / name[:3]).rows == 204
 
 

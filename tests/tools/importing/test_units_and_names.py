@@ -131,3 +131,29 @@ def test_dates_of_a_column_are_of_one_form(dates: tuple[str, str], days: int) ->
     """Read cell by cell, 12/03 was the third of December and 13/03 the thirteenth of March."""
     first, last = numerals.clocks_s([f"{date} 00:00:01" for date in dates])
     assert last - first == days * numerals.DAY_S
+
+
+@pytest.mark.parametrize(
+    ("name", "unit"),
+    [
+        ("Force kN", "kN"), ("Force in kN", "kN"), ("Fx mN", "mN"), ("Fx daN", "daN"), ("Fx cN", "cN"),
+        ("Torque mNm", "mN m"), ("Torque kNm", "kN m"), ("Angle mRad", "mrad"), ("Fx N", "N"), ("Time ms", "ms"),
+        ("forceXN", "N"), ("ForceKN", None), ("forceXkN", None), ("tauMNm", None),
+    ],
+)  # fmt: skip
+def test_a_units_prefix_behind_a_name_counts(name: str, unit: str | None) -> None:
+    """What may be a prefix, or the name's last letter, is asked."""
+    read = names.read(name)
+    assert (read.unit.text if read.unit else None) == unit
+
+
+@pytest.mark.parametrize(
+    ("text", "decimal", "value"),
+    [("3,8", ".", None), ("0,635", ".", None), ("1.234,5", ".", None), ("1,5", ",", 1.5), ("12.5", ",", None),
+     ("1,234", ".", 1234.0), ("1,234.5", ".", 1234.5), ("-12.345.678,9e1", ",", -123456789.0), ("1'234.5", ".", 1234.5),
+     ("12,34,567", ".", None)],
+)  # fmt: skip
+def test_thousands_are_groups_of_three_digits(text: str, decimal: str, value: float | None) -> None:
+    """3,8 with a decimal point was 38."""
+    read = numerals.number(text, decimal)
+    assert math.isnan(read) if value is None else read == value

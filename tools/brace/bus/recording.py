@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import time
+from collections.abc import Iterable
 from pathlib import Path
 from typing import BinaryIO
 
@@ -18,7 +19,7 @@ FLUSH_S = 0.5
 class Recording:
     """FILE.part until finish(), then FILE."""
 
-    def __init__(self, path: Path, interface: str) -> None:
+    def __init__(self, path: Path, interface: str, inputs: Iterable[Path] = ()) -> None:
         if path.suffix not in ENDINGS:
             raise UsageError(
                 f"--out {path}: no kind of log ends so",
@@ -26,13 +27,32 @@ class Recording:
                 why=".log is candump's form, .mcap is MCAP",
                 next_step=f"--out {path.with_suffix('.log')}",
             )
-        self.path = checked_destination(path)
+        self.path = checked_destination(path, inputs)
         self.part = self.path.with_name(self.path.name + ".part")
+        self._refuse_recorded()
         self._interface = interface
         self._file: BinaryIO | None = None
         self._writer: Writer | None = None
         self._flushed_s = 0.0
         self.frames = 0
+
+    def _refuse_recorded(self) -> None:
+        """What was recorded is never replaced: nobody can record it again."""
+        if self.path.exists():
+            raise UsageError(
+                "the output would replace a log that is there",
+                where=str(self.path),
+                why="what it holds may not come again",
+                next_step="choose another --out, or move the log away",
+            )
+        if self.part.exists():
+            raise UsageError(
+                "the output would replace what a recording before this one left",
+                where=str(self.part),
+                why="a recording that was cut off leaves its frames there, or another one is running",
+                next_step=f"rename it to keep it (it can be read: --bus log:{self.part}) or delete it; or choose "
+                "another --out",
+            )
 
     def add(self, frame: Frame) -> None:
         """One more; the file begins with the first. OSError becomes a message."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -97,7 +98,7 @@ def _own_unit(name: str) -> str:
 def run(arguments: argparse.Namespace) -> int:
     """Executes the subcommand."""
     from brace.files import write_file
-    from brace.importing import guess, mapping, words
+    from brace.importing import constants, guess, mapping, words
     from brace.importing.build import build, sources
     from brace.importing.files import read_all
 
@@ -112,7 +113,9 @@ def run(arguments: argparse.Namespace) -> int:
         _refuse_strange_names(parts, table, arguments.mapping)
     else:
         table = guess.draft(parts, arguments.kind or "")
-    table = table.with_constants(arguments.set)
+    table = table.with_constants(arguments.set, [part.places for part in parts])
+    constants.refuse_without_effect(parts, table, arguments.set)
+    table = replace(table, notes=tuple(constants.told_against_remarks(parts, table, arguments.set)))
     shown = words.lines(parts, table)
     if arguments.draft is not None:
         write_file(arguments.draft, mapping.to_toml(table), inputs)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import signal
 import time
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from brace.cli import common
@@ -83,7 +84,8 @@ def _record(arguments: argparse.Namespace) -> int:
     from brace.errors import EXIT_INTERRUPTED, EXIT_OK, BraceError, NoDeviceError
 
     url = bus_url(arguments, "record")
-    recording = Recording(arguments.out, url.place if url.kind == "can" else "can0")
+    inputs = [Path(url.place)] if url.kind == "log" else []
+    recording = Recording(arguments.out, url.place if url.kind == "can" else "can0", inputs)
     watch = Watch(url.text, any_dictionary=True)  # frames are kept as they are
     bus = open_bus(url, arguments.bit_rate)
     try:

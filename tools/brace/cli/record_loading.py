@@ -22,7 +22,8 @@ _FILES = ("meta.toml", "data.csv")
 def record_loading(arguments: argparse.Namespace) -> int:
     """Runs, fetches, writes."""
     from brace.bus.can_controller import CanController
-    from brace.bus.loading_rows import added, counted_from_first, on_one_clock, with_motor_angles
+    from brace.bus.loading_added import meta_of_both, refuse_what_would_go
+    from brace.bus.loading_rows import PRELOADS, added, counted_from_first, on_one_clock, with_motor_angles
     from brace.bus.loading_test import Plan, fetch, run
     from brace.dataset.write import write_dataset
     from brace.errors import UsageError
@@ -40,6 +41,8 @@ def record_loading(arguments: argparse.Namespace) -> int:
         _refuse_record(arguments.out)
     axes = "xz" if arguments.axis == "both" else arguments.axis
     before = _record_before(arguments.out) if arguments.add and arguments.out.exists() else None
+    if before is not None:
+        refuse_what_would_go(arguments.out, before.meta.document.content)
     started: list[float] = []
     with undone_by_signal(), session(arguments, bus_url(arguments, "a loading test", answers=True)) as opened:
         device = CanController(opened)
@@ -64,8 +67,13 @@ def record_loading(arguments: argparse.Namespace) -> int:
     if before is not None:
         ended_s = before.meta.document.content.get("ended_unix_s")
         pause_s = started[0] - ended_s if isinstance(ended_s, (int, float)) else None
+        lost = sorted(set(before.columns) - set(columns) - set(PRELOADS))
         columns = added(dict(before.columns), columns, pause_s)
+        for name in lost:
+            common.say(f"note: {name} is left out: this test has none, and a record has each column in all of its runs")
+        meta = meta_of_both(before.meta.document.content, meta)
         meta["title"] = arguments.title or before.meta.title
+    meta.pop("ended_unix_s", None)
     meta = {"ended_unix_s": round(time.time(), 3), **meta}
     write_dataset(arguments.out, meta, columns)
     found = _refuse_unsound(arguments)

@@ -39,7 +39,7 @@ class Built:
 def build(parts: Sequence[Part], mapping: MappingTable) -> Built:
     """Converts and joins the parts. Refuses where something that must be said has not been."""
     parts = [settled(part, mapping) for part in parts]
-    notes = [f"{part.path.name}: {note}" for part in parts for note in part.notes]
+    notes = [*mapping.notes, *(f"{part.path.name}: {note}" for part in parts for note in part.notes)]
     tables = [_converted(part, mapping, notes) for part in parts]
     conversions = _conversions(mapping)
     try:
@@ -119,8 +119,11 @@ def _converted(part: Part, mapping: MappingTable, notes: list[str]) -> Table:
         if not use.used:
             continue
         used.append(use)
+        _refuse_other_unit(part, index, use)
         cells = part.cells(index)
         for target in use.targets:
+            if target in columns or target in texts:
+                raise _two_columns(part, used, target)
             quantity = TARGETS[mapping.kind][target]
             if not quantity:
                 texts[target] = [use.values.get(cell, cell) for cell in cells]
@@ -146,11 +149,11 @@ def _converted(part: Part, mapping: MappingTable, notes: list[str]) -> Table:
         )
     if bad.any():
         told = "; ".join(f"{reason} ({count})" for reason, count in reasons.most_common(4))
-        notes.append(f"{part.path.name}: {int(bad.sum())} of {bad.size} rows left out: {told}")
+        notes.append(f"{part.places[0]}: {int(bad.sum())} of {bad.size} rows left out: {told}")
     if part.skipped:
         notes.append(
-            f"{part.path.name}: {part.skipped} line{'s' if part.skipped > 1 else ''} below the table left out: no "
-            "readings"
+            f"{part.places[0]}: {part.skipped} line{'s' if part.skipped > 1 else ''} among or below the readings left "
+            "out: no readings"
         )
     keep = np.flatnonzero(~bad)
     return Table(
@@ -160,12 +163,34 @@ def _converted(part: Part, mapping: MappingTable, notes: list[str]) -> Table:
     )
 
 
+def _refuse_other_unit(part: Part, index: int, use: ColumnUse) -> None:
+    """A mapping knows columns by their names; a unit in a row of its own may be another in the next file."""
+    stated = unit_of(part.units[index]) if part.units and part.log is None else None
+    meant = unit_of(use.unit) if use.unit else None
+    if stated is not None and meant is not None and stated != meant:
+        raise BadFileError(
+            f"column {use.name!r} is in {stated.text} by the file's row of units, and in {meant.text} by the mapping",
+            where=part.where,
+            why="the mapping was made for a file with other units, or one of the two is wrong",
+            next_step=f'a [[column]] for this file alone (file = "{part.path.name}"), or correct the one that is wrong',
+        )
+
+
+def _two_columns(part: Part, used: Sequence[ColumnUse], target: str) -> BadFileError:
+    names = [f"{use.name!r}" for use in used if target in use.targets]
+    return BadFileError(
+        f"{len(names)} columns are {target}: {', '.join(names)}",
+        where=part.where,
+        why="a dataset has one of it, and which of them is meant is not said",
+        next_step='is = "ignore" for all but one of them in the mapping',
+    )
+
+
 def _numbers(part: Part, use: ColumnUse, cells: Sequence[str], target: str) -> tuple[np.ndarray, np.ndarray]:
     """A column in our unit, and which entries are there and are no numbers (OVERLOAD)."""
     values = np.array([numerals.number(cell, part.decimal) for cell in cells])
     if target == "t_s" and np.isnan(values).all():
-        values = np.array(numerals.clocks_s(cells))
-        values = values + np.cumsum(np.concatenate([[0.0], np.where(np.diff(values) < -43200.0, numerals.DAY_S, 0.0)]))
+        values = _clocks(part, use, cells)
     values = _without_marks(values)
     unread = np.array([math.isnan(value) and not numerals.is_missing(cell) for value, cell in zip(values, cells)])
     unit = UNITS.get(use.unit) or unit_of(use.unit)
@@ -178,6 +203,24 @@ def _numbers(part: Part, use: ColumnUse, cells: Sequence[str], target: str) -> t
         )
     sign = -1.0 if use.sign == "-1" else 1.0
     return sign * (unit.factor * values + unit.offset) + use.offset, unread
+
+
+def _clocks(part: Part, use: ColumnUse, cells: Sequence[str]) -> np.ndarray:
+    """Clock times, in the column's unit. Of 12:34 the unit says what its first number is."""
+    unit = unit_of(use.unit)
+    factor_s = unit.factor if unit else 1.0
+    values = np.array(numerals.clocks_s(cells)) / factor_s
+    short = np.array([numerals.short_clock(cell) for cell in cells])
+    if np.isfinite(short).any() and (unit is None or unit.text not in ("h", "min")):
+        raise BadFileError(
+            f"column {use.name!r} has times such as {cells[int(np.flatnonzero(np.isfinite(short))[0])]}",
+            where=part.where,
+            why="they may be hours and minutes, or minutes and seconds",
+            next_step='unit = "h" or unit = "min" in its [[column]]',
+        )
+    values = np.where(np.isfinite(short), short, values)
+    day = numerals.DAY_S / factor_s
+    return np.asarray(values + np.cumsum(np.concatenate([[0.0], np.where(np.diff(values) < -day / 2, day, 0.0)])))
 
 
 _MARKS = (9999.0, 99999.0, 999999.0, 9999999.0, 999.0, 999.9, 9999.9, 99999.9, 32767.0, 65535.0)
@@ -219,7 +262,7 @@ def _stacked(tables: Sequence[Table], mapping: MappingTable, notes: list[str]) -
     rows = [len(next(iter(table.columns.values()))) for table in tables]
     if mapping.kind == "joint_test":
         if "t_s" not in out:
-            dwell = [mapping.constant(table.part.path.name, "dwell_s") for table in tables]
+            dwell = [mapping.constant(table.part.places, "dwell_s") for table in tables]
             if any(each is None or each.value == "?" for each in dwell):
                 raise BadFileError(
                     "no column is t_s", where=tables[0].part.where, why="friction and creep follow the time",

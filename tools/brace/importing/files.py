@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from brace.errors import UsageError
+from brace.files import DATA_LIMIT_BYTES, read_bytes
 from brace.importing import textfile, workbook
 from brace.importing.logs import candump, mcap_file, one_clock
 from brace.importing.part import Part
@@ -31,11 +32,13 @@ def read_all(
         )
     parts: list[Part] = []
     for path in paths:
+        if not path.is_file():
+            read_bytes(path, DATA_LIMIT_BYTES, "file of readings")  # refuses; a pipe would be waited for
         if mcap_file.is_mcap(path):
             parts.append(one_clock.drafted(path, mcap_file.read(path, databases)))
         elif candump.is_candump(path):
             parts.append(one_clock.drafted(path, candump.read(path, databases)))
-        elif path.is_file() and workbook.is_workbook(path):
+        elif workbook.is_workbook(path):
             parts += workbook.read(path, sheet=sheet, decimal=decimal)
         else:
             parts += textfile.read(path, decimal=decimal, separator=separator)

@@ -4,7 +4,6 @@ open."""
 from __future__ import annotations
 
 import math
-import re
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
@@ -12,33 +11,33 @@ from dataclasses import replace
 import numpy as np
 
 from brace.importing import names, numerals
-from brace.importing.mapping import CONSTANTS, ColumnUse, Constant, MappingTable
-from brace.importing.meaning import IGNORE, OPEN, OPEN_ANGLES, TARGETS, UNKNOWN_NAME, quantity_of, target_of
+from brace.importing.constants import AXES, PERHAPS_ANGLE, constants_of
+from brace.importing.mapping import ColumnUse, MappingTable
+from brace.importing.meaning import IGNORE, OPEN, TARGETS, UNKNOWN_NAME, quantity_of, target_of
 from brace.importing.part import Part
-from brace.units import OWN, unit_of
+from brace.units import OWN
 
 FULL_TURN = 2 * math.pi
 BENT_BACK = "all its entries are negative, and theta2 is the femur's angle from +x minus the tibia's"
-_PERHAPS_ANGLE = f"an angle of the posture? {UNKNOWN_NAME}"
+CLOCK_UNITS = "h: hours and minutes; min: minutes and seconds"
+NAMED_MOST = 4  # rivals of a column in its question
 RAW = ("v", "mv", "volt", "volts", "mv/v", "ma", "a", "counts", "count", "ticks", "lsb", "%", "digits", "raw")
-AXES = {"x": "x", "z": "z", "horizontal": "x", "vertical": "z", "waagrecht": "x", "waagerecht": "x", "senkrecht": "z",
-        "vertikal": "z", "hor": "x", "ver": "z", "vert": "z", "h": "x", "v": "z"}  # fmt: skip
 
 
 def draft(parts: Sequence[Part], kind: str = "") -> MappingTable:
     """What the files seem to be. `kind`, if given, is not guessed."""
     kind = kind or _kind(parts)
     columns: list[ColumnUse] = []
-    layouts: dict[tuple[str, ...], list[Part]] = {}
+    layouts: dict[tuple[tuple[str, ...], tuple[str, ...]], list[Part]] = {}
     for part in parts:
-        layouts.setdefault(part.names, []).append(part)
+        layouts.setdefault((part.names, part.units), []).append(part)
     for layout in layouts.values():
         file = "" if len(layouts) == 1 else layout[0].path.name
         columns += _columns(layout, kind, file)
         for other in sorted({part.path.name for part in layout} - {file}) if file else ():
             columns += _columns(layout, kind, other)
     table = MappingTable(kind, tuple(columns))
-    return replace(table, constants=tuple(_constants(parts, table)))
+    return replace(table, constants=tuple(constants_of(parts, table)))
 
 
 def _kind(parts: Sequence[Part]) -> str:
@@ -61,7 +60,7 @@ def _columns(layout: Sequence[Part], kind: str, file: str) -> list[ColumnUse]:
     for index, header in enumerate(first.names):
         cells = [cell for part in layout for cell in part.cells(index)]
         found.append(_one(index, header, first, cells, kind, file))
-    found = _without_rivals(found, first, kind)
+    found = _perhaps_resultants(_without_rivals(found, first, kind))
     found = _angles_by_size(found, layout)
     found = _perhaps_angles(found, layout) if kind == "loading" else found
     return found if kind == "stiffness_table" else _signs_and_zeros(found, layout, kind)
@@ -81,8 +80,12 @@ def _one(index: int, header: str, part: Part, cells: list[str], kind: str, file:
         return _axis_column(use, cells)
     if target == "t_s" and not readable.any():
         clocks = [cell for cell in cells if not math.isnan(numerals.clock_s(cell))]
+        span = f"{clocks[0]} to {clocks[-1]}" if clocks else ""
+        if numerals.clocks_are_short(cells):
+            return replace(use, unit=OPEN, why="clock times", span=f"{span} ({CLOCK_UNITS})")
         if clocks:
-            return replace(use, unit="s", why="clock times", span=f"{clocks[0]} to {clocks[-1]}")
+            unit = "min" if numerals.clocks_are_minutes(cells) else "s"
+            return replace(use, unit=unit, why="clock times", span=span)
     if quantity and not readable.any():
         return replace(use, targets=(IGNORE,), why="it holds no numbers")
     if not quantity:
@@ -147,10 +150,25 @@ def _without_rivals(columns: list[ColumnUse], part: Part, kind: str) -> list[Col
                         columns[at], targets=(IGNORE,), why=f"{columns[wanted[0]].name!r} is the {target}"
                     )
                 continue
-            others = ", ".join(
-                f"{columns[other].name!r} (column {columns[other].number})" for other in rivals if other != at
-            )
+            rest = [other for other in rivals if other != at]
+            told = [f"{columns[other].name!r} (column {columns[other].number})" for other in rest[:NAMED_MOST]]
+            others = ", ".join(told)
+            others += f" and {len(rest) - NAMED_MOST} more" if len(rest) > NAMED_MOST else ""
             changed[at] = replace(columns[at], targets=(OPEN,), why=f"it may be {target}, and so may {others}")
+    return changed
+
+
+def _perhaps_resultants(columns: list[ColumnUse]) -> list[ColumnUse]:
+    """A force without an axis beside one along x or z: along the motion, or the length of the vector? It is asked."""
+    changed = list(columns)
+    for plain, along in (("f_n", ("fx_n", "fz_n")), ("d_mm", ("dx_mm", "dz_mm"))):
+        others = [use.name for use in columns if set(use.targets) & set(along)]
+        for at, use in enumerate(columns):
+            if others and plain in use.targets:
+                changed[at] = replace(
+                    use, targets=(OPEN,),
+                    why=f"{plain}, along the motion, or a resultant of {', '.join(map(repr, others))} (ignore)",
+                )  # fmt: skip
     return changed
 
 
@@ -191,7 +209,7 @@ def _perhaps_angles(columns: list[ColumnUse], layout: Sequence[Part]) -> list[Co
         values = values[np.isfinite(values)]
         changes = np.count_nonzero(np.diff(values))
         if 0 < 2 * changes <= values.size and np.abs(values).max() <= 360.0:
-            changed[at] = replace(use, targets=(OPEN,), why=_PERHAPS_ANGLE)
+            changed[at] = replace(use, targets=(OPEN,), why=PERHAPS_ANGLE)
     return changed
 
 
@@ -244,118 +262,3 @@ def _signs_and_zeros(columns: list[ColumnUse], layout: Sequence[Part], kind: str
 def _within(values: np.ndarray) -> np.ndarray:
     """Changes from entry to entry, over short distances and long: both are blind to offsets between runs."""
     return np.asarray(np.diff(values))
-
-
-_VALUE = re.compile(r"\s*([-+\u2212]?[\d.,]+(?:[eE][-+]?\d+)?)\s*(.*)")
-
-
-def _constants(parts: Sequence[Part], table: MappingTable) -> list[Constant]:
-    """What no column says: from the remarks above the table, from the file's name, or open."""
-    found: list[Constant] = []
-    for part in parts:
-        if not part.has_names:
-            continue
-        have = {
-            target
-            for index, name in enumerate(part.names, start=1)
-            if (use := table.column(part.path.name, name, index))
-            for target in use.targets
-        }
-        if len(parts) > 1 and "t_s" in have and table.kind == "loading" and not (_MOVES & have and _PUSHES & have):
-            continue  # one of two instruments: the other file says the rest
-        asked = sum(
-            1
-            for index, name in enumerate(part.names, start=1)
-            if (use := table.column(part.path.name, name, index))
-            and OPEN in use.targets
-            and use.why in (*OPEN_ANGLES, _PERHAPS_ANGLE)
-        )
-        for target in CONSTANTS[table.kind]:
-            given = _from_remarks(part, target, table.kind)
-            if target in have or target == "dwell_s":
-                continue
-            if target == "axis" and not _needs_axis(have):
-                continue
-            if given is None and target in ("theta1_rad", "theta2_rad") and asked:
-                asked -= 1
-                continue  # the column's question stands for it
-            if given is None and target == "axis":
-                given = _axis_of_name(part)
-            if given is None and target == "temp_degc":
-                continue
-            found.append(
-                given or Constant(target, OPEN, OPEN if target != "axis" else "", part.path.name, _ask(target))
-            )
-        if table.kind != "stiffness_table" and "t_s" not in have:
-            found.append(Constant("dwell_s", OPEN, "s", part.path.name, _ask("dwell_s")))
-    return _of_all(found, {part.path.name for part in parts})
-
-
-_MOVES = {"dx_mm", "dz_mm", "d_mm"}
-_PUSHES = {"fx_n", "fz_n", "f_n", "weight_n"}
-
-
-def _needs_axis(have: set[str]) -> bool:
-    return (
-        not ({"dx_mm", "dz_mm"} <= have)
-        and not (have & {"dx_mm", "dz_mm"} and "d_mm" not in have)
-        and "axis" not in have
-    )
-
-
-def _ask(target: str) -> str:
-    return {
-        "theta1_rad": "at which femur angle (from +x) was it measured?",
-        "theta2_rad": "at which knee angle (0 is straight) was it measured?",
-        "axis": "along which axis was the tip moved, x (outwards) or z (up)?",
-        "dwell_s": "the file has no time: how much time is between two readings?",
-    }.get(target, "")
-
-
-def _from_remarks(part: Part, target: str, kind: str) -> Constant | None:
-    for key, text in part.remarks.items():
-        name = names.read(key)
-        file = part.path.name
-        if target == "axis":
-            if "axis" in name.words and (axis := AXES.get(text.lower().strip("+- "))):
-                return Constant("axis", axis, "", file, f"{key}: {text}")
-            continue
-        if name.words & {"noise", "command"} and "angle" not in name.words:
-            continue
-        match = _VALUE.fullmatch(text)
-        is_it = target_of(name, kind)[0] == target
-        if not is_it and match and target.startswith("theta"):  # 'Femur: 42.5 deg'
-            joint = {"theta1_rad": "femur", "theta2_rad": "tibia"}[target]
-            unit = unit_of(match.group(2))
-            is_it = (
-                joint in name.words and unit is not None and unit.quantity == "angle" and not name.words & {"encoder"}
-            )
-        if not is_it or not match:
-            continue
-        written = match.group(1)
-        sign = numerals.decimal_sign([written])[0]
-        value = numerals.number(written, sign if sign in (".", ",") else part.decimal)
-        unit = unit_of(match.group(2)) or name.unit
-        if math.isfinite(value):
-            fits = unit is not None and unit.quantity == TARGETS[kind][target]
-            return Constant(target, repr(value), unit.text if fits and unit else OPEN, file, f"{key}: {text}")
-    return None
-
-
-def _axis_of_name(part: Part) -> Constant | None:
-    words = re.findall(r"[a-z]+", re.sub(r"(?<=[a-z])(?=[A-Z])", " ", f"{part.path.stem} {part.sheet}").lower())
-    axes = {AXES[word] for word in words if word in AXES and word not in ("h", "v")}
-    return Constant("axis", axes.pop(), "", part.path.name, "the file's name") if len(axes) == 1 else None
-
-
-def _of_all(found: Sequence[Constant], files: set[str]) -> list[Constant]:
-    """Constants that every file has alike stand once."""
-    kept: list[Constant] = []
-    for target in dict.fromkeys(each.target for each in found):
-        each = [constant for constant in found if constant.target == target]
-        alike = {(constant.value, constant.unit) for constant in each}
-        if len(alike) == 1 and ({constant.file for constant in each} == files):
-            kept.append(replace(each[0], file=""))
-        else:
-            kept += list({(c.file, c.value): c for c in each}.values())
-    return kept

@@ -4,17 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TypeAlias
 
 import numpy as np
 
 from brace.errors import BadFileError
+from brace.importing.along import Columns, axis_of, displacements, forces
 from brace.importing.mapping import MappingTable
 from brace.importing.part import Table
-from brace.importing.runs import ANGLE_JUMP_RAD, boundaries, driven_axis, numbers_of_poses
+from brace.importing.runs import ANGLE_JUMP_RAD, boundaries, numbers_of_poses
 from brace.units import unit_of
 
-Columns: TypeAlias = dict[str, np.ndarray]
 SAME_RAD = 1e-3
 HELD_RAD = 0.06  # a commanded angle that is read back moves by so much at most while the limb is loaded
 OPTIONAL = ("enc1_rad", "enc2_rad", "base_x_mm", "base_z_mm")
@@ -80,9 +79,15 @@ def _moves_across(joined: Columns, run: np.ndarray) -> bool:
     steps = np.abs(np.diff(along))[np.diff(run) == 0]
     steps = steps[steps > 1e-9]
     most = max(
-        (float(np.abs(across[run == n] - np.median(across[run == n])).max()) for n in np.unique(run)), default=0.0
+        (float(np.abs(across[rows] - np.median(across[rows])).max()) for rows in _of_each(run)), default=0.0
     )
     return bool(steps.size) and most > SIDEWAYS_RATIO * float(np.median(steps))
+
+
+def _of_each(numbers: np.ndarray) -> list[np.ndarray]:
+    """The rows of each number, in the order of the numbers."""
+    order = np.argsort(numbers, kind="stable")
+    return np.split(order, np.flatnonzero(np.diff(numbers[order])) + 1) if len(order) else []
 
 
 def _joined(tables: Sequence[Table], notes: list[str]) -> list[Table]:
@@ -126,11 +131,11 @@ def _piece(table: Table, mapping: MappingTable, notes: list[str]) -> Columns:
     out: Columns = {name: columns[name] for name in (*OPTIONAL, "temp_degc") if name in columns}
     for name in ("theta1_rad", "theta2_rad"):
         out[name] = columns[name] if name in columns else np.full(rows, _constant(table, mapping, name))
-    if "temp_degc" not in out and (degc := mapping.constant(table.part.path.name, "temp_degc")) and degc.value != "?":
+    if "temp_degc" not in out and (degc := mapping.constant(table.part.places, "temp_degc")) and degc.value != "?":
         out["temp_degc"] = np.full(rows, _constant(table, mapping, "temp_degc"))
     out["t_s"] = columns["t_s"] if "t_s" in columns else _constant(table, mapping, "dwell_s") * np.arange(rows)
     if "t_s" not in columns:
-        notes.append(f"{table.part.path.name}: there is no time; t_s is the row number times dwell_s")
+        notes.append(f"{table.part.places[0]}: there is no time; t_s is the row number times dwell_s")
     given = np.zeros(rows, bool)
     given[0] = True
     for name in ("run", "rep", "config"):
@@ -140,16 +145,16 @@ def _piece(table: Table, mapping: MappingTable, notes: list[str]) -> Columns:
     for name in ("theta1_rad", "theta2_rad"):
         given[1:] |= np.abs(np.diff(out[name])) > ANGLE_JUMP_RAD
     given[1:] |= np.diff(out["t_s"]) < 0.0
-    axis = _axis(table, mapping, rows, np.cumsum(given) if "yes" in _relatives(mapping) else np.ones(rows, int))
+    axis = axis_of(table, mapping, rows, np.cumsum(given) if "yes" in _relatives(mapping) else np.ones(rows, int))
     given[1:] |= np.diff(axis) != 0
-    out |= _displacements(table, axis, rows, notes)
+    out |= displacements(table, axis, rows, notes)
     along = np.where(axis == 1, out["dz_mm"], out["dx_mm"])
     group = np.cumsum(given)
     middle = along - along[np.searchsorted(group, group)] if "yes" in _relatives(mapping) else along
     numbered = len(set(table.texts.get("run", ()))) > 1
     out["begins"] = given if numbered else boundaries(middle, given)
     out["axis"] = axis
-    out |= _forces(table, axis, rows, notes)
+    out |= forces(table, axis, rows, notes)
     if len({"dx_mm", "dz_mm", "d_mm"} & set(columns)) > 1 and "weight_n" not in columns:
         _loaded_as_said(table, axis, out, group)
     return out
@@ -185,7 +190,7 @@ def _relatives(mapping: MappingTable) -> list[str]:
 
 
 def _constant(table: Table, mapping: MappingTable, target: str) -> float:
-    found = mapping.constant(table.part.path.name, target)
+    found = mapping.constant(table.part.places, target)
     if found is None or found.value == "?":
         ask = {
             "theta1_rad": "--set theta1=42deg", "theta2_rad": "--set theta2=80deg", "dwell_s": "--set dwell=4s",
@@ -201,86 +206,6 @@ def _constant(table: Table, mapping: MappingTable, target: str) -> float:
     unit = unit_of(found.unit)
     value = float(found.value)
     return value if unit is None else unit.factor * value + unit.offset
-
-
-def _axis(table: Table, mapping: MappingTable, rows: int, group: np.ndarray) -> np.ndarray:
-    """0 (x) or 1 (z) a row. group: rows between which displacements may count from another place."""
-    if "axis" in table.texts:
-        wrong = next((text for text in table.texts["axis"] if text not in ("x", "z")), None)
-        if wrong is not None:
-            raise BadFileError(
-                f"axis is {wrong!r} in a row",
-                where=table.part.where,
-                why="it is x (outwards) or z (up)",
-                next_step=f'e.g. values = {{ "{wrong}" = "x" }} in its [[column]]',
-            )
-        return np.array([text == "z" for text in table.texts["axis"]], np.int32)
-    constant = mapping.constant(table.part.path.name, "axis")
-    if constant is not None and constant.value != "?":
-        return np.full(rows, constant.value == "z", np.int32)
-    have = table.columns
-    if "dx_mm" in have and "dz_mm" in have:
-        firsts = np.searchsorted(group, group)
-        found = driven_axis(have["dx_mm"] - have["dx_mm"][firsts], have["dz_mm"] - have["dz_mm"][firsts])
-        if found is not None:
-            return found.astype(np.int32)
-        if "weight_n" in have:
-            return np.ones(rows, np.int32)
-    elif "dx_mm" in have or "dz_mm" in have:
-        return np.full(rows, "dz_mm" in have, np.int32)
-    raise BadFileError(
-        "the axis along which the tip was moved is not given",
-        where=table.part.where,
-        why="one displacement has no direction" if "d_mm" in have else "the tip moves along x and z at once",
-        next_step="--set axis=x or --set axis=z (for one of several files: --set FILE:axis=x)",
-    )
-
-
-def _displacements(table: Table, axis: np.ndarray, rows: int, notes: list[str]) -> Columns:
-    have, along_z = table.columns, axis == 1
-    out = {name: have.get(name, np.zeros(rows)) for name in ("dx_mm", "dz_mm")}
-    if "d_mm" in have:
-        out["dx_mm"] = np.where(along_z, out["dx_mm"], have["d_mm"])
-        out["dz_mm"] = np.where(along_z, have["d_mm"], out["dz_mm"])
-    lacking = [name for name in ("dx_mm", "dz_mm") if name not in have]
-    if "weight_n" in have and (lacking and not ("d_mm" in have and len(lacking) < 2)):
-        raise BadFileError(
-            "hung weights, and the tip's displacement is known along one axis only",
-            where=table.part.where,
-            why="a weight moves the tip sideways too, and K follows from both displacements",
-            next_step="measure dx_mm and dz_mm under each weight; or hold the tip sideways and read the force there",
-        )
-    if lacking:
-        were = "was" if len(lacking) == 1 else "were"
-        notes.append(
-            f"{table.part.path.name}: {' and '.join(lacking)} {were} not measured and taken as 0 across the axis: the "
-            "rig is taken to hold the tip there. If the tip was free to move that way, this record gives a wrong K: "
-            "measure both displacements"
-        )
-    return out
-
-
-def _forces(table: Table, axis: np.ndarray, rows: int, notes: list[str]) -> Columns:
-    have, along_z = table.columns, axis == 1
-    out = {name: have.get(name, np.full(rows, math.nan)) for name in ("fx_n", "fz_n")}
-    if "f_n" in have:
-        out["fx_n"] = np.where(along_z, out["fx_n"], have["f_n"])
-        out["fz_n"] = np.where(along_z, have["f_n"], out["fz_n"])
-    if "weight_n" in have:
-        if "fz_n" in have or "f_n" in have:
-            raise BadFileError(
-                "a force and a hung weight",
-                where=table.part.where,
-                why="both would be the force on the tip",
-                next_step="ignore one of the two in the mapping",
-            )
-        out["fz_n"] = -np.abs(have["weight_n"])
-        notes.append(
-            f"{table.part.path.name}: the force is that of hung weights, downwards (kg times 9.80665); it was not "
-            "measured, "
-            "and along x nothing was"
-        )
-    return out
 
 
 def _same_clock(pieces: list[Columns], notes: list[str]) -> None:
@@ -311,8 +236,7 @@ def _held_angles(joined: Columns, run: np.ndarray, notes: list[str]) -> Columns:
     for name in ("theta1_rad", "theta2_rad"):
         values = joined[name].copy()
         most = 0.0
-        for number in np.unique(run):
-            rows = run == number
+        for rows in _of_each(run):
             spread = float(np.ptp(values[rows]))
             if 0.0 < spread <= HELD_RAD:
                 most = max(most, spread)
@@ -324,8 +248,7 @@ def _held_angles(joined: Columns, run: np.ndarray, notes: list[str]) -> Columns:
         joined[name] = values
     poses = numbers_of_poses(joined["theta1_rad"], joined["theta2_rad"], 5 * SAME_RAD)
     for name in ("theta1_rad", "theta2_rad"):
-        for pose in np.unique(poses):
-            rows = poses == pose
+        for pose, rows in enumerate(_of_each(poses), start=1):
             if 0.0 < np.ptp(joined[name][rows]):
                 notes.append(
                     f"{name} of pose {pose} differs by {np.ptp(joined[name][rows]):.2g} rad between runs: their median "
@@ -342,7 +265,7 @@ def _without_single_blanks(joined: Columns, run: np.ndarray, notes: list[str]) -
         if name not in joined:
             continue
         blank = np.isnan(joined[name])
-        whole = np.isin(run, [number for number in np.unique(run[blank]) if blank[run == number].all()])
+        whole = np.isin(run, [run[rows[0]] for rows in _of_each(run) if blank[rows].all()])
         single = blank & ~whole & ~drop
         if single.any():
             count = int(single.sum())
@@ -363,8 +286,7 @@ def _relative(joined: Columns, run: np.ndarray, mapping: MappingTable, notes: li
         if use.relative != "yes":
             continue
         for name in ("dx_mm", "dz_mm") if "d_mm" in use.targets else tuple(set(use.targets) & {"dx_mm", "dz_mm"}):
-            for number in np.unique(run):
-                rows = np.flatnonzero(run == number)
+            for rows in _of_each(run):
                 joined[name][rows] -= joined[name][rows[0]]
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -109,17 +110,26 @@ class MappingTable:
         found = [use for use in self.columns if use.name == name and use.file in ("", file)]
         return next((use for use in found if use.number == number), found[0] if len(found) == 1 else None)
 
-    def constant(self, file: str, target: str) -> Constant | None:
-        """The file's own constant, or the one of all files."""
-        found = [each for each in self.constants if each.target == target and each.file in ("", file)]
-        return next((each for each in found if each.file), found[0] if found else None)
+    def constant(self, places: Sequence[str], target: str) -> Constant | None:
+        """The constant of the first of the places (a block, its file) that has its own, or the one of all files."""
+        found = {each.file: each for each in self.constants if each.target == target}
+        return next((found[place] for place in (*places, "") if place in found), None)
 
-    def with_constants(self, given: Iterable[Constant]) -> MappingTable:
-        """The same with some constants said."""
+    def with_constants(self, given: Iterable[Constant], tables: Sequence[Sequence[str]]) -> MappingTable:
+        """The same with some constants said. tables: the places of each table. Where each has a constant of its own,
+        the one of all files says nothing any more."""
         kept = self
         for new in given:
-            rest = tuple(c for c in kept.constants if c.target != new.target or (new.file and c.file != new.file))
+            rest = tuple(
+                c
+                for c in kept.constants
+                if c.target != new.target or (new.file and c.file != new.file and not c.file.startswith(new.file + "#"))
+            )
             kept = replace(kept, constants=(*rest, new))
+            own = {c.file for c in kept.constants if c.target == new.target and c.file}
+            if all(own & set(places) for places in tables):
+                left = tuple(c for c in kept.constants if c.target != new.target or c.file)
+                kept = replace(kept, constants=left)
         return kept
 
 
@@ -183,7 +193,7 @@ def read(path: Path) -> MappingTable:
     content = document.content
     _known(document, content, ("format", "kind", "meta", "column", "constant"), "")
     kind = content.get("kind")
-    if kind not in TARGETS:
+    if not isinstance(kind, str) or kind not in TARGETS:
         raise _bad(document, "kind", f"kind = {kind!r} is no kind of record", f"one of {', '.join(TARGETS)}")
     columns = tuple(
         _column(document, f"column.{number}", entry, str(kind))
@@ -193,10 +203,19 @@ def read(path: Path) -> MappingTable:
         _constant(document, f"constant.{number}", entry, str(kind))
         for number, entry in enumerate(_tables(content, "constant"))
     )
+    _refuse_twice(document, "column", [(use.file, use.name, use.number) for use in columns])
+    _refuse_twice(document, "constant", [(each.file, each.target) for each in constants])
     meta = content.get("meta", {})
     if not isinstance(meta, dict) or not all(isinstance(item, dict) for item in meta.values()):
         raise _bad(document, "meta", "meta holds tables of meta.toml", "e.g. [meta.sensor] range_n = 145.0")
     return MappingTable(str(kind), columns, constants, meta)
+
+
+def _refuse_twice(document: toml.Document, name: str, keys: Sequence[tuple[object, ...]]) -> None:
+    for number, key in enumerate(keys):
+        if key in keys[:number]:
+            told = " ".join(str(part) for part in key if part)
+            raise _bad(document, f"{name}.{number}", f"a second [[{name}]] for {told}", "delete one of the two")
 
 
 def _tables(content: Mapping[str, object], name: str) -> list[dict[str, object]]:
@@ -227,7 +246,12 @@ def _column(document: toml.Document, at: str, entry: dict[str, object], kind: st
     if sign not in ("1", "-1", OPEN):
         raise _bad(document, f"{at}.sign", f"sign = {sign} is no sign", "1 or -1")
     offset, relative, values = entry.get("offset", 0.0), entry.get("relative", False), entry.get("values", {})
-    if isinstance(offset, bool) or not isinstance(offset, (int, float)):
+    number = entry.get("number", 0)
+    if isinstance(number, bool) or not isinstance(number, int):
+        raise _bad(document, f"{at}.number", f"number = {number!r} is no place in the file", "a whole number, from 1")
+    if not targets:
+        raise _bad(document, f"{at}.is", "is = [] says nothing", f'is = "{IGNORE}" leaves the column out')
+    if isinstance(offset, bool) or not isinstance(offset, (int, float)) or not math.isfinite(offset):
         raise _bad(
             document, f"{at}.offset", f"offset = {offset!r} is not a number", "a number in our unit (rad, mm, N)"
         )
@@ -237,7 +261,7 @@ def _column(document: toml.Document, at: str, entry: dict[str, object], kind: st
         raise _bad(document, f"{at}.values", "values says x or z for each entry", '{ "horizontal" = "x" }')
     return ColumnUse(
         name=str(entry.get("name", "")),
-        number=int(str(entry.get("number", 0))),
+        number=number,
         targets=tuple(map(str, targets)),
         file=str(entry.get("file", "")),
         unit=unit,
@@ -269,7 +293,8 @@ def checked_constant(target: str, value: str, unit: str = "", file: str = "") ->
             raise UsageError(f"axis = {value!r} is no axis", why="x is outwards, z up", next_step="x or z")
         return Constant(target, value, "", file, "said")
     try:
-        float(value)
+        if not math.isfinite(float(value)):
+            raise ValueError
     except ValueError:
         raise UsageError(f"{target} = {value!r} is not a number", why="", next_step="e.g. 42.5") from None
     found = unit_of(unit)

@@ -17,6 +17,7 @@ LABVIEW_TIME = "x_value"  # of its .lvm files: neither a place nor along x
 _CAMEL = re.compile(r"(?<=[a-zA-Z0-9])([A-Z][a-z]*)$")  # tSec, thetaFemurDeg, forceXN
 _CAMEL_UNITS = {"Sec": "s", "Ms": "ms", "Deg": "deg", "Rad": "rad", "Mm": "mm", "N": "N", "Lbf": "lbf", "Inch": "in",
                 "Nm": "N m", "Nmm": "N mm"}  # fmt: skip
+_PREFIX_MOST = 2  # letters before a unit: k, m, da
 
 # word of a name -> what it means
 _WORDS: dict[str, tuple[str, ...]] = {
@@ -44,7 +45,8 @@ _WORDS: dict[str, tuple[str, ...]] = {
             "i", "n"),
     "config": ("config", "configuration", "pose", "posture", "haltung", "konfiguration", "stellung", "cfg"),
     "axis": ("axis", "achse", "direction", "richtung", "dir"),
-    "command": ("command", "commanded", "cmd", "soll", "setpoint", "target", "demand", "reference", "ref", "sollwert"),
+    "command": ("command", "commanded", "cmd", "soll", "setpoint", "target", "demand", "reference", "ref", "sollwert",
+                "goal"),
     "actual": ("actual", "measured", "ist", "gemessen", "meas", "istwert", "act"),
     "encoder": ("encoder", "enc", "output", "abtrieb", "drehgeber"),
     "base": ("base", "basis", "sockel", "gestell", "frame", "mount"),
@@ -116,9 +118,6 @@ def _without_unit(name: str) -> tuple[str, Unit | None, str]:
                 spoken = text.replace("_per_", "/").replace("_", " ")
                 if (unit := unit_of(spoken)) and not (count == 1 and text in ("h", "F", "C", "k", "K", "n_")):
                     return "_".join(pieces[:-count]), unit, text
-    camel = _CAMEL.search(name)
-    if camel and camel.group(1) in _CAMEL_UNITS:
-        return name[: camel.start()], unit_of(_CAMEL_UNITS[camel.group(1)]), camel.group(1)
     if behind := _BEHIND.search(name):
         text = behind.group(1)
         if (unit := unit_of(text)) and name[: behind.start()].strip():
@@ -126,6 +125,13 @@ def _without_unit(name: str) -> tuple[str, Unit | None, str]:
         end = text.split()[-1]
         if (unit := unit_of(end)) and name[: name.rfind(end)].strip():
             return name[: name.rfind(end)], unit, end
+    camel = _CAMEL.search(name)
+    if camel and camel.group(1) in _CAMEL_UNITS:
+        place = camel.start()
+        longer = [at for at in range(max(place - _PREFIX_MOST, 0), place) if unit_of(name[at:])]
+        if longer or name[place - 1] == "M":
+            return name[: longer[0] if longer else place - 1], None, ""  # ForceKN: newtons, or kilonewtons?
+        return name[:place], unit_of(_CAMEL_UNITS[camel.group(1)]), camel.group(1)
     return name, None, ""
 
 

@@ -15,10 +15,18 @@ _PLAIN = re.compile(r"[-+]?(?:\d+[.,]?\d*|[.,]\d+)(?:[eE][-+]?\d+)?")
 _GROUPED = re.compile(
     r"[-+]?\d{1,3}(?:(?P<mark>[.,'\u2019\u00a0\u202f ])\d{3})(?:(?P=mark)\d{3})*(?:[.,]\d+)?(?:[eE][-+]?\d+)?"
 )
+# Without the other sign, or with it between groups of three digits, by the decimal sign.
+_THOUSANDS = {
+    ".": re.compile(r"[^,]*|[-+]?[1-9]\d{0,2}(?:,\d{3})+(?:\.\d*)?(?:[eE][-+]?\d+)?"),
+    ",": re.compile(r"[^.]*|[-+]?[1-9]\d{0,2}(?:\.\d{3})+(?:,\d*)?(?:[eE][-+]?\d+)?"),
+}
 _MINUS = str.maketrans({"\u2212": "-", "\u2013": "-", "\u2012": "-", "\u00a0": " ", "\u202f": " "})
 _CLOCK = re.compile(
-    r"(?:(?P<date>[\d./-]+)[ T]+)?(?P<h>\d{1,2}):(?P<m>\d{2})(?::(?P<s>\d{2}(?:[.,]\d+)?))?\s*(?P<half>[AaPp][Mm])?Z?"
+    r"(?:(?P<date>[\d./-]+)[ T]+)?(?P<h>\d{1,2}):(?P<m>\d{2})(?::(?P<s>\d{2}(?:[.,]\d+)?))?\s*(?P<half>[AaPp][Mm])?"
+    r"\s*(?:Z|UTC|GMT|(?P<zone>[+-]\d{2}:?\d{2}))?"
 )
+_MINUTES = re.compile(r"(\d{1,3}):(\d{2}[.,]\d+)")
+_SHORT = re.compile(r"(\d{1,3}):(\d{2})")
 _DATE = (("%Y-%m-%d"), ("%d.%m.%Y"), ("%d.%m.%y"), ("%Y/%m/%d"), ("%m/%d/%Y"), ("%d/%m/%Y"), ("%d-%m-%Y"))
 DAY_S = 86400.0
 
@@ -72,17 +80,20 @@ def decimal_sign(cells: Iterable[str]) -> tuple[str, str, str]:
 
 
 def number(text: str, decimal: str) -> float:
-    """The number; NaN where the cell is none."""
+    """The number; NaN where the cell is none, and where a comma or point in it is neither the decimal sign nor one of
+    thousands."""
     text = plain(text)
-    if _PLAIN.fullmatch(text) or _GROUPED.fullmatch(text):
-        other = "." if decimal == "," else ","
-        text = re.sub(r"['\u2019 ]", "", text).replace(other, "")
-        try:
-            value = float(text.replace(",", "."))
-        except ValueError:
-            return math.nan
-        return value if math.isfinite(value) else math.nan
-    return math.nan
+    if not is_number(text):
+        return math.nan
+    text = re.sub(r"['\u2019 ]", "", text)
+    if not _THOUSANDS[decimal].fullmatch(text):
+        return math.nan
+    text = text.replace("." if decimal == "," else ",", "")
+    try:
+        value = float(text.replace(",", "."))
+    except ValueError:
+        return math.nan
+    return value if math.isfinite(value) else math.nan
 
 
 def clock_s(text: str) -> float:
@@ -100,14 +111,35 @@ def clocks_s(texts: Sequence[str]) -> list[float]:
     return [seconds + (DAY_S * days.get(date, math.nan) if date else 0.0) for date, seconds in clocks]
 
 
+def short_clock(text: str) -> float:
+    """12:34 as 12 and 34 sixtieths, of an hour or of a minute: nothing in it says of which. NaN for any other text."""
+    found = _SHORT.fullmatch(text.strip())
+    return int(found[1]) + int(found[2]) / 60.0 if found else math.nan
+
+
+def clocks_are_short(texts: Sequence[str]) -> bool:
+    """Whether a column's times have two parts each, of which none has a fraction."""
+    return any(_SHORT.fullmatch(text.strip()) for text in texts) and not clocks_are_minutes(texts)
+
+
+def clocks_are_minutes(texts: Sequence[str]) -> bool:
+    """Whether a column has minutes and seconds: 12:34.5."""
+    return any(_MINUTES.fullmatch(text.strip()) for text in texts)
+
+
 def _clock(text: str) -> tuple[str, float]:
     """The date as it is written, '' where there is none, and the seconds since midnight; NaN where it is no clock."""
+    if minutes := _MINUTES.fullmatch(text.strip()):
+        return "", 60.0 * int(minutes[1]) + float(minutes[2].replace(",", "."))
     found = _CLOCK.fullmatch(text.strip())
     if not found:
         return "", math.nan
     seconds = 3600.0 * int(found["h"]) + 60.0 * int(found["m"]) + float((found["s"] or "0").replace(",", "."))
     if found["half"]:
         seconds += (12 if found["half"].lower() == "pm" else 0) * 3600.0 - (12 * 3600.0 if int(found["h"]) == 12 else 0)
+    if zone := found["zone"]:
+        east = 3600.0 * int(zone[1:3]) + 60.0 * int(zone[-2:])
+        seconds -= east if zone[0] == "+" else -east
     return found["date"] or "", seconds
 
 

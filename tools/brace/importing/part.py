@@ -25,14 +25,21 @@ class Part:
     remarks: Mapping[str, str] = field(default_factory=dict)
     sheet: str = ""
     how: str = ""  # read: encoding, separator, decimal sign, in words
-    skipped: int = 0  # lines below the table that are no readings
+    skipped: int = 0  # lines among and below the readings that are none
     log: Log | None = None  # what the rows were made from, where sources have clocks of their own
+    block: int = 0  # from 1, of a file with several tables
     notes: tuple[str, ...] = ()  # what of the file is not in the rows, and how they were made
 
     @property
     def where(self) -> str:
         """The file, and its sheet."""
         return f"{self.path}[{self.sheet}]" if self.sheet else str(self.path)
+
+    @property
+    def places(self) -> tuple[str, ...]:
+        """What a constant may name as its file: the block, FILE#2, before the whole file."""
+        name = self.path.name
+        return (f"{name}#{self.block}", name) if self.block else (name,)
 
     @property
     def has_names(self) -> bool:

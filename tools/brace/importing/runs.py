@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 NEAR_ZERO_RATIO = 0.06  # of the largest displacement: the tip is back where it began
@@ -62,38 +64,34 @@ def driven_axis(dx_mm: np.ndarray, dz_mm: np.ndarray) -> np.ndarray | None:
     axis = np.where(x & ~z, 0, np.where(z & ~x, 1, -1))
     if not np.any(axis >= 0):
         return np.zeros(len(axis), int)
-    known = np.flatnonzero(axis >= 0)
+    known, rests = np.flatnonzero(axis >= 0), np.flatnonzero(axis < 0)
+    after = np.searchsorted(known, rests)
+    left, right = known[np.maximum(after - 1, 0)], known[np.minimum(after, known.size - 1)]
+    half = left + 1 + (right - left - 1) // 2  # a rest between two axes: its first half belongs to the pass before
     filled = axis.copy()
-    for row in np.flatnonzero(axis < 0):
-        after = np.searchsorted(known, row)
-        before = axis[known[after - 1]] if after > 0 else -1
-        following = axis[known[after]] if after < known.size else -1
-        filled[row] = following if before < 0 else before if following < 0 else -1
-        if before >= 0 and following >= 0:
-            filled[row] = before if before == following else -2
-    for row in np.flatnonzero(filled == -2):  # a rest between two axes: its first half belongs to the pass before
-        first, last = row, row
-        while first > 0 and axis[first - 1] < 0:
-            first -= 1
-        while last + 1 < axis.size and axis[last + 1] < 0:
-            last += 1
-        half = first + (last - first + 1) // 2
-        filled[row] = axis[first - 1] if row < half else axis[last + 1]
+    filled[rests] = np.where((after > 0) & ((after == known.size) | (rests < half)), axis[left], axis[right])
     return filled
 
 
 def numbers_of_poses(theta1_rad: np.ndarray, theta2_rad: np.ndarray, same_rad: float) -> np.ndarray:
     """From 1, in order of appearance: poses whose angles agree within `same_rad` have one number."""
-    seen: list[tuple[float, float]] = []
-    numbers = np.empty(len(theta1_rad), np.int32)
-    for row, pose in enumerate(zip(theta1_rad.tolist(), theta2_rad.tolist())):
-        if row and pose == (theta1_rad[row - 1], theta2_rad[row - 1]):
-            numbers[row] = numbers[row - 1]
-            continue
+    seen: dict[tuple[int, int], list[tuple[int, float, float]]] = {}  # by cells of same_rad: number and angles
+    count = 0
+    changes = np.flatnonzero(np.diff(theta1_rad, prepend=math.nan) != 0.0)
+    changes = np.union1d(changes, np.flatnonzero(np.diff(theta2_rad, prepend=math.nan) != 0.0))
+    numbers = np.zeros(len(theta1_rad), np.int32)
+    for row in changes.tolist():
+        first, second = float(theta1_rad[row]), float(theta2_rad[row])
+        at = math.floor(first / same_rad), math.floor(second / same_rad)
+        cells = ((at[0] + i, at[1] + j) for i in (-1, 0, 1) for j in (-1, 0, 1))
         near = [
-            at for at, other in enumerate(seen) if max(abs(pose[0] - other[0]), abs(pose[1] - other[1])) <= same_rad
+            number
+            for cell in cells
+            for number, one, two in seen.get(cell, ())
+            if max(abs(first - one), abs(second - two)) <= same_rad
         ]
         if not near:
-            seen.append(pose)
-        numbers[row] = near[0] + 1 if near else len(seen)
-    return numbers
+            count += 1
+            seen.setdefault(at, []).append((count, first, second))
+        numbers[row] = min(near, default=count)
+    return numbers[changes[np.searchsorted(changes, np.arange(len(numbers)), "right") - 1]]

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from brace.errors import BadFileError
+from brace.importing import names as names_of
 from brace.importing import numerals
 from brace.importing.part import Part
 from brace.units import unit_of
@@ -21,6 +22,8 @@ _SUMMARIES = frozenset(
     ("mean", "average", "avg", "max", "min", "maximum", "minimum", "std", "stdev", "sum", "median", "total", "range")
     + ("mittelwert", "mittel", "durchschnitt", "summe", "standardabweichung", "spannweite")
 )
+_TITLE_MOST = 200  # characters
+_TITLES = frozenset(("run", "rep", "config", "axis", "test"))
 
 
 @dataclass(frozen=True)
@@ -54,10 +57,22 @@ def width_of(lines: Sequence[Line]) -> int:
 
 def _holds_readings(line: Line, width: int) -> bool:
     cells = _fitted(line, width)
-    if cells is None or not line.filled or any(cell.strip().lower().rstrip(":") in _SUMMARIES for cell in cells):
+    if cells is None or not line.filled or _sums_up(line):
         return False
     void = sum(1 for cell in cells if cell.strip() and numerals.is_missing(cell))
     return line.readings >= 1 and 2 * (line.readings + void) >= line.filled
+
+
+def _is_row(line: Line, width: int) -> bool:
+    """Whether a line among the readings is one of theirs: of an overload there may be the time alone, in front."""
+    if _holds_readings(line, width):
+        return True
+    filled = [cell for cell in line.cells if cell.strip()]
+    return _fitted(line, width) is not None and bool(filled) and _is_reading(filled[0]) and not _sums_up(line)
+
+
+def _sums_up(line: Line) -> bool:
+    return any(cell.strip().lower().rstrip(":") in _SUMMARIES for cell in line.cells)
 
 
 def _fitted(line: Line, width: int) -> list[str] | None:
@@ -92,9 +107,11 @@ def parts(path: Path, lines: Sequence[Line], *, decimal: str, how: str, sheet: s
     rows: list[list[str]] = []
     numbers: list[int] = []
     between: list[Line] = []
-    sign = decimal or _sign(path, lines[first:], width)
+    skipped = 0
+    readings = (cell for line in lines[first:] if len(line.cells) == width for cell in line.cells)
+    sign = decimal or decimal_sign(path, readings)
 
-    def close(skipped: int = 0) -> None:
+    def close() -> None:
         if rows:
             told = f"{how}, decimal {'comma' if sign == ',' else 'point'}"
             found.append(Part(path, names, units, list(rows), list(numbers), sign, dict(remarks), sheet, told, skipped))
@@ -104,23 +121,44 @@ def parts(path: Path, lines: Sequence[Line], *, decimal: str, how: str, sheet: s
     for line in lines[first:]:
         if not line.filled:
             continue
-        if _holds_readings(line, width):
-            if between:
+        if _is_row(line, width):
+            heads = [other for other in between if _heads_block(other)]
+            skipped += len(between) - len(heads)
+            if heads:
                 close()
-                remarks = {**remarks, **_remarks(between)}
-                between = []
+                skipped = 0
+                remarks = {**remarks, **_remarks(heads)}
+            between = []
             cells = _fitted(line, width)
             assert cells is not None
             rows.append([cell.strip() for cell in cells])
             numbers.append(line.number)
         elif line.text.strip() in header_texts:
-            close()
+            skipped += sum(1 for other in between if not _heads_block(other))
+            between = [other for other in between if _heads_block(other)]
+            if rows:
+                close()
+                skipped = 0
         elif line.readings >= 2 and 2 * line.readings >= line.filled and len(line.cells) != width:
             raise _other_width(path, line, width)
         else:
             between.append(line)
-    close(len(between))
-    return found
+    skipped += len(between)
+    close()
+    return [replace(part, block=number) for number, part in enumerate(found, start=1)] if len(found) > 1 else found
+
+
+def _heads_block(line: Line) -> bool:
+    """Whether a line among the readings begins another block: a remark with a key, or a title such as 'run 2'. Any
+    other line (a row of overloads, a word) stands within one block: it must not cut a run in two."""
+    if _sums_up(line):
+        return False
+    words = names_of.read(line.text[:_TITLE_MOST]).words
+    if line.filled == 1 and words & _TITLES and re.search(r"\d", line.text):
+        return True
+    keys = [(key, value) for key, value in _remarks([line]).items() if any(c.isalpha() for c in key)]
+    by_mark = re.search(r"[:=]", line.text) is not None
+    return any((by_mark or line.filled <= 3) and not value.startswith(key) for key, value in keys)
 
 
 def _other_width(path: Path, line: Line, width: int) -> BadFileError:
@@ -247,9 +285,8 @@ def _remarks(lines: Sequence[Line]) -> dict[str, str]:
     return found
 
 
-def _sign(path: Path, lines: Sequence[Line], width: int) -> str:
+def decimal_sign(path: Path, cells: Iterable[str]) -> str:
     """The decimal sign of the readings. Refuses two at once, and what may be both."""
-    cells = (cell for line in lines if len(line.cells) == width for cell in line.cells)
     sign, point, comma = numerals.decimal_sign(cells)
     if sign == "?":
         raise BadFileError(

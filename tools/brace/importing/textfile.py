@@ -14,6 +14,7 @@ from brace.importing.part import Part
 from brace.importing.table_in_lines import Line, parts, width_of
 
 WHAT = "table of readings"
+csv.field_size_limit(DATA_LIMIT_BYTES)  # a long line is text, and no reason to end
 HEADER_LINES = 60
 SAMPLE_LINES = 400
 SEPARATORS = {";": "semicolons", "\t": "tabs", ",": "commas", "|": "bars", " ": "blanks"}

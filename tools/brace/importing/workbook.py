@@ -4,16 +4,21 @@ from __future__ import annotations
 
 import datetime
 import io
+import math
 import zipfile
+from collections.abc import Sequence
 from pathlib import Path
+from typing import TypeAlias
 
 from brace.errors import BadFileError, UsageError
 from brace.files import DATA_LIMIT_BYTES, read_bytes
+from brace.importing import numerals
 from brace.importing.numerals import DAY_S
 from brace.importing.part import Part
-from brace.importing.table_in_lines import Line, parts, width_of
+from brace.importing.table_in_lines import Line, decimal_sign, parts, width_of
 
 WHAT = "workbook"
+Row: TypeAlias = tuple[object, ...]
 
 
 def is_workbook(path: Path) -> bool:
@@ -36,7 +41,7 @@ def read(path: Path, *, sheet: str = "", decimal: str = "") -> list[Part]:
             next_step="save it as .xlsx or CSV, or unpack it",
         )
     try:
-        import openpyxl
+        import openpyxl  # noqa: F401
     except ImportError:
         raise UsageError(
             "this is an Excel workbook, and openpyxl is not installed",
@@ -44,17 +49,15 @@ def read(path: Path, *, sheet: str = "", decimal: str = "") -> list[Part]:
             why="openpyxl reads it",
             next_step="pip install openpyxl, or save the sheet as CSV",
         ) from None
-    book = openpyxl.load_workbook(io.BytesIO(data), read_only=True, data_only=True)
-    names = book.sheetnames
-    if sheet and sheet not in names:
+    sheets = _sheets(path, data)
+    if sheet and sheet not in sheets:
         raise UsageError(
-            f"no sheet {sheet!r}", where=str(path), why=f"its sheets are {', '.join(names)}", next_step="--sheet NAME"
+            f"no sheet {sheet!r}", where=str(path), why=f"its sheets are {', '.join(sheets)}", next_step="--sheet NAME"
         )
     tables = {}
-    for name in [sheet] if sheet else names:
-        lines = _lines(book[name])
-        if width_of(lines) >= 2:
-            tables[name] = lines
+    for name in [sheet] if sheet else sheets:
+        if width_of(_lines(sheets[name], ".")) >= 2:
+            tables[name] = sheets[name]
     if not tables:
         raise BadFileError(
             "no table of readings in this workbook",
@@ -69,8 +72,31 @@ def read(path: Path, *, sheet: str = "", decimal: str = "") -> list[Part]:
             why="it is not said which is meant",
             next_step=f"--sheet {next(iter(tables))!r}",
         )
-    name, lines = next(iter(tables.items()))
-    return parts(path, lines, decimal=decimal or ".", how="Excel workbook", sheet=name)
+    name, rows = next(iter(tables.items()))
+    texts = [cell for row in rows for cell in row if isinstance(cell, str)]
+    sign = decimal or decimal_sign(path, texts)
+    how = "Excel workbook" + (", decimal comma in its texts" if sign == "," else "")
+    return parts(path, _lines(rows, sign), decimal=".", how=how, sheet=name)
+
+
+def _sheets(path: Path, data: bytes) -> dict[str, list[Row]]:
+    """The cells of every sheet of a table. A sheet tells how many rows it has; some programs write that wrongly."""
+    import openpyxl
+
+    sheets = {}
+    try:
+        book = openpyxl.load_workbook(io.BytesIO(data), read_only=True, data_only=True)
+        for sheet in book.worksheets:
+            sheet.reset_dimensions()
+            sheets[sheet.title] = list(sheet.iter_rows(values_only=True))
+    except Exception as error:  # openpyxl lets through whatever its parsers raise
+        raise BadFileError(
+            "this workbook cannot be read",
+            where=str(path),
+            why=f"openpyxl: {type(error).__name__}: {str(error)[:200]}",
+            next_step="open it in a spreadsheet program and save it as .xlsx, or export the sheet as CSV",
+        ) from None
+    return sheets
 
 
 def _has_sheets(data: bytes) -> bool:
@@ -81,13 +107,19 @@ def _has_sheets(data: bytes) -> bool:
         return False
 
 
-def _lines(sheet: object) -> list[Line]:
+def _lines(rows: Sequence[Row], sign: str) -> list[Line]:
+    """sign: the decimal one of numbers that are kept as text. All numbers get a point."""
     lines = []
-    for number, row in enumerate(sheet.iter_rows(values_only=True), start=1):  # type: ignore[attr-defined]
-        texts = [_text(cell) for cell in row]
+    for number, row in enumerate(rows, start=1):
+        texts = [_with_point(cell, sign) if isinstance(cell, str) else _text(cell) for cell in row]
         lines.append(Line(number, ";".join(texts), texts))
     widest = max((index + 1 for line in lines for index, cell in enumerate(line.cells) if cell.strip()), default=0)
     return [Line(line.number, line.text, (line.cells + [""] * widest)[:widest]) for line in lines]
+
+
+def _with_point(text: str, sign: str) -> str:
+    value = numerals.number(text, sign)
+    return repr(value) if sign == "," and math.isfinite(value) else text.strip()
 
 
 def _text(cell: object) -> str:

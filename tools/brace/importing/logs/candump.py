@@ -16,6 +16,7 @@ from brace.importing.signal import Log
 
 _LINE = re.compile(rb"\(\d+\.\d+\)\s+\S+\s+[0-9A-Fa-f]{3,8}#")
 _SCREEN = re.compile(rb"\s*(?:\([^)]*\)\s+)?\w+\s+(?:(?:RX|TX)\s+\S+\s+\S+\s+)?[0-9A-Fa-f]{3,8}\s+\[ *\d+\]")
+_REMARK = re.compile(rb"(?m)^[ \t]*#[^\r\n]*")
 _HEAD_BYTES = 4096
 
 
@@ -26,14 +27,25 @@ def is_candump(path: Path) -> bool:
             lines = file.read(_HEAD_BYTES).splitlines()
     except OSError:
         return False
-    first = next((line for line in lines if line.strip()), b"")
+    first = _first(lines)
     return bool(_LINE.match(first) or _SCREEN.match(first))
+
+
+def _first(lines: Sequence[bytes]) -> bytes:
+    """The first line that is neither empty nor a remark."""
+    return next((line for line in lines if line.strip() and not line.lstrip().startswith(b"#")), b"")
+
+
+def _without_remarks(data: bytes) -> tuple[bytes, int]:
+    """The log with empty lines for remarks, and how many there were."""
+    return _REMARK.subn(b"", data)
 
 
 def read(path: Path, databases: Sequence[Path]) -> Log:
     """The signals of a log. Our own controllers' frames need no database."""
     data = read_bytes(path, DATA_LIMIT_BYTES, "log")
-    first = next((line for line in data.splitlines()[:20] if line.strip()), b"")
+    first = _first(data[:_HEAD_BYTES].splitlines())
+    data, remarks = _without_remarks(data)
     if _SCREEN.match(first) and not _LINE.match(first):
         raise BadFileError(
             "this is what candump shows on a screen",
@@ -41,7 +53,7 @@ def read(path: Path, databases: Sequence[Path]) -> Log:
             why="its times are missing or relative, and it has no form that programs agree on",
             next_step="record anew with candump -l can0 (or -L), and give the .log file",
         )
-    known, notes = Databases(databases), []
+    known = Databases(databases)
     frames, cut_off = _frames(path, data)
     nodes = sorted({n for f in frames if (n := our_frames.node_of(f.arbitration_id, bytes(f.data))) is not None})
     if nodes:
@@ -57,6 +69,8 @@ def read(path: Path, databases: Sequence[Path]) -> Log:
     notes = decode(path, frames, known, collector) + collector.notes() + [
         f"decoded by {name}, sha256 {digest}" for name, digest in known.sums.items()
     ]
+    if remarks:
+        notes.append(f"{remarks} line{'s' if remarks > 1 else ''} with # in front left out")
     if cut_off:
         notes.append("the log's last line is cut off: left out")
     ours = f"our controllers {', '.join(map(str, nodes))}" if nodes else ""

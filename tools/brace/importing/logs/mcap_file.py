@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import struct
+from collections import Counter
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -12,7 +13,7 @@ from brace.errors import BadFileError, MissingLibraryError
 from brace.importing.logs import our_frames
 from brace.importing.logs.collect import Collector
 from brace.importing.logs.dbc import Databases, decode
-from brace.importing.logs.fields import numbers
+from brace.importing.logs.fields import LIST_MOST, numbers
 from brace.importing.logs.ros_units import unit_of_field
 from brace.importing.signal import Log, Signal
 
@@ -22,6 +23,9 @@ if TYPE_CHECKING:
 MAGIC = b"\x89MCAP0"
 OUR_FRAMES = "can_frame"  # the schema of brace record's frames
 OUR_STIFFNESS = "stiffness"
+
+# What decoders raise of a message that is none.
+_UNREADABLE = (EOFError, struct.error, ValueError, KeyError, IndexError, TypeError, AttributeError, RecursionError)
 
 Decoder = Callable[[bytes], object]
 
@@ -61,7 +65,8 @@ class _Reading:
         self._unread: dict[str, str] = {}  # topic: why
         self._no_numbers: dict[str, bool] = {}
         self._frames: list[_Frame] = []
-        self._ours = False
+        self._broken: Counter[str] = Counter()
+        self._too_long: set[str] = set()
 
     def log(self) -> Log:
         notes = self._messages()
@@ -83,10 +88,17 @@ class _Reading:
         signals += self._collector.signals()
         for topic, why in self._unread.items():
             notes.append(f"topic {topic} is left out: {why}")
+        broken = [
+            f"topic {topic}: {count} message{'s' if count > 1 else ''} cannot be read: left out"
+            for topic, count in self._broken.items()
+        ]
+        notes += broken
+        for field in sorted(self._too_long):
+            notes.append(f"{field} is left out: a list of more than {LIST_MOST} entries without names")
         for topic in sorted(topic for topic, none in self._no_numbers.items() if none):
             notes.append(f"topic {topic} is left out: it has no numbers")
         if not signals:
-            why = "; ".join(f"{topic}: {why}" for topic, why in self._unread.items())
+            why = "; ".join([*(f"{topic}: {why}" for topic, why in self._unread.items()), *broken])
             raise BadFileError(
                 "no topic of this log can be read",
                 where=str(self._path),
@@ -104,7 +116,10 @@ class _Reading:
             with self._path.open("rb") as file:
                 try:
                     for schema, channel, message in NonSeekingReader(file).iter_messages(log_time_order=False):
-                        self._one(schema, channel, message)
+                        try:
+                            self._one(schema, channel, message)
+                        except _UNREADABLE:
+                            self._broken[channel.topic] += 1
                         count += 1
                 except (EndOfFile, McapError, struct.error, ValueError, KeyError, TypeError, AttributeError) as error:
                     if count and not file.read(1):
@@ -137,10 +152,12 @@ class _Reading:
             return
         self._collector.clock(time_s)
         found = False
-        for field, value in numbers(entry):
+        too_long: set[str] = set()
+        for field, value in list(numbers(entry, too_long=too_long)):
             found = True
             full = f"{channel.topic}.{field}" if field else channel.topic
             self._collector.add(channel.topic, full, unit_of_field(name, field), time_s, value)
+        self._too_long |= {f"{channel.topic}.{field}" if field else channel.topic for field in too_long}
         self._no_numbers[channel.topic] = self._no_numbers.get(channel.topic, True) and not found
 
     def _decoded(self, channel: Channel, schema: Schema | None, data: bytes) -> object | None:

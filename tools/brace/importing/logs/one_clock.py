@@ -32,7 +32,8 @@ HELD, MOVED, UNUSED = "held", "moved", "unused"
 
 def drafted(path: Path, log: Log) -> Part:
     """The table by which a mapping is guessed: every signal, with roles by the names."""
-    quantities = {s.name: quantity_of(names.read(s.name, s.unit)) for s in log.signals}
+    read = {s.name: names.read(s.name, s.unit) for s in log.signals}
+    quantities = {name: "" if "command" in each.words else quantity_of(each) for name, each in read.items()}
     kinds = set(quantities.values())
     moving = ("force", "length") if kinds & {"force", "length"} else ("torque", "angle")
     roles = {name: MOVED if quantity in moving else HELD for name, quantity in quantities.items()}

@@ -1,0 +1,58 @@
+"""`brace import`: what is no reading is left out with its count, and cuts no run in two."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from conftest import Outcome
+from foreign_files import PATH, POSES_DEG, STEP_MM, Record, shown, text
+
+from brace.dataset import load_dataset
+
+Brace = Callable[..., Outcome]
+HEADER = "t [s],theta1 [deg],theta2 [deg],d [mm],F [N]"
+AXIS = ("--set", "axis=x", "--yes")
+
+
+def one_run(folder: Path, changed: dict[int, str], place_mm: float = 0.0) -> Path:
+    """A run along x; some of its lines (from 0, without the header) are others."""
+    r = Record(poses=POSES_DEG[:1], axes="x", repeats=1)
+    columns = [shown(r["t"]), shown(r["theta1"]), shown(r["theta2"]), shown(r["dx"] + place_mm), shown(r["fx"])]
+    lines = text([HEADER], columns, ",").splitlines()
+    for at, line in changed.items():
+        lines[at + 1] = line
+    path = folder / "run.csv"
+    path.write_text("\n".join(lines) + "\n")
+    return path
+
+
+@pytest.mark.parametrize("mark", ["OL", "OVERLOAD", "ERR"])
+def test_rows_of_overloads_are_counted_and_cut_no_run(brace: Brace, tmp_path: Path, mark: str) -> None:
+    """Fewer than half of their cells are readings."""
+    marks = ",".join([mark] * 4)
+    path = one_run(tmp_path, {3: f"12.0,{marks}", 4: f"16.0,{marks}"})
+    done = brace("import", path, *AXIS, "--out", tmp_path / "out")
+    assert done.code == 0 and f"2 of {len(PATH)} rows left out: 'theta1 [deg]': {mark} (2)" in done.err, done.err
+    data = load_dataset(tmp_path / "out")
+    assert data.rows == len(PATH) - 2 and data["run"].max() == 1 and data["rep"].max() == 1
+
+
+def test_after_an_overload_displacements_count_from_the_same_place(brace: Brace, tmp_path: Path) -> None:
+    path = one_run(tmp_path, {3: "12.0,OL,OL,OL,OL"}, place_mm=12.0)
+    mapping = tmp_path / "m.toml"
+    brace("import", path, "--set", "axis=x", "--draft", mapping)
+    mapping.write_text(mapping.read_text().replace('relative = "?"', "relative = true"))
+    done = brace("import", path, "--mapping", mapping, "--out", tmp_path / "out")
+    assert done.code == 0, done.err
+    expected = STEP_MM * np.delete(np.array(PATH), 3)
+    assert load_dataset(tmp_path / "out")["dx_mm"] == pytest.approx(expected, abs=1e-3)
+
+
+def test_words_and_sums_among_the_readings_are_counted(brace: Brace, tmp_path: Path) -> None:
+    path = one_run(tmp_path, {2: "Mean,0,0,0,0", 3: "Max,1,1,1,1", 5: "here somebody came in"})
+    done = brace("import", path, *AXIS, "--out", tmp_path / "out")
+    assert done.code == 0 and "3 lines among or below the readings left out" in done.err, done.err
+    assert load_dataset(tmp_path / "out")["run"].max() == 1

@@ -1,0 +1,72 @@
+"""`brace import`: what else stands in workbooks."""
+
+from __future__ import annotations
+
+import re
+import zipfile
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from conftest import Outcome
+from foreign_files import Record, excel, workbook
+
+from brace.dataset import load_dataset
+
+pytest.importorskip("openpyxl")
+Brace = Callable[..., Outcome]
+SHEET = "xl/worksheets/sheet1.xml"
+
+
+def changed(path: Path, change: Callable[[bytes], bytes], name: str = SHEET) -> Path:
+    """The workbook with another content of one of its files."""
+    out = path.with_name("changed.xlsx")
+    with zipfile.ZipFile(path) as before, zipfile.ZipFile(out, "w") as after:
+        for each in before.namelist():
+            after.writestr(each, change(before.read(each)) if each == name else before.read(each))
+    return out
+
+
+@pytest.mark.parametrize("sign", [",", "."])
+def test_numbers_that_are_kept_as_text(brace: Brace, tmp_path: Path, sign: str) -> None:
+    """The forces are texts, beside numbers that are numbers; 3,8 was read as 38."""
+    r = Record()
+    rows: list[list[object]] = [["Time [s]", "Femur [deg]", "Knee [deg]", "dx [mm]", "dz [mm]", "Fx [N]", "Fz [N]"]]
+    for row in zip(*(r[n].tolist() for n in ("t", "theta1", "theta2", "dx", "dz", "fx", "fz"))):
+        rows.append([*row[:5], *(f"{value:.2f}".replace(".", sign) for value in row[5:])])
+    path = tmp_path / "texts.xlsx"
+    path.write_bytes(workbook(rows))
+    done = brace("import", path, "--yes", "--out", tmp_path / "out")
+    assert done.code == 0 and ("decimal comma in its texts" in done.err) == (sign == ","), done.err
+    data = load_dataset(tmp_path / "out")
+    assert data["fx_n"] == pytest.approx(r["fx"], abs=0.006) and data["dx_mm"] == pytest.approx(r["dx"], abs=1e-6)
+
+
+def test_rows_beyond_what_the_sheet_says_it_has(brace: Brace, tmp_path: Path) -> None:
+    said = b'<dimension ref="A1:G9"/><sheetData>'
+    path = changed(excel(tmp_path)[0], lambda sheet: sheet.replace(b"<sheetData>", said))
+    done = brace("import", path, "--yes", "--out", tmp_path / "out")
+    assert done.code == 0 and load_dataset(tmp_path / "out").rows == Record().rows, done.err
+
+
+def test_a_sheet_that_is_a_chart(brace: Brace, tmp_path: Path) -> None:
+    import openpyxl
+    import openpyxl.chart
+
+    book = openpyxl.load_workbook(excel(tmp_path)[0])
+    chart = openpyxl.chart.LineChart()
+    chart.add_data(openpyxl.chart.Reference(book.active, min_col=7, min_row=3, max_row=35))
+    book.create_chartsheet("Diagramm1").add_chart(chart)
+    book.save(tmp_path / "chart.xlsx")
+    done = brace("import", tmp_path / "chart.xlsx", "--yes", "--out", tmp_path / "out")
+    assert done.code == 0, done.err
+
+
+def test_damaged_workbooks_are_refused_in_a_sentence(brace: Brace, tmp_path: Path) -> None:
+    cut = changed(excel(tmp_path)[0], lambda sheet: sheet[:1500])
+    binary = tmp_path / "binary.xlsb"
+    with zipfile.ZipFile(binary, "w") as archive:
+        archive.writestr("xl/workbook.bin", b"abc")
+    for path in (cut, binary):
+        refused = brace("import", path, "--yes", "--out", tmp_path / "out")
+        assert refused.code == 3 and re.search("try: .*save it as .xlsx", refused.err), refused.err
