@@ -74,7 +74,7 @@ def mcap(path: Path, others: list[tuple[str, float, bytes]]) -> Path:
         for topic, t, data in sorted(messages, key=lambda each: each[1]):
             time_ns = int((t + 100.0) * 1e9)
             writer.add_message(channels[topic], log_time=time_ns, publish_time=time_ns, data=data)
-        writer.finish()
+        writer.finish()  # type: ignore[no-untyped-call]
     return path
 
 
