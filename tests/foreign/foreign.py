@@ -107,7 +107,7 @@ def main() -> int:
     how = {"command": command, "seed": seed, "tool": diagnoser.version()}
     sealed = {"set": {"dev": "development"}.get(label, label), "seal_sha256": seal, "generator": sets.sources_hash()}
     out = options.out or (sets.PROJECT / "docs" if test and not options.only else results)
-    done = kept.read(out / "foreign.json", seed)
+    done = kept.read(out / "foreign.json")
     for part in ("joint", "loading"):
         here = [w for w in words if w.truth["part"] == part]
         if here:

@@ -66,12 +66,13 @@ def words_of(parts: dict[str, Any], column: str) -> list[Word]:
     return [word_of(name, row) for name, part in sorted(parts.items()) for row in part.get(column, [])]
 
 
-def read(path: Path, seed: int) -> dict[str, Any]:
-    """The parts of an earlier run of this seed; of another seed they tell nothing here."""
+def read(path: Path) -> dict[str, Any]:
+    """The parts of earlier runs. Each was judged on its own seed, which the page tells: a part whose diagnosis has not
+    changed need not be judged again because another part's has."""
     if not path.exists():
         return {}
     parts: dict[str, Any] = json.loads(path.read_text()).get("parts", {})
-    return {name: part for name, part in parts.items() if part["made"]["seed"] == seed}
+    return parts
 
 
 def text(content: dict[str, Any]) -> str:
