@@ -11,6 +11,8 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 
+from pymodbus.framer.rtu import FramerRTU
+
 from brace.wire.frames import DICTIONARY_HASH
 
 FIRST_WORDS = struct.pack(">fIII", 12345.5, 0x01020304, DICTIONARY_HASH, 0x00010203)
@@ -19,12 +21,7 @@ READ, READ_INPUT = 3, 4
 
 def check(data: bytes) -> bytes:
     """CRC of Modbus, low byte first."""
-    crc = 0xFFFF
-    for byte in data:
-        crc ^= byte
-        for _ in range(8):
-            crc = crc >> 1 ^ (0xA001 if crc & 1 else 0)
-    return struct.pack("<H", crc)
+    return struct.pack(">H", FramerRTU.compute_CRC(data))  # pymodbus has swapped the bytes
 
 
 def answer_to(request: bytes) -> bytes:

@@ -16,7 +16,7 @@ from brace.wire.frames import REQUESTS
 START, MONITOR, TAKING_UP, FAULT = 0, 1, 3, 5  # modes
 BENCH = 1  # setting
 NONE, RUNNING, HELD, FAILED_BY_TORQUE = 0, 1, 2, 255
-NOTHING = -1  # no entry is told
+NOTHING = -1  # in place of a mode: the controller answers no question
 LONG_S = 60.0
 LIFE_S = 0.2  # a sign of life comes every 40 ms; on a busy machine later
 
