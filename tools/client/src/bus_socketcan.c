@@ -121,8 +121,9 @@ static void count_error(brace_bus_t *bus, const struct canfd_frame *got)
     bus->errors += !is_unheard;
 }
 
-/* Takes one frame from the queue. returns OK; E_TIMEOUT: none is there; E_FULL: it was of no use to a client */
-static brace_bus_status_t take_frame(brace_bus_t *bus, brace_bus_frame_t *frame)
+/* Takes one frame from the queue. is_wanted: frame is written; a client has no use for frames of other kinds.
+ * returns OK, E_TIMEOUT (the queue is empty), E_DOWN */
+static brace_bus_status_t take_frame(brace_bus_t *bus, brace_bus_frame_t *frame, bool *is_wanted)
 {
     struct canfd_frame got; /* a classic frame is its beginning */
     struct iovec part = {.iov_base = &got, .iov_len = sizeof got};
@@ -139,8 +140,10 @@ static brace_bus_status_t take_frame(brace_bus_t *bus, brace_bus_frame_t *frame)
     if (is_whole && !fd && (got.can_id & CAN_ERR_FLAG) != 0u) {
         count_error(bus, &got);
     }
-    if (!is_whole || (got.can_id & (CAN_EFF_FLAG | CAN_RTR_FLAG | CAN_ERR_FLAG)) != 0u || got.len > (fd ? 64u : 8u)) {
-        return BRACE_BUS_E_FULL;
+    *is_wanted = is_whole && (got.can_id & (CAN_EFF_FLAG | CAN_RTR_FLAG | CAN_ERR_FLAG)) == 0u &&
+                 got.len <= (fd ? 64u : 8u);
+    if (!*is_wanted) {
+        return BRACE_BUS_OK;
     }
     frame->id = got.can_id;
     frame->length = got.len;
@@ -156,8 +159,9 @@ brace_bus_status_t brace_socketcan_receive(brace_bus_t *bus, brace_bus_frame_t *
 {
     const uint64_t deadline_us = brace_bus_now_us() + (uint64_t)timeout_ms * 1000u;
     for (int skipped = 0; skipped < SKIPPED_MOST;) {
-        const brace_bus_status_t status = take_frame(bus, frame);
-        if (status == BRACE_BUS_E_FULL) {
+        bool is_wanted = false;
+        const brace_bus_status_t status = take_frame(bus, frame, &is_wanted);
+        if (status == BRACE_BUS_OK && !is_wanted) {
             skipped++;
             continue;
         }
