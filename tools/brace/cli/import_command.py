@@ -76,7 +76,11 @@ def _constant(text: str) -> Constant:
         r"(?:(?P<file>.+):)?(?P<name>\w+)\s*=\s*(?P<value>[-+\d.eE]+|x|z)\s*(?P<unit>.*)", text.strip()
     )
     if not match:
-        raise refused(f"{text!r} is no constant", "it is NAME=VALUE with its unit", "OPTION theta1=42deg")
+        raise refused(
+            f"{text!r} is no constant",
+            "it is NAME=VALUE, the value a number with its unit; an axis is x or z",
+            "OPTION theta1=42deg, or OPTION axis=x",
+        )
     name = _SHORT.get(match["name"], match["name"])
     known = {each for group in CONSTANTS.values() for each in group}
     if name not in known:
