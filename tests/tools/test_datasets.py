@@ -248,6 +248,15 @@ def test_extra_columns_quotes_and_line_ends_are_taken(tmp_path: Path) -> None:
         assert np.array_equal(values, again[name])
 
 
+@pytest.mark.parametrize("header", ["remark,remark", ","])
+def test_columns_that_are_none_of_ours_may_share_a_name(tmp_path: Path, header: str) -> None:
+    plain = load_dataset(write_loading(tmp_path, loading_rows()))
+    rows = [[*row, "7", "8"] for row in loading_rows()]
+    again = load_dataset(write_loading(tmp_path, rows, f"{LOADING_HEADER},{header}"))
+    assert not again.faults
+    assert all(np.array_equal(values, again[name]) for name, values in plain.columns.items())
+
+
 def test_blanks_beside_entries_are_taken(tmp_path: Path) -> None:
     rows = loading_rows()
     plain = load_dataset(write_loading(tmp_path, rows))

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import json
 import tomllib
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from bus_bench import limb_on_tcp
+from bus_bench import adapter, limb_on_tcp, obliging
 from conftest import LIMB, Outcome
 
 from brace.bus.loading_added import meta_of_both
@@ -35,6 +36,33 @@ def test_a_log_is_not_replaced(brace: Brace, tmp_path: Path) -> None:
     assert (log.read_text(), other.read_text(), part.read_text()) == (LOG, "kept", LOG)
     done = brace("record", "--bus", f"log:{part}", "--out", tmp_path / "fourth.log")
     assert done.code == 0 and (tmp_path / "fourth.log").read_text().count("181#") == 3, done.err
+
+
+def test_frames_that_are_left_out_are_counted(brace: Brace, tmp_path: Path) -> None:
+    """29-bit identifiers and remote frames: of a log, and of an adapter."""
+    log = tmp_path / "all.log"
+    log.write_text(LOG + "(1.1) can0 18FFEE00#00\n(1.2) can0 123#R\n(1.3) can0 18FFEE00#0102\n")
+    done = brace("record", "--bus", f"log:{log}", "--out", tmp_path / "a.log")
+    assert done.code == 0 and "3 frames with 29-bit identifiers, or remote, are not in it" in done.err
+    told = json.loads(brace("record", "--bus", f"log:{log}", "--out", tmp_path / "again.log", "--json").out)
+    assert told["frames"] == 3 and told["frames_left_out"] == 3
+    with adapter(obliging, sends=b"t18110A\rT18FFEE00100\rr1230\r") as url:
+        done = brace("record", "--bus", url, "--out", tmp_path / "b.log", "--seconds", 0.5, "--json")
+    told = json.loads(done.out)
+    one_more = told["frames"] + 1  # came, and was not written any more
+    assert done.code == 0 and 0 < 2 * told["frames"] <= told["frames_left_out"] <= 2 * one_more, done.err
+    done = brace("record", "--bus", f"log:{tmp_path / 'b.log'}", "--out", tmp_path / "c.log")
+    assert done.code == 0 and "not in it" not in done.err
+
+
+def test_a_long_gap_of_a_log_is_told_before_it_is_waited_for(brace: Brace, tmp_path: Path) -> None:
+    log = tmp_path / "gap.log"
+    log.write_text("(1.0) can0 181#00\n(3601.0) can0 181#01\n")
+    with adapter(obliging) as url:
+        done = brace("replay", log, "--bus", url, "--speed", 500)
+        assert done.code == 0 and "the log's next frame comes in 7 s; --speed F goes faster" in done.err, done.err
+        done = brace("replay", log, "--bus", url, "--speed", 10000)
+        assert done.code == 0 and "next frame" not in done.err, done.err
 
 
 def test_what_a_person_added_to_a_record_stays(brace: Brace, tmp_path: Path) -> None:

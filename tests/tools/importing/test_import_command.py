@@ -116,6 +116,18 @@ def test_displacements_that_begin_elsewhere_are_asked_and_taken_off(brace: Brace
     assert load_dataset(tmp_path / "out")["dx_mm"] == pytest.approx(r["dx"], abs=1e-3)
 
 
+def test_a_draft_never_replaces_answers(brace: Brace, tmp_path: Path) -> None:
+    r = Record()
+    path, mapping = saved(tmp_path, loading(dx=shown(r["dx"] + 12.5))), tmp_path / "m.toml"
+    assert brace("import", path, "--draft", mapping).code == 0
+    assert brace("import", path, "--draft", mapping).code == 0, "nothing was written into it"
+    answered = mapping.read_text().replace('relative = "?"', "relative = true")
+    mapping.write_text(answered)
+    refused = brace("import", path, "--draft", mapping)
+    assert refused.code == 2 and f"--mapping {mapping} to use it" in refused.err, refused.err
+    assert mapping.read_text() == answered
+
+
 def test_places_of_the_tip_at_several_postures(brace: Brace, tmp_path: Path) -> None:
     """Places differ from posture to posture by more than the tip is displaced: each posture has a zero of its own."""
     r = Record()

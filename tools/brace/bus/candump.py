@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import BinaryIO
 
@@ -39,8 +39,13 @@ class CandumpWriter:
         """Nothing is held back."""
 
 
-def read(path: Path) -> Iterator[Frame]:
-    """The frames of a log; a last line that was cut off is passed over."""
+def tell_nobody() -> None:
+    """Frames of other kinds are not counted."""
+
+
+def read(path: Path, passed_over: Callable[[], None] = tell_nobody) -> Iterator[Frame]:
+    """The frames of a log; a last line that was cut off is passed over. `passed_over` is told of each frame of another
+    kind."""
     with path.open("rb") as file:
         for number, raw in enumerate(file, 1):
             text = raw.decode("latin-1")
@@ -51,7 +56,13 @@ def read(path: Path) -> Iterator[Frame]:
                     yield Frame(
                         float(found[1]), identifier, bytes.fromhex(found[4] if found[4] is not None else found[5])
                     )
-            elif text.strip() and text.endswith("\n") and not _OTHER.fullmatch(text.rstrip()):
+                else:
+                    passed_over()
+            elif not text.strip() or not text.endswith("\n"):
+                continue
+            elif _OTHER.fullmatch(text.rstrip()):
+                passed_over()
+            else:
                 raise BadFileError(
                     "not a line of a candump log",
                     where=f"{path}:{number}",

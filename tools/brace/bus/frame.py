@@ -31,6 +31,7 @@ class Bus(Protocol):
 
     url: str
     bit_rate: int | None  # None: set elsewhere
+    other_frames: int  # passed over so far: of 29-bit identifiers, or remote
 
     def receive(self, timeout_s: float) -> Frame | None:
         """The next frame; None when none came in time. EndOfLog after a log's last."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from itertools import islice
 from pathlib import Path
 from typing import BinaryIO, Protocol
@@ -32,8 +32,8 @@ def is_mcap(path: Path) -> bool:
         return path.suffix == ".mcap"
 
 
-def read(path: Path) -> Iterator[Frame]:
-    """Frames of a candump or MCAP log."""
+def read(path: Path, passed_over: Callable[[], None] = candump.tell_nobody) -> Iterator[Frame]:
+    """Frames of a candump or MCAP log; `passed_over` is told of each frame of another kind."""
     if not path.is_file():
         raise BadFileError(
             "no such log",
@@ -47,7 +47,7 @@ def read(path: Path) -> Iterator[Frame]:
 
             yield from mcap_log.read(path)
         else:
-            yield from candump.read(path)
+            yield from candump.read(path, passed_over)
     except OSError as error:
         raise BadFileError(
             "the log cannot be read",
@@ -82,8 +82,12 @@ class LogBus:
     def __init__(self, url: str, path: Path) -> None:
         self.url = url
         self.bit_rate: int | None = None
-        self._frames = read(path)
+        self.other_frames = 0
+        self._frames = read(path, self._count_other)
         self._first = next(self._frames, None)  # a file that is no log is refused at once
+
+    def _count_other(self) -> None:
+        self.other_frames += 1
 
     def receive(self, timeout_s: float) -> Frame:
         """The next; never waits."""

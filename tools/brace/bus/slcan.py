@@ -32,6 +32,8 @@ _MUCH_BYTES = 2048  # of one read: more may be there
 _BYTES = (*range(9), 12, 16, 20, 24, 32, 48, 64)  # by a line's length code
 _HEX = frozenset(b"0123456789abcdefABCDEF")
 _NO_FRAME = (0, -1000)
+_LONG_OR_REMOTE = (b"T", b"D", b"B", b"r", b"R")  # how frames begin that have 29-bit identifiers, or are remote
+_SHORTEST_REMOTE = len(b"r1230")
 _ERROR_BITS = (
     "receive queue full",
     "send queue full",
@@ -62,6 +64,7 @@ class SlcanBus:
     def __init__(self, url: BusUrl, line: Line, bit_rate: int) -> None:
         self.url = url.text
         self.bit_rate: int | None = bit_rate
+        self.other_frames = 0
         self._line = line
         self._rest = b""
         self._frames: deque[Frame] = deque()
@@ -172,6 +175,7 @@ class SlcanBus:
             self._take(0.02)
         self._frames.clear()
         self._answers.clear()
+        self.other_frames = 0
 
     def _take(self, timeout_s: float) -> int:
         """How many bytes have come."""
@@ -192,7 +196,9 @@ class SlcanBus:
 
     def _take_answer(self, text: bytes) -> None:
         """Unless it is a frame that is none of ours, or broken."""
-        if (text[:1] not in b"tTrRdDbB" or len(text) == 1) and len(self._answers) < 1000:
+        if text[:1] in _LONG_OR_REMOTE and len(text) >= _SHORTEST_REMOTE:
+            self.other_frames += 1
+        elif (text[:1] not in b"tTrRdDbB" or len(text) == 1) and len(self._answers) < 1000:
             self._answers.append(text)
 
     def _write(self, data: bytes) -> None:

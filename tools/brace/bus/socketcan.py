@@ -24,6 +24,7 @@ class SocketCanBus:
     def __init__(self, url: BusUrl) -> None:
         self.url = url.text
         self.bit_rate: int | None = None
+        self.other_frames = 0
         self._errors = 0
         refuse_absent(url)
         try:
@@ -52,7 +53,9 @@ class SocketCanBus:
                 return None
             if message.is_error_frame:
                 self._errors += 1
-            elif not (message.is_extended_id or message.is_remote_frame):
+            elif message.is_extended_id or message.is_remote_frame:
+                self.other_frames += 1
+            else:
                 return Frame(message.timestamp, message.arbitration_id, bytes(message.data))
         return None
 

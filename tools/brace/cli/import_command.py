@@ -122,6 +122,7 @@ def run(arguments: argparse.Namespace) -> int:
     table = replace(table, notes=tuple(constants.told_against_remarks(parts, table, arguments.set)))
     shown = words.lines(parts, table)
     if arguments.draft is not None:
+        _refuse_answered(arguments.draft, mapping.to_toml(table))
         write_file(arguments.draft, mapping.to_toml(table), inputs)
         _show(shown)
         common.say(f"-> {arguments.draft}; answer every ? in it, then --mapping {arguments.draft} --out DIR")
@@ -204,6 +205,23 @@ def _refuse_strange_names(parts: Sequence[Part], table: MappingTable, path: Path
                 if near
                 else "name a column that is there, or draft the mapping anew",
             )
+
+
+def _refuse_answered(draft: Path, text: str) -> None:
+    """A mapping that is there may hold a person's answers; only the same draft is written over."""
+    try:
+        if draft.read_text(encoding="utf-8") == text:
+            return
+    except FileNotFoundError:
+        return
+    except (OSError, UnicodeDecodeError):
+        pass  # no draft of ours, or none that can be read
+    raise UsageError(
+        "the draft would replace a file that is there",
+        where=str(draft),
+        why="it may hold answers that somebody has written",
+        next_step=f"--mapping {draft} to use it; another --draft, or delete it, to begin anew",
+    )
 
 
 def _refuse_measured(folder: Path) -> None:

@@ -27,9 +27,10 @@ def add(commands: Subcommands) -> None:
     parser = commands.add_parser(
         "record",
         help=SUBCOMMANDS["record"],
-        description="Writes every frame of a CAN bus to --out FILE.log (as candump -L) or FILE.mcap, "
+        description="Writes the frames of a CAN bus to --out FILE.log (as candump -L) or FILE.mcap, "
         "until --seconds, Ctrl-C "
-        "or SIGTERM. While it is written it is called FILE.part, and what has come is in it after any end. "
+        "or SIGTERM; frames with 29-bit identifiers and remote frames are none of a controller's and are only "
+        "counted. While it is written it is called FILE.part, and what has come is in it after any end. "
         "With "
         "--loading-test the controller presses the limb's tip in steps, and its rows become the dataset "
         "--out DIR.",
@@ -109,7 +110,7 @@ def _record(arguments: argparse.Namespace) -> int:
                         watch.add(frame)
                         advance(recording.frames)
             recording.finish()
-            _say_end(arguments, recording, watch)
+            _say_end(arguments, recording, watch, bus.other_frames)
     except BraceError as error:
         recording.leave()
         if recording.frames:
@@ -120,12 +121,13 @@ def _record(arguments: argparse.Namespace) -> int:
     return EXIT_INTERRUPTED if ended.by == signal.SIGINT else EXIT_OK
 
 
-def _say_end(arguments: argparse.Namespace, recording: Recording, watch: Watch) -> None:
+def _say_end(arguments: argparse.Namespace, recording: Recording, watch: Watch, left_out: int) -> None:
     snapshots = {node: state.snapshots for node, state in sorted(watch.nodes.items())}
     in_space = {node: state.in_space for node, state in sorted(watch.nodes.items()) if state.in_space}
     seconds = watch.last_s - watch.first_s
     if arguments.json:
         told = {"out": recording.path, "frames": recording.frames, "seconds": seconds, "snapshots": snapshots}
+        told["frames_left_out"] = left_out
         common.print_json(told | ({"snapshots_in_space": in_space} if in_space else {}))
         return
     nodes = ", ".join(
@@ -135,3 +137,8 @@ def _say_end(arguments: argparse.Namespace, recording: Recording, watch: Watch) 
     common.say(
         f"{recording.path}: {recording.frames} frames in {seconds:.1f} s; {nodes or 'no K among them'}"
     )
+    if left_out:
+        common.say(
+            f"{left_out} frames with 29-bit identifiers, or remote, are not in it: no controller sends such; "
+            "candump -L keeps them"
+        )

@@ -11,6 +11,7 @@ from brace.cli.options import Subcommands
 from brace.cli.subcommands import SUBCOMMANDS
 
 _SLICE_S = 0.1
+_LONG_GAP_S = 5.0
 
 
 def add(commands: Subcommands) -> None:
@@ -50,6 +51,12 @@ def run(arguments: argparse.Namespace) -> int:
     return end(arguments, watch)
 
 
+def _say_gap(wait_s: float) -> None:
+    """A wait that looks like a program that hangs is told before it begins."""
+    if wait_s > _LONG_GAP_S:
+        common.say(f"the log's next frame comes in {wait_s:.0f} s; --speed F goes faster, Ctrl-C ends")
+
+
 def _send(arguments: argparse.Namespace) -> int:
     from brace.bus.frame import NODE_MASK
     from brace.bus.log import read
@@ -72,6 +79,7 @@ def _send(arguments: argparse.Namespace) -> int:
             frame = first
             while frame is not None and first is not None and not ended.is_set():
                 lasted_s = frame.time_s - first.time_s
+                _say_gap(lasted_s / arguments.speed - (time.monotonic() - started))
                 while (
                     wait := lasted_s / arguments.speed - (time.monotonic() - started)
                 ) > 0 and not ended.is_set():

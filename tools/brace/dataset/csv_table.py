@@ -151,7 +151,7 @@ def _unquoted(row: bytes) -> list[bytes]:
 
 def _check_header(header: list[str], wanted: Sequence[Column], path: Path, lines: Sequence[bytes]) -> None:
     for position, name in enumerate(header):
-        if name in header[:position]:
+        if name in header[:position] and any(column.name == name for column in wanted):
             raise BadFileError(
                 f"column {name!r} is there twice",
                 where=f"{path}:1",
