@@ -13,7 +13,7 @@ import pytest
 from brace.dataset import load_dataset
 from brace.dataset.intake import Dataset
 from brace.diagnose.loading.choose import LabelSet, posterior_of
-from brace.diagnose.loading.confidence import of_label
+from brace.diagnose.loading.confidence import RIGHT_IN_BOTH, RIGHT_IN_ONE, as_found_twice, of_label
 from brace.diagnose.loading.evidence import SPREAD, score
 from brace.diagnose.loading.extensions import TAKES_BACK, Outside, outside
 from brace.diagnose.loading.fit import fit
@@ -22,6 +22,7 @@ from brace.dataset.enough import enough_rows
 from brace.diagnose.loading.parts import locked_rows
 from brace.identify import record as loading_record
 from brace.identify.record import load_record, setting_of
+from brace.diagnose.loading import run as loading_run
 from brace.diagnose.loading.run import search_pass
 from brace.diagnose.loading.screen import Remover
 from brace.diagnose.loading.search import Search
@@ -384,3 +385,41 @@ def test_the_catalogue_is_whole_and_its_keys_exist(tmp_path: Path, believed: Lim
         space = space_of(trust, (variant,))
         assert len(space.keys) == len(set(space.keys)) == len(space.mean)
         assert not compatible((variant, variant)) or not variant.keys
+
+
+@pytest.mark.parametrize(
+    ("twin", "left"),
+    [
+        (None, {"a": 1.0, "b": 1.0, "rig": 1.0}),
+        ("", {"a": 1.0, "b": 1.0, "rig": 1.0}),
+        ("ab", {"a": 1.0, "b": 1.0, "rig": 1.0}),
+        ("ac", {"a": RIGHT_IN_BOTH[2], "b": RIGHT_IN_ONE, "rig": RIGHT_IN_BOTH[2]}),
+        ("c", {"a": RIGHT_IN_ONE, "b": RIGHT_IN_ONE, "rig": RIGHT_IN_BOTH[2]}),
+    ],
+)
+def test_a_name_that_is_not_found_twice_is_less_sure(twin: str | None, left: dict[str, float]) -> None:
+    """A cause outside the catalogue, as a rig, is not looked for a second time."""
+
+    def found(labels: str) -> Any:
+        return SimpleNamespace(decision=SimpleNamespace(chosen=SimpleNamespace(labels=frozenset(labels))))
+
+    other = None if twin is None else found(twin)
+    assert {label: as_found_twice(found("ab"), other, label) for label in left} == left
+
+
+@pytest.mark.parametrize(
+    ("lead", "told", "verdict"), [(20.0, False, "unknown"), (2.0, False, "effect"), (2.0, True, "effect")]
+)
+def test_what_has_no_name_and_does_better_leaves_the_verdict_open(
+    believed: LimbModel, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, lead: float, told: bool, verdict: str
+) -> None:
+    """Forces that follow the posture are no trouble of the instruments, and no effect's, either."""
+    data = recorded(tmp_path, believed.with_values({"joint.tibia.gap_rad": 2e-3}), 7)
+    record, trust = load_record(data), trust_of(believed, turns=True)
+    better: Any = SimpleNamespace(lead=lead, far_ahead=lead > 4.6, told=told, meaning="the force at rest differed")
+    monkeypatch.setattr(loading_run, "likeliest", lambda record, sets: better)
+    found = search_pass(record, trust, all_variants(setting_of(record, believed)), lambda share, doing: None)
+    assert found.decision.verdict == verdict
+    assert (found.rival is better) == told
+    if verdict == "unknown":
+        assert found.decision.outside.words == "the force at rest differed" and found.decision.outside.lead == lead

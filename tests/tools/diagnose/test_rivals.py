@@ -281,6 +281,35 @@ def test_a_knee_beside_the_line_is_played_as_it_yields(moment_transfer: float, m
         assert np.linalg.norm(c - exact) <= most * np.linalg.norm(exact)
 
 
+def compliance_of_an_arch(height_mm: float, tilt_rad: float) -> np.ndarray:
+    """Of a tibia of 260 mm along x, summed over 4000 short pieces: what each turns by, times its lever to the tip."""
+    share = (np.arange(4000) + 0.5) / 4000
+    place = np.stack([260.0 * share, 4.0 * height_mm * share * (1.0 - share)])
+    lever = np.array([[260.0], [0.0]]) - place
+    turning = np.stack([-lever[1], lever[0]])
+    along = np.array([1.0, 0.0])
+    own = 0.002 * np.outer(along, along) + 3.0 * 0.1 / 260.0**2 * turning @ turning.T / 4000
+    c, s = np.cos(tilt_rad), np.sin(tilt_rad)
+    return np.asarray(np.array([[c, -s], [s, c]]) @ own @ np.array([[c, s], [-s, c]]))
+
+
+@pytest.mark.parametrize("tilt_rad", [0.0, -0.3])
+@pytest.mark.parametrize("height_mm", [-90.0, 10.0, 60.0])
+def test_a_bowed_tibia_is_played_as_it_yields(height_mm: float, tilt_rad: float, limb: Path) -> None:
+    numbers = {
+        "geometry.tibia_mm": 260.0, "link.tibia.axial_mm_per_n": 0.002, "link.tibia.bending_mm_per_n": 0.1,
+        "link.tibia.tilt_rad": tilt_rad,
+    }  # fmt: skip
+    index, models = number_index(), model_numbers(load_limb(limb).with_values(numbers))[None].copy()
+    TURNS["bowed_link@link.tibia"](models, np.array([[-height_mm]]))
+    axial, bending, tilt = (
+        float(models[0, index[f"link.tibia.{key}"]]) for key in ("axial_mm_per_n", "bending_mm_per_n", "tilt_rad")
+    )
+    axes = np.array([[np.cos(tilt), -np.sin(tilt)], [np.sin(tilt), np.cos(tilt)]])
+    played = axes @ np.diag([axial, bending]) @ axes.T
+    assert played == pytest.approx(compliance_of_an_arch(height_mm, tilt_rad), rel=1e-5, abs=1e-7)
+
+
 def test_a_size_that_no_limb_has_needs_evidence(tmp_path: Path, limb: Path) -> None:
     """As the catalogue defines it: ten times the believed is three sigma, no more than believed costs nothing."""
     believed = load_limb(limb)

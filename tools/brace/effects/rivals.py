@@ -76,7 +76,9 @@ def _off_centre_play(joint: str) -> RivalCause:
         f"joint.{joint}",
         words="play that lies to one side at rest",
         meaning="the joint has play, and where nothing moves the tip it stands nearer to one side of it",
-        looks_like=(frozenset({play, BIAS}), frozenset({play, WEIGHT})),
+        looks_like=tuple(
+            frozenset({play, other}) for other in (BIAS, WEIGHT, TIBIA_LINK, FEMUR_LINK, ROTATION, CROSSTALK)
+        ),
         ways=(
             (
                 Size(f"joint.{joint}.gap_rad", "rad", 0.0, 0.5),

@@ -103,7 +103,10 @@ def _all_but_next(
     shown = believed if decision.verdict == "unknown" else limb_of(believed, after.model)
     agreed = agreement(record, locked, final, twin, options.seed)
     alike = confusability(final.base.fit, final.sets)
-    effects = _effects(record, final, resolved, contested) if named else ()
+    effects = tuple(
+        replace(one, confidence=one.confidence * confidence.as_found_twice(final, twin, one.label))
+        for one in (_effects(record, final, resolved, contested) if named else ())
+    )
     if record.rows <= FEW:  # of a few runs drawn again the share of draws with the same choice says more
         most = agreed.bootstrap_share
         effects = tuple(replace(one, confidence=min(one.confidence, most)) for one in effects)

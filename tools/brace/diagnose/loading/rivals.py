@@ -35,7 +35,8 @@ GAUGE_ON_RIG = (
 )
 ENCODERS = {"femur": "enc1_rad", "tibia": "enc2_rad"}
 BEAM_TURNS = 1.8  # a beam moves a point beside its end by 1.5 turns of the line to it (a force), by 2 (a moment)
-BOWED_ALONG = 0.6  # a bow of c yields along the link by 8/5 (c/L)^2 of its bending, its turned ellipsoid by (c/L)^2
+ARCH_ALONG = 1.6  # 3 x the integral of (4 s (1 - s))^2 over s from 0 to 1
+_ELLIPSOID = ("axial_mm_per_n", "bending_mm_per_n", "tilt_rad")
 
 Turn = Callable[[np.ndarray, np.ndarray], None]
 """Puts a rival's sizes (points x sizes) into the numbers of limbs (points x numbers) that read the same."""
@@ -367,7 +368,8 @@ def _start(cause: RivalCause, way: Sequence[Size], chosen: Fit) -> list[float]:
         return [float(model[index[f"{cause.where}.gap_rad"]]), 0.0]
     if cause.name == "knee_offset":
         return [float(model[index["geometry.femur_mm"]] * np.tan(model[index["joint.femur.zero_offset_rad"]]))]
-    return [float(model[index["geometry.tibia_mm"]] * np.tan(model[index["link.tibia.tilt_rad"]]))]
+    tilt = index["link.tibia.tilt_rad"]
+    return [float(model[index["geometry.tibia_mm"]] * np.tan(model[tilt] - chosen.space.numbers[tilt]))]
 
 
 @cache
@@ -426,11 +428,16 @@ def _knee_beside(models: np.ndarray, sizes: np.ndarray) -> None:
 
 
 def _tibia_bowed(models: np.ndarray, sizes: np.ndarray) -> None:
+    """A shallow arch of height c over the chord L bends with the lever (4 c s (1 - s), L (1 - s)) at the share s of its
+    way. That adds bending x [[8/5 (c/L)^2, c/L], [c/L, 0]] to its compliance along and across."""
     index = number_index()
-    turned = sizes[:, 0] / models[:, index["geometry.tibia_mm"]]
-    models[:, index["link.tibia.tilt_rad"]] += turned
-    bending = models[:, index["link.tibia.bending_mm_per_n"]]
-    models[:, index["link.tibia.axial_mm_per_n"]] += BOWED_ALONG * turned**2 * bending
+    axial, bending, tilt = (index[f"link.tibia.{leaf}"] for leaf in _ELLIPSOID)
+    arched = sizes[:, 0] / models[:, index["geometry.tibia_mm"]]
+    across = models[:, bending].copy()
+    along, mixed = models[:, axial] + ARCH_ALONG * arched**2 * across, arched * across
+    middle, half = 0.5 * (along + across), np.hypot(0.5 * (across - along), mixed)
+    models[:, axial], models[:, bending] = middle - half, middle + half
+    models[:, tilt] += 0.5 * np.arctan2(2.0 * mixed, across - along)
 
 
 def _femur_plays(models: np.ndarray, sizes: np.ndarray) -> None:
@@ -448,7 +455,7 @@ TURNED_KEYS: dict[str, frozenset[str]] = {
     "knee_offset@joint.tibia": frozenset(
         {"geometry.femur_mm", "joint.femur.zero_offset_rad", "joint.tibia.zero_offset_rad", "link.femur.tilt_rad"}
     ),
-    "bowed_link@link.tibia": frozenset({"link.tibia.tilt_rad", "link.tibia.axial_mm_per_n"}),
+    "bowed_link@link.tibia": frozenset(f"link.tibia.{leaf}" for leaf in _ELLIPSOID),
     "off_centre_play@joint.femur": frozenset({"joint.femur.gap_rad"}),
     "off_centre_play@joint.tibia": frozenset({"joint.tibia.gap_rad"}),
 }

@@ -27,7 +27,7 @@ from brace.diagnose.loading.search_pass import Pass
 from brace.diagnose.loading.search import Hypothesis, Search
 from brace.diagnose.loading.space import Trust, trust_of
 from brace.diagnose.loading.structure import structure_of
-from brace.diagnose.loading.verdict import decide
+from brace.diagnose.loading.verdict import decide, undecided
 from brace.diagnose.options import Advance, Options, silent
 from brace.effects import Variant, all_variants
 from brace.errors import UsageError
@@ -125,20 +125,26 @@ def _without_troubles(found: Pass, variants: Sequence[Variant], advance: Advance
     even that leaves the record unexplained, because then the trouble is no explanation either."""
     if found.decision.verdict == "none":
         return found
-    cleaner = found
+    cleaner, first = found, None
     for _ in range(MOST_TROUBLES):
         trouble = likeliest(cleaner.record, cleaner.sets)
         if trouble is not None and trouble.far_ahead:  # of the catalogue: a rig may explain the record better than both
             sets = with_causes(cleaner)
             trouble = trouble if sets is cleaner.sets else likeliest(cleaner.record, sets)
         if trouble is None or not trouble.far_ahead or trouble.lead < cleaner.decision.outside.lead:
-            cleaner = replace(cleaner, rival=trouble)
+            cleaner = replace(cleaner, rival=trouble if trouble is not None and trouble.told else None)
+            break
+        first = first or trouble
+        if not trouble.told:
+            cleaner = replace(cleaner, decision=undecided(cleaner.decision, trouble.lead, trouble.meaning))
             break
         record = cleaner.record.beside(trouble.columns)
         again = _searched(record, found.trust, variants, advance)
         cleaner = replace(again, troubles=with_trouble(record, cleaner.troubles, trouble))
     unexplained = cleaner.decision.verdict == "unknown" or (cleaner.troubles and cleaner.decision.outside.lead > 0.0)
-    return found if unexplained else cleaner
+    if not unexplained:
+        return cleaner
+    return found if first is None else replace(found, decision=undecided(found.decision, first.lead, first.meaning))
 
 
 def _searched(record: Record, trust: Trust, variants: Sequence[Variant], advance: Advance) -> Pass:

@@ -55,6 +55,11 @@ def decide(sets: Sequence[LabelSet], structure: Structure, base: Fit, outside: O
     return Decision("effect", tuple(ordered), classes, best, structure, outside)
 
 
+def undecided(decision: Decision, lead: float, words: str) -> Decision:
+    """The same, where something without a name explains the record better by so many nats."""
+    return Decision("unknown", (), (), decision.chosen, decision.structure, Outside(lead, words))
+
+
 def _small_rest(best: LabelSet, structure: Structure, base: Fit) -> bool:
     """Whether what is left is next to nothing beside what the effects explain."""
     explained = base.cost - best.best.fit.cost

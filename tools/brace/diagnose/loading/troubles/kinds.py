@@ -21,10 +21,17 @@ from brace.native.plant_batch import number_index, reference_planar_many
 
 LAG, GAIN_STEP, ZERO_STEP, ZEROS, POSE, SLIP, OUTLIERS = (cause.name for cause in INSTRUMENT_TROUBLES)
 # What follows the posture may be of the limb or of an encoder. A tip that is displaced in proportion to time or to the
-# temperature tells of a rig, a limb or a ground that grows. These are no troubles of the instruments here, and stand
-# only against those that would otherwise make up for them: some slips come near a way that grows.
-GROWTH = "tip_moves_slowly"
-NOT_TOLD = ("zero_per_posture", "pose_error_per_posture", "gain_per_posture", GROWTH)
+# temperature tells of a rig, a limb or a ground that grows. These are no troubles of the instruments here. They stand
+# against those and against effects that would otherwise make up for them: some slips come near a way that grows.
+ZERO_BY_POSTURE, POSE_BY_POSTURE, GAIN_BY_POSTURE, GROWTH = (
+    "zero_per_posture", "pose_error_per_posture", "gain_per_posture", "tip_moves_slowly",
+)  # fmt: skip
+NOT_TOLD = {
+    ZERO_BY_POSTURE: "the force at rest differed from posture to posture",
+    POSE_BY_POSTURE: "the joints stood at other angles than the record says, at each posture by others",
+    GAIN_BY_POSTURE: "the sensor had another gain at each posture",
+    GROWTH: "the tip was displaced slowly, with time or with the temperature",
+}
 POSE_SIGMAS_RAD = (7e-4, 1.5e-3, 3e-3, 6e-3)  # what a drive repeats its posture by
 ZERO_SIGMAS_N = (0.03, 0.1, 0.3, 1.0)  # what a force sensor's zero wanders by
 GAIN_SIGMAS = (0.03, 0.1)  # what a reading's gain may differ by from posture to posture
@@ -73,16 +80,16 @@ def kinds(record: Record, fitted: Fit, remover: Remover, left: np.ndarray) -> It
             both = np.concatenate([runs * _X[:, :, None], runs * _Z[:, :, None]], axis=2)
             yield Kind(ZEROS, [Way(_of_forces(record, both), 0.0)], ZERO_SIGMAS_N)
             yield Kind(
-                NOT_TOLD[0], [Way(_of_forces(record, _by_posture(record, both, starts)), 0.0)], ZERO_SIGMAS_N
+                ZERO_BY_POSTURE, [Way(_of_forces(record, _by_posture(record, both, starts)), 0.0)], ZERO_SIGMAS_N
             )
     if starts.size > 3:
         turned = np.concatenate(
             [_by_run(record, _turned(record, fitted, joint), starts) for joint in ("femur", "tibia")], axis=2
         )
         yield Kind(POSE, [Way(turned, 0.0)], POSE_SIGMAS_RAD)
-        yield Kind(NOT_TOLD[1], [Way(_by_posture(record, turned, starts), 0.0)], POSE_SIGMAS_RAD)
+        yield Kind(POSE_BY_POSTURE, [Way(_by_posture(record, turned, starts), 0.0)], POSE_SIGMAS_RAD)
         gains = _by_posture(record, _by_run(record, played[: len(FORCES)], starts), starts)
-        yield Kind(NOT_TOLD[2], [Way(_of_forces(record, gains), 0.0)], GAIN_SIGMAS)
+        yield Kind(GAIN_BY_POSTURE, [Way(_of_forces(record, gains), 0.0)], GAIN_SIGMAS)
     far = np.flatnonzero(far_among_alike(record, fitted) > FAR_OUT)
     if 0 < far.size <= max(1.0, MOST_OUT * record.readings):
         columns = np.zeros((record.measured.size, far.size))

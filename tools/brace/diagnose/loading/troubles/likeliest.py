@@ -61,8 +61,18 @@ class Trouble:
         return self.lead > MUST_LEAD
 
     @property
+    def told(self) -> bool:
+        """Whether it is of the instruments. Else it speaks only against what would make up for it."""
+        return self.name not in NOT_TOLD
+
+    @property
+    def meaning(self) -> str:
+        """What it does, in half a sentence."""
+        return self.cause.meaning if self.told else NOT_TOLD[self.name]
+
+    @property
     def cause(self) -> RivalCause:
-        """Its words."""
+        """Its words, where it is told."""
         return RIVAL_BY_NAME[self.name]
 
     @property
@@ -96,7 +106,7 @@ def likeliest(record: Record, sets: Sequence[LabelSet]) -> Trouble | None:
     chosen = [one for place, one in enumerate(first.values()) if place < REFITTED or one.kind == LAG]
     troubles = [_fitted(record, base, option, against) for option in chosen]
     likely = max(troubles, key=lambda one: one.lead, default=None)
-    return likely if likely is not None and likely.lead > MAY_BE and likely.name not in NOT_TOLD else None
+    return likely if likely is not None and likely.lead > MAY_BE else None
 
 
 def with_trouble(record: Record, troubles: Sequence[Trouble], found: Trouble) -> tuple[Trouble, ...]:
