@@ -218,6 +218,33 @@ def test_what_follows_a_posture_is_no_step_in_time(tmp_path: Path, limb: Path) -
     assert not [fault for fault in found.data_faults if "the sensor reads" in fault.why], found.sentence
 
 
+@pytest.mark.parametrize(
+    ("what", "words"),
+    [
+        ("one axis", "the sensor had another gain along one axis"),
+        ("one posture", "the force at rest was another one at one of the postures"),
+        ("off its rest", "the tip stood off its rest"),
+    ],
+)
+def test_what_begins_with_the_record_is_no_step(tmp_path: Path, limb: Path, what: str, words: str) -> None:
+    """A step after the first readings, or two about one posture, read nearly the same."""
+
+    def spoil(columns: Columns) -> None:
+        if what == "one axis":
+            columns["fx_n"] *= 0.96
+        elif what == "one posture":
+            here = columns["config"] == 2
+            columns["fx_n"][here] += 0.25
+            columns["fz_n"][here] -= 0.25
+        else:
+            everywhere = np.ones(len(columns["t_s"]))
+            displace(columns, limb, 0.02 * everywhere, -0.015 * everywhere)
+
+    found = spoiled(tmp_path / "record", limb, spoil, values={})
+    assert found.verdict == "unknown" and not found.data_faults, found.sentence
+    assert f"looks as if {words}" in found.sentence, found.sentence
+
+
 def test_a_late_sensor_is_a_lag_and_no_friction(tmp_path: Path, limb: Path) -> None:
     """Where equal steps hide the difference to a play at the contact, both are named."""
     found = spoiled(tmp_path / "record", limb, reads_late, values={})

@@ -23,14 +23,19 @@ LAG, GAIN_STEP, ZERO_STEP, ZEROS, POSE, SLIP, OUTLIERS = (cause.name for cause i
 # What follows the posture may be of the limb or of an encoder. A tip that is displaced in proportion to time or to the
 # temperature tells of a rig, a limb or a ground that grows. These are no troubles of the instruments here. They stand
 # against those and against effects that would otherwise make up for them: some slips come near a way that grows.
-ZERO_BY_POSTURE, POSE_BY_POSTURE, GAIN_BY_POSTURE, GROWTH = (
-    "zero_per_posture", "pose_error_per_posture", "gain_per_posture", "tip_moves_slowly",
+# Nor is what does not begin in the record: a step after its first readings is hardly another thing.
+ZERO_BY_POSTURE, ZERO_AT_ONE, POSE_BY_POSTURE, GAIN_BY_POSTURE, GROWTH, ELSEWHERE, GAIN_OF_ONE = (
+    "zero_per_posture", "zero_at_one_posture", "pose_error_per_posture", "gain_per_posture", "tip_moves_slowly",
+    "tip_stands_elsewhere", "gain_of_one_axis",
 )  # fmt: skip
 NOT_TOLD = {
     ZERO_BY_POSTURE: "the force at rest differed from posture to posture",
+    ZERO_AT_ONE: "the force at rest was another one at one of the postures",
     POSE_BY_POSTURE: "the joints stood at other angles than the record says, at each posture by others",
     GAIN_BY_POSTURE: "the sensor had another gain at each posture",
     GROWTH: "the tip was displaced slowly, with time or with the temperature",
+    ELSEWHERE: "the tip stood off its rest where the record says that it stood there",
+    GAIN_OF_ONE: "the sensor had another gain along one axis",
 }
 POSE_SIGMAS_RAD = (7e-4, 1.5e-3, 3e-3, 6e-3)  # what a drive repeats its posture by
 ZERO_SIGMAS_N = (0.03, 0.1, 0.3, 1.0)  # what a force sensor's zero wanders by
@@ -68,13 +73,17 @@ def kinds(record: Record, fitted: Fit, remover: Remover, left: np.ndarray) -> It
     forces = played[: len(FORCES), :, None] * _X_Z
     both = forces.sum(axis=2, keepdims=True)  # one size: the columns of both forces are apart
     yield Kind(GAIN_STEP, list(_steps(record, remover, left, [both, *_alone(forces)], most=1)))
+    yield Kind(GAIN_OF_ONE, [Way(_of_forces(record, one), log(len(FORCES))) for one in _alone(forces)])
     displaced = _displaced(record, fitted)
     yield Kind(SLIP, list(_steps(record, remover, left, [displaced], MOST_SLIPS)))
+    yield Kind(ELSEWHERE, [Way(_of_forces(record, displaced), 0.0)])
     ramps = list(_ramps(record))
     yield Kind(GROWTH, [Way(_of_forces(record, displaced * ramp[:, None]), log(len(ramps))) for ramp in ramps])
     if not record.zeroed:
         unit = np.broadcast_to(_X_Z, (len(FORCES), record.rows, len(FORCES)))
         yield Kind(ZERO_STEP, list(_steps(record, remover, left, [unit, *_alone(unit)], MOST_STEPS)))
+        here = list(_at_one_posture(record))
+        yield Kind(ZERO_AT_ONE, [Way(_of_forces(record, unit * at), log(len(here))) for at in here])
         runs = _by_run(record, np.ones((1, record.rows)), starts)
         if runs.shape[2] > 2:
             both = np.concatenate([runs * _X[:, :, None], runs * _Z[:, :, None]], axis=2)
@@ -123,6 +132,12 @@ def _displaced(record: Record, fitted: Fit) -> np.ndarray:
     postures, of_row = np.unique(angles, axis=0, return_inverse=True)
     xx, xz, zz = reference_planar_many(fitted.model[None], postures[None])[0, of_row.ravel(), :3].T
     return np.stack([np.stack([xx, xz]), np.stack([xz, zz])], axis=2)
+
+
+def _at_one_posture(record: Record) -> Iterator[np.ndarray]:
+    """1 x rows x 1: where the record is at a posture, for each of them."""
+    for config in np.unique(record.dataset["config"]):
+        yield (record.dataset["config"] == config)[None, :, None]
 
 
 def _ramps(record: Record) -> Iterator[np.ndarray]:

@@ -32,7 +32,7 @@ from brace.diagnose.loading.troubles.words import first_row, shown
 from brace.effects.rivals import RIVAL_BY_NAME, RivalCause
 
 MUST_LEAD = 4.6  # nats: 100 to 1 against the best of the catalogue, as every name must be ahead of nothing missing
-REFITTED = 4  # kinds of trouble beside sets of effects, the most likely ones
+REFITTED = 5  # kinds of trouble beside sets of effects, the most likely ones
 BY_SLOPES = 0.01  # nats for each sigma squared that a trouble explains by slopes: what a fit may explain beside
 BACK = 0.2  # of the largest slip: what slips that go back may leave
 MAY_BE = -3.0  # nats: 1 to 20, from which a trouble is a rival of what was named
