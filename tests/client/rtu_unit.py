@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import os
 import pty
+import select
 import struct
 import subprocess
 import threading
@@ -43,12 +44,16 @@ def rtu_unit(late_s: Callable[[int], float], byte_s: float = 0.0) -> Iterator[st
     ours, theirs = pty.openpty()
     subprocess.run(["stty", "-F", os.ttyname(theirs), "raw", "-echo"], check=True)
 
+    ended = threading.Event()
+
     def serve() -> None:
         rest, number = b"", 0
-        with contextlib.suppress(OSError):  # the device has been closed
-            while True:
+        with contextlib.suppress(OSError):  # the client has closed the device
+            while not ended.is_set():
+                if not select.select([ours], [], [], 0.02)[0]:
+                    continue
                 rest += os.read(ours, 256)
-                while len(rest) >= 8:
+                while len(rest) >= 8 and not ended.is_set():
                     length = 9 + rest[6] if rest[1] == 16 else 8
                     if len(rest) < length:
                         break
@@ -60,9 +65,12 @@ def rtu_unit(late_s: Callable[[int], float], byte_s: float = 0.0) -> Iterator[st
                         os.write(ours, piece)
                         time.sleep(byte_s)
 
-    threading.Thread(target=serve, daemon=True).start()
+    serving = threading.Thread(target=serve, daemon=True)
+    serving.start()
     try:
         yield f"modbus:{os.ttyname(theirs)}"
     finally:
+        ended.set()
+        serving.join()  # the next unit may get the same numbers of files
         os.close(ours)
         os.close(theirs)

@@ -19,7 +19,7 @@ class Queue:
 
 def test_frames_of_other_kinds_do_not_hide_those_behind_them() -> None:
     bus = SocketCanBus.__new__(SocketCanBus)
-    bus.url, bus._can, bus._errors = "can0", can, 0
+    bus.url, bus._can, bus._errors, bus.other_frames = "can0", can, 0, 0
     bus._bus = Queue(
         can.Message(arbitration_id=0x12345, is_extended_id=True),
         can.Message(arbitration_id=0x181, is_extended_id=False, data=b"1"),
@@ -29,4 +29,4 @@ def test_frames_of_other_kinds_do_not_hide_those_behind_them() -> None:
         can.Message(arbitration_id=0x12345, is_extended_id=True),
     )
     assert [(frame.identifier, frame.data) for frame in bus.receive_all()] == [(0x181, b"1"), (0x281, b"2")]
-    assert bus._errors == 1 and bus.receive(0.01) is None
+    assert (bus._errors, bus.other_frames) == (1, 3) and bus.receive(0.01) is None
