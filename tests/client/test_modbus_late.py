@@ -58,6 +58,6 @@ def longest_without_a_sign_s(bench: Sim) -> float:
 
 
 def test_lost_requests_stop_no_limb(bench: Sim) -> None:
-    """Among them signs of life. Each takes 60 ms until it is given up; after 130 ms the limb would stand. A busy machine
-    may stall the client once, and does not do so three times."""
+    """Among them signs of life. Each takes 60 ms until it is given up; after 130 ms the limb would stand. A busy
+    machine may stall the client once, and does not do so three times."""
     assert any(longest_without_a_sign_s(bench) < SILENCE_S for _ in range(3))
