@@ -63,6 +63,7 @@ struct brace_client {
     uint32_t unit;
     uint32_t baud;       /* of a serial line; 0 over TCP */
     bool is_out_of_step; /* an answer may come that nobody waits for any more */
+    uint32_t marks;      /* reads that were asked for to find the step again */
 };
 
 typedef struct {

@@ -25,7 +25,7 @@ bool brace_modbus_is_url(const char *url)
 #include "brace/status.h"
 
 enum { TRY_MS = 800, ALIVE_TRY_MS = 60 /* the controller waits 130 ms for a sign of life */, BITS_PER_BYTE = 11 };
-enum { READ_INPUT = 4, MARK_REGISTERS = 1, EXCEPTION = 0x80,
+enum { READ_INPUT = 4, MARKS = 16 /* of 1, 3, ... 31 registers; a value has two */, EXCEPTION = 0x80,
        FRAME_BYTES = 21 /* of request and answer together, without values */ };
 enum { REGISTERS_AT_ONCE = 125, APART_MS = 32, ASKED_MOST = 6, BUSY_MS = 20 };
 enum { WRITE_BLOCK = 16, REQUEST_HEAD = 6, NOT_OURS = 7 /* exceptions: docs/modbus.md */ };
@@ -176,11 +176,11 @@ static int write_words(modbus_t *modbus, int address, int count, uint16_t *words
     return modbus_write_registers(modbus, address, count, words);
 }
 
-/* The answer to the read of MARK_REGISTERS; all other answers have another length. returns 0, libmodbus' error for an
- * exception, or -1: another answer */
-static int look_at_mark(const uint8_t *answer, int length, int header)
+/* The answer to the read of so many registers; all other answers have another length. returns 0, libmodbus' error for
+ * an exception, or -1: another answer */
+static int look_at_mark(const uint8_t *answer, int length, int header, uint32_t registers)
 {
-    if (length == header + 2 + 2 * MARK_REGISTERS && answer[header] == READ_INPUT) {
+    if (length == header + 2 + 2 * (int)registers && answer[header] == READ_INPUT) {
         return 0;
     }
     const bool is_exception = length == header + 2 && answer[header] == (READ_INPUT | EXCEPTION);
@@ -188,10 +188,12 @@ static int look_at_mark(const uint8_t *answer, int length, int header)
 }
 
 /* After an answer that did not come: it may still come, and would be taken for the next one's, and so on. So this asks
- * for something whose answer is like no other, and drops all that comes before it. returns 0, or libmodbus' error */
+ * for something whose answer is like no other, and drops all that comes before it. Marks asked for before may be late,
+ * too: each has another length. returns 0, or libmodbus' error */
 static int fall_into_step(brace_client_t *client, uint64_t deadline_us)
 {
-    const uint8_t request[] = {(uint8_t)client->unit, READ_INPUT, 0u, 0u, 0u, MARK_REGISTERS};
+    const uint32_t registers = 1u + 2u * (client->marks % MARKS);
+    const uint8_t request[] = {(uint8_t)client->unit, READ_INPUT, 0u, 0u, 0u, (uint8_t)registers};
     const int header = modbus_get_header_length(client->modbus), bytes = header > 1 ? 0 : 2; /* RTU: the check */
     uint8_t answer[MODBUS_TCP_MAX_ADU_LENGTH];
     int found = -1;
@@ -199,7 +201,8 @@ static int fall_into_step(brace_client_t *client, uint64_t deadline_us)
         return 0;
     }
     (void)modbus_flush(client->modbus);
-    limit_wait(client, MARK_REGISTERS, deadline_us);
+    client->marks++;
+    limit_wait(client, registers, deadline_us);
     if (modbus_send_raw_request(client->modbus, request, (int)sizeof request) < 0) {
         return errno;
     }
@@ -208,7 +211,7 @@ static int fall_into_step(brace_client_t *client, uint64_t deadline_us)
         if (length <= 0) {
             return length < 0 ? errno : ETIMEDOUT;
         }
-        found = look_at_mark(answer, length - bytes, header);
+        found = look_at_mark(answer, length - bytes, header, registers);
     }
     client->is_out_of_step = found != 0;
     return found;
