@@ -40,12 +40,12 @@ class CandumpWriter:
 
 
 def tell_nobody() -> None:
-    """Frames of other kinds are not counted."""
+    """Does nothing: for a caller that does not count the frames that are left out."""
 
 
 def read(path: Path, passed_over: Callable[[], None] = tell_nobody) -> Iterator[Frame]:
-    """The frames of a log; a last line that was cut off is passed over. `passed_over` is told of each frame of another
-    kind."""
+    """The frames of a log, without a last line that was cut off. Calls `passed_over` once for each frame with a 29-bit
+    identifier and each remote frame, which it leaves out."""
     with path.open("rb") as file:
         for number, raw in enumerate(file, 1):
             text = raw.decode("latin-1")

@@ -33,7 +33,8 @@ def is_mcap(path: Path) -> bool:
 
 
 def read(path: Path, passed_over: Callable[[], None] = candump.tell_nobody) -> Iterator[Frame]:
-    """Frames of a candump or MCAP log; `passed_over` is told of each frame of another kind."""
+    """Frames of a candump or MCAP log. Calls `passed_over` once for each frame that it leaves out (29-bit identifiers,
+    remote frames)."""
     if not path.is_file():
         raise BadFileError(
             "no such log",

@@ -139,6 +139,6 @@ def _say_end(arguments: argparse.Namespace, recording: Recording, watch: Watch, 
     )
     if left_out:
         common.say(
-            f"{left_out} frames with 29-bit identifiers, or remote, are not in it: no controller sends such; "
-            "candump -L keeps them"
+            f"left out, with 29-bit identifiers or remote: {left_out} of the frames heard; a controller sends none of "
+            "these, and candump -L records them"
         )

@@ -52,7 +52,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _say_gap(wait_s: float) -> None:
-    """A wait that looks like a program that hangs is told before it begins."""
+    """Says how long the command will wait, where it waits so long that it seems to hang."""
     if wait_s > _LONG_GAP_S:
         common.say(f"the log's next frame comes in {wait_s:.0f} s; --speed F goes faster, Ctrl-C ends")
 

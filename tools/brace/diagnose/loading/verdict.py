@@ -56,7 +56,8 @@ def decide(sets: Sequence[LabelSet], structure: Structure, base: Fit, outside: O
 
 
 def undecided(decision: Decision, lead: float, words: str) -> Decision:
-    """The same, where something without a name explains the record better by so many nats."""
+    """The decision `unknown` in place of this one: something explains the record better by `lead` nats than what was
+    chosen, and `words` say what the record looks like."""
     return Decision("unknown", (), (), decision.chosen, decision.structure, Outside(lead, words))
 
 

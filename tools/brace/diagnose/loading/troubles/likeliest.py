@@ -62,7 +62,8 @@ class Trouble:
 
     @property
     def told(self) -> bool:
-        """Whether it is of the instruments. Else it speaks only against what would make up for it."""
+        """Whether the report may name it: it is a trouble of the instruments. Anything else has no name, and makes
+        the verdict unknown where it is far ahead."""
         return self.name not in NOT_TOLD
 
     @property
@@ -72,7 +73,7 @@ class Trouble:
 
     @property
     def cause(self) -> RivalCause:
-        """Its words, where it is told."""
+        """Name and words of a trouble of the instruments. KeyError where `told` is false."""
         return RIVAL_BY_NAME[self.name]
 
     @property
