@@ -83,10 +83,12 @@ def pressed(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Sim]:
 
 
 def _counted_load(probe: Probe, url: str) -> dict[str, float]:
-    """The load, once the controller counts one: it begins without."""
+    """The load, once the controller counts one and its filter has settled: it begins without."""
     until = time.monotonic() + 20.0
-    while (told := probe(url, "load").values)["is_counted"] != 1:
+    before: dict[str, float] = {}
+    while (told := probe(url, "load").values)["is_counted"] != 1 or told != pytest.approx(before, rel=1e-3, abs=1e-3):
         assert time.monotonic() < until, told
+        before = told
         time.sleep(0.05)
     return told
 
