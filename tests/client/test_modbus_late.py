@@ -1,7 +1,8 @@
-"""Late, slow and lost answers over Modbus: the C client takes none for another one's, and they stop no limb."""
+"""Late, slow and lost answers over Modbus: no client takes one for another one's, and they stop no limb."""
 
 from __future__ import annotations
 
+import contextlib
 import itertools
 import struct
 from collections.abc import Callable, Iterator
@@ -13,7 +14,11 @@ from relay import relayed
 from rtu_unit import rtu_unit
 from test_commanding import DONE, RUNNING, SPEED, UP, acts, with_play  # noqa: F401, a fixture
 
+from brace.bus.modbus_controller import ModbusController
 from brace.bus.ownership import register_of
+from brace.bus.url import parse
+from brace.errors import NoDeviceError
+from brace.wire.registers import REGISTERS
 
 SILENT, WRITE = 7, 16
 SILENCE_S = 0.25  # on a busy machine; where a lost request was waited for, 0.3
@@ -30,6 +35,21 @@ def test_a_late_answer_is_not_the_next_one_s(late: set[int]) -> None:
     told = [(index, act.state) for index, act in zip(INDICES, done) if act.status == 0]
     assert all(value == 2 * index for index, value in told), why
     assert len(told) >= len(INDICES) - (len(late) - 1) and done[-1].status == 0, why
+
+
+@pytest.mark.parametrize("late", [{8}, {8, 9}, {8, 9, 10}, set(range(8, 20))])
+def test_nor_does_brace_query_take_it(late: set[int]) -> None:
+    """The same unit and the client in Python, which tries again after 0.6 s, three times in all."""
+    holding = [register for register in REGISTERS if register.table == "holding"][:12]
+    told: list[tuple[int, int]] = []
+    with rtu_unit(lambda number: 0.75 if number in late else 0.0) as url:
+        controller = ModbusController(parse(url))
+        for register in holding:
+            with contextlib.suppress(NoDeviceError):
+                told.append((register.address, controller.read_entry(register.name)))
+        controller.close()
+    assert all(value == address for address, value in told)
+    assert len(told) >= len(holding) - (len(late) + 1) // 2 and told[-1][0] == holding[-1].address
 
 
 def test_an_answer_that_trickles_ends_with_the_time_out(probe: Callable[..., Answer]) -> None:

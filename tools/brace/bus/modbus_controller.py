@@ -25,6 +25,7 @@ from brace.bus.controller import (
 )
 from brace.bus.drift import TAKE_UPS, Drift, drift_of, take_up_of
 from brace.bus.load import Load, load_of
+from brace.bus.modbus_line import ANSWER_S, TRIES, ModbusLine
 from brace.bus.ownership import LIFE_S, NOT_OPEN, Owner, Reopening, register_of
 from brace.bus.refusal import STORE, error_of, no_coxa_joint, no_equilibrium
 from brace.bus.snapshot import Snapshot
@@ -43,8 +44,6 @@ if TYPE_CHECKING:
 
 _Answer = TypeVar("_Answer")
 
-ANSWER_S = 0.6
-RETRIES = 2
 COMMIT_S = 2.5
 BUSY_S = 2.5  # as long as a commit may take
 APART_S = 0.03  # between two questions that another client's came between
@@ -114,7 +113,7 @@ class ModbusController:
         self._lives = False
         self._next_life_s = 0.0
         self._url = url
-        self._client = _connected(url)
+        self._line = _connected(url)
         try:
             self.node = url.unit
             self._check_words()
@@ -334,9 +333,7 @@ class ModbusController:
         """A sign of life or a seal: number and check in one request."""
         words = struct.unpack(">4H", struct.pack(">II", counter, check))
         address = register_of(first)
-        self._done(
-            lambda: self._client.write_registers(address, list(words), device_id=self._url.unit), f"writing {first}"
-        )
+        self._done(lambda: self._line.write(address, list(words)), f"writing {first}")
 
     # --------------------------------------------------------------------------------------- parameters
 
@@ -405,7 +402,7 @@ class ModbusController:
 
     def close(self) -> None:
         """The connection."""
-        self._client.close()
+        self._line.close()
 
     # ---------------------------------------------------------------------------------------- registers
 
@@ -418,14 +415,8 @@ class ModbusController:
 
     def _read(self, table: str, address: int, count: int) -> tuple[int, ...]:
         self._tend()
-        function = (
-            self._client.read_input_registers if table == "input" else self._client.read_holding_registers
-        )
-        return tuple(
-            self._done(
-                lambda: function(address, count=count, device_id=self._url.unit), f"reading {table} {address}"
-            ).registers
-        )
+        answer = self._done(lambda: self._line.read(table, address, count), f"reading {table} {address}")
+        return tuple(answer.registers)
 
     def _write(self, address: int, words: Sequence[int]) -> None:
         """Sealed where a session is open: over the request from its function on."""
@@ -434,10 +425,7 @@ class ModbusController:
             head = struct.pack(">BHHB", _WRITE_BLOCK, address, len(words), 2 * len(words))
             counter = self._owner.next_counter()
             self._show("seal_counter", counter, self._owner.seal(head + struct.pack(f">{len(words)}H", *words)))
-        self._done(
-            lambda: self._client.write_registers(address, list(words), device_id=self._url.unit),
-            f"writing holding {address}",
-        )
+        self._done(lambda: self._line.write(address, list(words)), f"writing holding {address}")
 
     def _command(self, name: str, value: int) -> None:
         """A controller that is still storing says busy, which is to be asked again (Modbus exception 6)."""
@@ -529,7 +517,7 @@ def _bits(name: str, values: Mapping[str, Value]) -> tuple[str, ...]:
     return () if table is None else table.names_of_bits(int(values[name] or 0))
 
 
-def _connected(url: BusUrl) -> Any:
+def _connected(url: BusUrl) -> ModbusLine:
     try:
         from pymodbus.client import ModbusSerialClient, ModbusTcpClient
     except ImportError as error:
@@ -545,19 +533,19 @@ def _connected(url: BusUrl) -> Any:
         from brace.bus.lines import TcpLine
 
         TcpLine(url).close()  # says why not, in our words
-        client: Any = ModbusTcpClient(url.place, port=url.port, timeout=ANSWER_S, retries=RETRIES)
+        client: Any = ModbusTcpClient(url.place, port=url.port, timeout=ANSWER_S, retries=0)
     else:
         from brace.bus.lines import SerialLine
 
         SerialLine(url).close()
         client = ModbusSerialClient(
-            url.place, baudrate=url.baud, parity=parity_of(url.place), timeout=ANSWER_S, retries=RETRIES
+            url.place, baudrate=url.baud, parity=parity_of(url.place), timeout=ANSWER_S, retries=0
         )
     if not client.connect():
         raise NoDeviceError(
             "no connection", where=url.text, why="it was there a moment ago", next_step="try again"
         )
-    return client
+    return ModbusLine(client, url.unit, is_numbered=url.kind == "modbus-tcp")
 
 
 def parity_of(place: str) -> str:
@@ -577,6 +565,6 @@ def _no_answer(url: BusUrl, error: Exception) -> NoDeviceError:
     return NoDeviceError(
         f"unit {url.unit} does not answer",
         where=url.text,
-        why=f"no answer within {ANSWER_S * (RETRIES + 1):.1f} s: {cause} ({type(error).__name__})",
+        why=f"no answer within {ANSWER_S * TRIES:.1f} s: {cause} ({type(error).__name__})",
         next_step=way,
     )
