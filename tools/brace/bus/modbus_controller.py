@@ -1,17 +1,15 @@
-"""A controller over Modbus RTU or TCP, through pymodbus."""
+"""A controller over Modbus RTU or TCP."""
 
 from __future__ import annotations
 
 import contextlib
-import math
-import os
 import random
 import struct
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from functools import partial
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from brace.bus.controller import (
     NO_FORCE,
@@ -25,21 +23,34 @@ from brace.bus.controller import (
 )
 from brace.bus.drift import TAKE_UPS, Drift, drift_of, take_up_of
 from brace.bus.load import Load, load_of
-from brace.bus.modbus_line import ANSWER_S, TRIES, ModbusLine
+from brace.bus.modbus_line import connected
+from brace.bus.modbus_values import (
+    ASKED,
+    AT_ONCE,
+    BY_NAME,
+    DRIFT,
+    LOAD,
+    SPACE,
+    TAKE_UP_OF,
+    bit_names,
+    code_word,
+    decoded,
+)
 from brace.bus.ownership import LIFE_S, NOT_OPEN, Owner, Reopening, register_of
 from brace.bus.refusal import STORE, error_of, no_coxa_joint, no_equilibrium
 from brace.bus.snapshot import Snapshot
 from brace.bus.space import SpaceAnswer, SpaceSnapshot, space_answer, space_snapshot
 from brace.bus.url import BusUrl
-from brace.errors import BraceError, DeviceFaultError, MissingLibraryError, NoDeviceError
+from brace.errors import BraceError, DeviceFaultError, NoDeviceError
 from brace.wire.codes import FLAG
 from brace.wire.layout import Value
-from brace.wire.measured import MEASURED
 from brace.wire.names import PARAMETERS
 from brace.wire.register import Register
 from brace.wire.registers import REGISTERS
 
 if TYPE_CHECKING:
+    from pymodbus.pdu import ModbusPDU
+
     from brace.params import Block
 
 _Answer = TypeVar("_Answer")
@@ -48,29 +59,12 @@ COMMIT_S = 2.5
 BUSY_S = 2.5  # as long as a commit may take
 APART_S = 0.03  # between two questions that another client's came between
 _BLOCK = 120  # registers in a request; 125 may be read, 123 written
-_ONE_READ = 125  # registers that one request reads: values of one snapshot
 _KEY = 0xC0DE0000
 _POSITIVE, _NEGATIVE = 256, 512  # sides of the play, in take_up's register
-_INPUT = [r for r in REGISTERS if r.table == "input" and r.address + 2 <= _ONE_READ]
-_ASKED = [r for r in REGISTERS if r.table == "input" and r.address >= 4096]
 _INDEX = {parameter.key: parameter.index for parameter in PARAMETERS}
 _PARAMETERS = sorted((r for r in REGISTERS if r.table == "holding" and r.access == "rw"), key=lambda r: r.address)
 _PLACES = [_INDEX[r.name] for r in _PARAMETERS]  # by register: a parameter's place in the block
-_BY_NAME = {r.name: r for r in REGISTERS}
-
-
-def _between(first: str, last: str) -> list[Register]:
-    """Input registers that lie together."""
-    low, high = _BY_NAME[first].address, _BY_NAME[last].address
-    return [r for r in REGISTERS if r.table == "input" and low <= r.address <= high]
-
-
-_SPACE = _between("k_is_in_space", "play_coxa")
-_DRIFT = _between("drift_state", "drift_next_step")
-_TAKE_UPS = _between("take_up_coxa", "take_up_tibia")
-_LOAD = _between("unloaded_k_xx", "unloaded_k_across")
 _FORCES = (("fx_n", "x"), ("fz_n", "z"), ("low_n", "low"), ("high_n", "high"))
-_ENTRIES = {entry.name: entry for entry in MEASURED}
 _EXCEPTIONS = {
     1: "not in its mode of now, or no such function",
     2: "no such registers",
@@ -113,7 +107,7 @@ class ModbusController:
         self._lives = False
         self._next_life_s = 0.0
         self._url = url
-        self._line = _connected(url)
+        self._line = connected(url)
         try:
             self.node = url.unit
             self._check_words()
@@ -140,7 +134,7 @@ class ModbusController:
         version = int(values["firmware_version"] or 0)
         text = f"{version >> 16}.{version >> 8 & 0xFF}.{version & 0xFF}"
         check_dictionary(int(values["dictionary_hash"] or 0), self.url, text)
-        origin = _name("parameter_origin", values)
+        origin = code_word("parameter_origin", values)
         return Identity(
             self.node, text, int(values["dictionary_hash"] or 0), int(values["parameter_crc"] or 0), origin
         )
@@ -151,7 +145,7 @@ class ModbusController:
         v = self._input()
         valid = bool(v["k_is_valid"])
         age = v["age_us"]
-        faults = tuple(name.lower() for name in _bits("faults", v))
+        faults = tuple(name.lower() for name in bit_names("faults", v))
         has_coxa_joint = bool(v["k_is_in_space"]) or v["theta0"] is not None or "sensor_coxa" in faults
         return Snapshot(
             node=self.node,
@@ -160,9 +154,9 @@ class ModbusController:
             k_xx=v["k_xx"] if valid else None,
             k_xz=v["k_xz"] if valid else None,
             k_zz=v["k_zz"] if valid else None,
-            flags=_bits("flags", v),
+            flags=bit_names("flags", v),
             age_ms=None if age is None else age / 1000,
-            play=(_name("play_femur", v), _name("play_tibia", v)),
+            play=(code_word("play_femur", v), code_word("play_tibia", v)),
             parameter_tag=int(v["parameter_crc"] or 0) & 0xFFFF,
             has_posture=True,
             lambda_min=v["lambda_min"],
@@ -170,14 +164,14 @@ class ModbusController:
             stiff_axis=v["stiff_axis"],
             theta1=v["theta1"],
             theta2=v["theta2"],
-            mode=_name("mode", v),
+            mode=code_word("mode", v),
             faults=faults,
             space=self._space() if has_coxa_joint else None,
             adds="posture",
         )
 
     def _space(self) -> SpaceSnapshot:
-        v = self._values_of(_SPACE)
+        v = self._values_of(SPACE)
         if not v["k_is_in_space"]:
             v |= {name: None for name in v if name.startswith("space_k_")}
         return space_snapshot(v, "space_")
@@ -188,18 +182,18 @@ class ModbusController:
         """Written, then read."""
         v = self._ask("asked_space_force_x", ">ffffff", *force_n, theta0_rad, theta1_rad, theta2_rad)
         if v["asked_space_k_xx"] is None and v["asked_space_flags"] is None:
-            if self._values_of(_SPACE)["theta0"] is None:
+            if self._values_of(SPACE)["theta0"] is None:
                 raise no_coxa_joint(self.url, "theta0 reads as not known")
             raise no_equilibrium(self.url, "the answer's registers hold no K")
         return space_answer(v, "asked_space_", "moved_")
 
     def drift(self) -> Drift:
         """What the check of model against measurement knows."""
-        return drift_of(self._values_of(_DRIFT), "drift_", "_ratio")
+        return drift_of(self._values_of(DRIFT), "drift_", "_ratio")
 
     def take_ups(self) -> dict[str, str]:
         """How each joint's last take-up went."""
-        v = self._values_of(_TAKE_UPS)
+        v = self._values_of(TAKE_UP_OF)
         return {joint: take_up_of(int(v[f"take_up_{joint}"] or 0)) for joint in TAKE_UPS}
 
     def k_at_posture(self, theta1_rad: float, theta2_rad: float, force_n: Force | None = None) -> StiffnessAnswer:
@@ -216,7 +210,7 @@ class ModbusController:
 
     def load(self) -> Load:
         """Of one read."""
-        return load_of(self._values_of(_LOAD))
+        return load_of(self._values_of(LOAD))
 
     def set_gravity(self, direction_rad: float, lean_rad: float) -> tuple[Value, Value]:
         """Volatile."""
@@ -236,13 +230,13 @@ class ModbusController:
     def _ask(self, first: str, form: str, *values: float) -> dict[str, Value]:
         """What belongs to one question is written at once; all answers. They are to it if it still reads back."""
         data = struct.pack(form, *values)
-        address, words = _BY_NAME[first].address, struct.unpack(f">{len(data) // 2}H", data)
+        address, words = BY_NAME[first].address, struct.unpack(f">{len(data) // 2}H", data)
         until = time.monotonic() + BUSY_S
         while True:
             self._write(address, words)
-            answers = self._read("input", _ASKED[0].address, 2 * len(_ASKED))
+            answers = self._read("input", ASKED[0].address, 2 * len(ASKED))
             if self._read("holding", address, len(words)) == words:
-                return _decoded(_ASKED, answers)
+                return decoded(ASKED, answers)
             if time.monotonic() > until:
                 raise DeviceFaultError(
                     "other clients asked other questions all the time",
@@ -266,7 +260,7 @@ class ModbusController:
 
     def read_entry(self, name: str) -> int:
         """32 bits."""
-        register = _BY_NAME[name]
+        register = BY_NAME[name]
         high, low = self._read(register.table, register.address, 2)
         return high << 16 | low
 
@@ -333,7 +327,7 @@ class ModbusController:
         """A sign of life or a seal: number and check in one request."""
         words = struct.unpack(">4H", struct.pack(">II", counter, check))
         address = register_of(first)
-        self._done(lambda: self._line.write(address, list(words)), f"writing {first}")
+        self._taken(self._line.write(address, list(words)), f"writing {first}")
 
     # --------------------------------------------------------------------------------------- parameters
 
@@ -407,15 +401,15 @@ class ModbusController:
     # ---------------------------------------------------------------------------------------- registers
 
     def _input(self) -> dict[str, Value]:
-        return _decoded(_INPUT, self._read("input", 0, 2 * len(_INPUT)))
+        return decoded(AT_ONCE, self._read("input", 0, 2 * len(AT_ONCE)))
 
     def _values_of(self, registers: Sequence[Register]) -> dict[str, Value]:
         """Of one read."""
-        return _decoded(registers, self._read("input", registers[0].address, 2 * len(registers)))
+        return decoded(registers, self._read("input", registers[0].address, 2 * len(registers)))
 
     def _read(self, table: str, address: int, count: int) -> tuple[int, ...]:
         self._tend()
-        answer = self._done(lambda: self._line.read(table, address, count), f"reading {table} {address}")
+        answer = self._taken(self._line.read(table, address, count), f"reading {table} {address}")
         return tuple(answer.registers)
 
     def _write(self, address: int, words: Sequence[int]) -> None:
@@ -425,12 +419,12 @@ class ModbusController:
             head = struct.pack(">BHHB", _WRITE_BLOCK, address, len(words), 2 * len(words))
             counter = self._owner.next_counter()
             self._show("seal_counter", counter, self._owner.seal(head + struct.pack(f">{len(words)}H", *words)))
-        self._done(lambda: self._line.write(address, list(words)), f"writing holding {address}")
+        self._taken(self._line.write(address, list(words)), f"writing holding {address}")
 
     def _command(self, name: str, value: int) -> None:
         """A controller that is still storing says busy, which is to be asked again (Modbus exception 6)."""
         until = time.monotonic() + (EARLY_S if name in _COMMITS else BUSY_S)
-        address, words = _BY_NAME[name].address, (value >> 16, value & 0xFFFF)
+        address, words = BY_NAME[name].address, (value >> 16, value & 0xFFFF)
         while True:
             try:
                 return self._owning(partial(self._write, address, words))
@@ -457,14 +451,10 @@ class ModbusController:
             self._owner.accepted()
             return answer
 
-    def _done(self, request: Any, what: str) -> Any:
-        try:
-            answer = request()
-        except Exception as error:  # pymodbus has its own, and passes on the system's
-            raise _no_answer(self._url, error) from None
+    def _taken(self, answer: ModbusPDU, what: str) -> ModbusPDU:
+        """Unless it is an exception."""
         if answer.isError():
-            code = getattr(answer, "exception_code", 0)
-            raise self._refused(what, code)
+            raise self._refused(what, getattr(answer, "exception_code", 0))
         return answer
 
     def _refused(self, what: str, code: int) -> BraceError:
@@ -488,83 +478,3 @@ class ModbusController:
             "a loading test or "
             "play being taken up prevents",
         )
-
-
-def _decoded(registers: Sequence[Register], words: Sequence[int]) -> dict[str, Value]:
-    first = registers[0].address
-    values: dict[str, Value] = {}
-    for register in registers:
-        at = register.address - first
-        raw = struct.pack(">2H", *words[at : at + 2])
-        if register.type == "f32":
-            (number,) = struct.unpack(">f", raw)
-            values[register.name] = None if math.isnan(number) else number
-        else:
-            (number,) = struct.unpack(">I", raw)
-            known = number != 0xFFFFFFFF or register.name in ("parameter_crc", "sequence", "dictionary_hash")
-            values[register.name] = number if known else None
-    return values
-
-
-def _name(name: str, values: Mapping[str, Value]) -> str:
-    code = int(values[name] or 0)
-    table = _ENTRIES[name].codes
-    return str(code) if table is None else table.word_of(code)
-
-
-def _bits(name: str, values: Mapping[str, Value]) -> tuple[str, ...]:
-    table = _ENTRIES[name].codes
-    return () if table is None else table.names_of_bits(int(values[name] or 0))
-
-
-def _connected(url: BusUrl) -> ModbusLine:
-    try:
-        from pymodbus.client import ModbusSerialClient, ModbusTcpClient
-    except ImportError as error:
-        raise MissingLibraryError(
-            "pymodbus is not installed",
-            why=str(error),
-            next_step="pip install pymodbus pyserial, or ./dev setup",
-        ) from None
-    import logging
-
-    logging.getLogger("pymodbus").setLevel(logging.CRITICAL)  # what goes wrong is told in our words
-    if url.kind == "modbus-tcp":
-        from brace.bus.lines import TcpLine
-
-        TcpLine(url).close()  # says why not, in our words
-        client: Any = ModbusTcpClient(url.place, port=url.port, timeout=ANSWER_S, retries=0)
-    else:
-        from brace.bus.lines import SerialLine
-
-        SerialLine(url).close()
-        client = ModbusSerialClient(
-            url.place, baudrate=url.baud, parity=parity_of(url.place), timeout=ANSWER_S, retries=0
-        )
-    if not client.connect():
-        raise NoDeviceError(
-            "no connection", where=url.text, why="it was there a moment ago", next_step="try again"
-        )
-    return ModbusLine(client, url.unit, is_numbered=url.kind == "modbus-tcp")
-
-
-def parity_of(place: str) -> str:
-    """Even, as Modbus RTU and so the controller has it; a pseudo-terminal has none and refuses any."""
-    return "N" if os.path.realpath(place).startswith("/dev/pts/") else "E"
-
-
-def _no_answer(url: BusUrl, error: Exception) -> NoDeviceError:
-    if url.kind == "modbus-tcp":
-        cause = "another unit, or no Modbus at that port"
-        way = "modbus-tcp://HOST:PORT/UNIT; brace sim prints its own; an SLCAN port is tcp://HOST:PORT"
-    else:
-        cause = "another unit, another baud rate, or nobody"
-        way = (
-            "modbus:DEVICE@BAUD/UNIT: controller.modbus_baud and controller.modbus_address of the controller"
-        )
-    return NoDeviceError(
-        f"unit {url.unit} does not answer",
-        where=url.text,
-        why=f"no answer within {ANSWER_S * TRIES:.1f} s: {cause} ({type(error).__name__})",
-        next_step=way,
-    )

@@ -1,20 +1,24 @@
-"""A pymodbus client whose answers are to its last request. Modbus RTU does not number requests, and pymodbus takes the
+"""Requests through pymodbus, each with its own answer. Modbus RTU does not number requests, and pymodbus takes the
 first whole answer that comes: a late one would pass for the next one's, and so on."""
 
 from __future__ import annotations
 
 import contextlib
+import os
 import time
 from collections.abc import Callable
 from itertools import cycle
 from typing import TYPE_CHECKING
 
+from brace.bus.url import BusUrl
+from brace.errors import MissingLibraryError, NoDeviceError
+
 if TYPE_CHECKING:
     from pymodbus.client.base import ModbusBaseSyncClient
     from pymodbus.pdu import ModbusPDU
 
-ANSWER_S = 0.6
-TRIES = 3
+_ANSWER_S = 0.6
+_TRIES = 3
 _MARK_TRIES = 8
 _OTHERS_CAME = "only late answers to other requests came"
 _QUIET_S = 0.05  # in which answers come that a slow unit still owes
@@ -24,11 +28,12 @@ _MARK_REGISTERS = range(1, 32, 2)  # a value has two registers, so that no other
 class ModbusLine:
     """Requests to one unit."""
 
-    def __init__(self, client: ModbusBaseSyncClient, unit: int, is_numbered: bool) -> None:
-        """is_numbered: requests have numbers, as over TCP, and pymodbus looks at them."""
+    def __init__(self, client: ModbusBaseSyncClient, url: BusUrl) -> None:
+        """client: of pymodbus, connected."""
         self._client = client
-        self._unit = unit
-        self._is_numbered = is_numbered
+        self._url = url
+        self._unit = url.unit
+        self._is_numbered = url.kind == "modbus-tcp"  # over TCP requests have numbers; pymodbus looks at them
         self._is_out_of_step = False
         self._marks = cycle(_MARK_REGISTERS)
 
@@ -52,11 +57,14 @@ class ModbusLine:
         self._client.close()  # type: ignore[no-untyped-call]  # pymodbus gives it no types
 
     def _tried(self, request: Callable[[], ModbusPDU], is_answer: Callable[[ModbusPDU], bool]) -> ModbusPDU:
-        """The answer. Raises what the last try raises when none has come."""
-        for _ in range(TRIES - 1):
+        """The answer, which may be an exception of Modbus. Raises NoDeviceError when none has come."""
+        for _ in range(_TRIES - 1):
             with contextlib.suppress(Exception):  # pymodbus' own, and the system's
                 return self._once(request, is_answer)
-        return self._once(request, is_answer)
+        try:
+            return self._once(request, is_answer)
+        except Exception as error:
+            raise _no_answer(self._url, error) from None
 
     def _once(self, request: Callable[[], ModbusPDU], is_answer: Callable[[ModbusPDU], bool]) -> ModbusPDU:
         try:
@@ -80,3 +88,57 @@ class ModbusLine:
             time.sleep(_QUIET_S)  # pymodbus drops what has come when it sends
         if self._is_out_of_step:
             raise TimeoutError(_OTHERS_CAME)
+
+
+def connected(url: BusUrl) -> ModbusLine:
+    """A line that is there; raises NoDeviceError where it is not, MissingLibraryError without pymodbus."""
+    try:
+        from pymodbus.client import ModbusSerialClient, ModbusTcpClient
+    except ImportError as error:
+        raise MissingLibraryError(
+            "pymodbus is not installed",
+            why=str(error),
+            next_step="pip install pymodbus pyserial, or ./dev setup",
+        ) from None
+    import logging
+
+    logging.getLogger("pymodbus").setLevel(logging.CRITICAL)  # what goes wrong is told in our words
+    if url.kind == "modbus-tcp":
+        from brace.bus.lines import TcpLine
+
+        TcpLine(url).close()  # says why not, in our words
+        client: ModbusBaseSyncClient = ModbusTcpClient(url.place, port=url.port, timeout=_ANSWER_S, retries=0)
+    else:
+        from brace.bus.lines import SerialLine
+
+        SerialLine(url).close()
+        client = ModbusSerialClient(
+            url.place, baudrate=url.baud, parity=_parity_of(url.place), timeout=_ANSWER_S, retries=0
+        )
+    if not client.connect():
+        raise NoDeviceError(
+            "no connection", where=url.text, why="it was there a moment ago", next_step="try again"
+        )
+    return ModbusLine(client, url)
+
+
+def _parity_of(place: str) -> str:
+    """Even, as Modbus RTU and so the controller has it; a pseudo-terminal has none and refuses any."""
+    return "N" if os.path.realpath(place).startswith("/dev/pts/") else "E"
+
+
+def _no_answer(url: BusUrl, error: Exception) -> NoDeviceError:
+    if url.kind == "modbus-tcp":
+        cause = "another unit, or no Modbus at that port"
+        way = "modbus-tcp://HOST:PORT/UNIT; brace sim prints its own; an SLCAN port is tcp://HOST:PORT"
+    else:
+        cause = "another unit, another baud rate, or nobody"
+        way = (
+            "modbus:DEVICE@BAUD/UNIT: controller.modbus_baud and controller.modbus_address of the controller"
+        )
+    return NoDeviceError(
+        f"unit {url.unit} does not answer",
+        where=url.text,
+        why=f"no answer within {_ANSWER_S * _TRIES:.1f} s: {cause} ({type(error).__name__})",
+        next_step=way,
+    )
