@@ -37,7 +37,7 @@ def test_a_late_answer_is_not_the_next_one_s(late: set[int]) -> None:
     assert len(told) >= len(INDICES) - (len(late) - 1) and done[-1].status == 0, why
 
 
-@pytest.mark.parametrize("late", [{8}, {8, 9}, {8, 9, 10}, set(range(8, 20))])
+@pytest.mark.parametrize("late", [{8, 9}, {8, 9, 10}, set(range(8, 14))])
 def test_nor_does_brace_query_take_it(late: set[int]) -> None:
     """The same unit and the client in Python, which tries again after 0.6 s, three times in all."""
     holding = [register for register in REGISTERS if register.table == "holding"][:12]
