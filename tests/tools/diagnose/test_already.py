@@ -75,7 +75,14 @@ def test_a_class_is_listed_once(made: Made) -> None:
     _, _, found = made
     shared = replace(found, indistinguishable=(("a@b", "backlash@joint.tibia"),), could_be=("a@b", "c@d"))
     told = list(summary.lines(shared))
-    assert "  one of     a@b, backlash@joint.tibia" in told and "  could be   c@d" in told
+    assert "  alike      a@b, backlash@joint.tibia" in told and "  could be   c@d" in told
+
+
+def test_one_of_several_is_said_only_where_the_name_is_not_sure(made: Made) -> None:
+    _, _, found = made
+    unsure = tuple(replace(effect, confidence=0.6) for effect in found.effects)
+    shared = replace(found, effects=unsure, indistinguishable=(("a@b", "backlash@joint.tibia"),))
+    assert "  one of     a@b, backlash@joint.tibia" in list(summary.lines(shared))
 
 
 def test_a_record_of_more_play_than_the_model_has(made: Made) -> None:

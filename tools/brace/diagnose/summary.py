@@ -8,6 +8,7 @@ from brace.diagnose import plain_words as words
 from brace.diagnose.diagnosis import Diagnosis
 
 MOST_FAULTS = 5
+SURE = 0.9  # from here on a name is no longer one of several that look alike
 
 
 def lines(found: Diagnosis) -> Iterator[str]:
@@ -23,7 +24,8 @@ def lines(found: Diagnosis) -> Iterator[str]:
             value = words.value_with_unit(key, held.value)
             yield f"             {key} = {value}, 90 %: {words.interval(held)}"
     for members in found.indistinguishable:
-        yield f"  one of     {', '.join(members)}"
+        is_sure = any(one.label in members and one.confidence >= SURE for one in found.effects)
+        yield f"  {'alike' if is_sure else 'one of':10} {', '.join(members)}"
     for one in found.members:
         k = one.k
         yield (
