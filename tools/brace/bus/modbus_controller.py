@@ -452,7 +452,7 @@ class ModbusController:
             return answer
 
     def _taken(self, answer: ModbusPDU, what: str) -> ModbusPDU:
-        """Unless it is an exception."""
+        """The answer; raises the error that a Modbus exception stands for."""
         if answer.isError():
             raise self._refused(what, getattr(answer, "exception_code", 0))
         return answer

@@ -21,8 +21,8 @@ _ANSWER_S = 0.6
 _TRIES = 3
 _MARK_TRIES = 8
 _OTHERS_CAME = "only late answers to other requests came"
-_QUIET_S = 0.05  # in which answers come that a slow unit still owes
-_MARK_REGISTERS = range(1, 32, 2)  # a value has two registers, so that no other read has so many
+_QUIET_S = 0.05  # a slow unit sends the answers that it still owes
+_MARK_REGISTERS = range(1, 32, 2)  # a value has two registers: no other read has an odd number
 
 
 class ModbusLine:
@@ -78,7 +78,8 @@ class ModbusLine:
         return answer
 
     def _fall_into_step(self) -> None:
-        """After an answer that did not come: asks for so many registers as no other request does until that comes."""
+        """After an answer that did not come, drops the late answers: asks for a number of registers that no other
+        request has, until an answer has this number."""
         for _ in range(_MARK_TRIES if self._is_out_of_step else 0):
             count = next(self._marks)
             answer = self._client.read_input_registers(0, count=count, device_id=self._unit)
@@ -102,11 +103,11 @@ def connected(url: BusUrl) -> ModbusLine:
         ) from None
     import logging
 
-    logging.getLogger("pymodbus").setLevel(logging.CRITICAL)  # what goes wrong is told in our words
+    logging.getLogger("pymodbus").setLevel(logging.CRITICAL)  # the errors raised here say the same, more plainly
     if url.kind == "modbus-tcp":
         from brace.bus.lines import TcpLine
 
-        TcpLine(url).close()  # says why not, in our words
+        TcpLine(url).close()  # raises an error that says why the port cannot be opened
         client: ModbusBaseSyncClient = ModbusTcpClient(url.place, port=url.port, timeout=_ANSWER_S, retries=0)
     else:
         from brace.bus.lines import SerialLine

@@ -8,7 +8,7 @@ from brace.diagnose import plain_words as words
 from brace.diagnose.diagnosis import Diagnosis
 
 MOST_FAULTS = 5
-SURE = 0.9  # from here on a name is no longer one of several that look alike
+SURE = 0.9  # confidence from which a name is not called one of several
 
 
 def lines(found: Diagnosis) -> Iterator[str]:

@@ -25,7 +25,8 @@ brace_client_status_t brace_modbus_transfer(brace_client_t *client, brace_modbus
 int brace_modbus_try(brace_client_t *client, brace_modbus_function_t function, uint32_t address, uint32_t count,
                      uint16_t *words, uint64_t deadline_us);
 
-/* After an answer that did not come: drops it if it comes late. Before every request that is tried. returns the error */
+/* Drops answers that come late, after one that did not come in time. To be called before brace_modbus_try. returns the
+ * error */
 int brace_modbus_fall_into_step(brace_client_t *client, uint64_t deadline_us);
 
 /* Is another try worth it? Nothing came, or something broken, or the unit is busy. */
