@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from generate import clean_readings, drawn
+from generate import clean_readings, ingredients
 from worlds import world_called
 
 
@@ -22,9 +22,9 @@ def gaps(root: Path, name: str) -> dict[str, float]:
     if kept.exists():
         found: dict[str, float] = json.loads(kept.read_text())
         return found
-    truth: dict[str, Any] = json.loads((root / "answers" / name / "truth.json").read_text())
-    world = world_called(truth["world"])
-    case, _, _ = drawn(truth["seed"], truth["index"], truth["of"], world)
+    answer = root / "answers" / name
+    truth: dict[str, Any] = json.loads((answer / "truth.json").read_text())
+    world, case = world_called(truth["world"]), ingredients(answer)
     shown, held, believed = case["shown"], case["held"], case["believed"]
     bench = world.bench(shown, believed, case["trust"])
     with (root / "cases" / name / "data.csv").open(newline="") as file:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import json
 import math
 import shutil
 import tomllib
@@ -13,7 +14,7 @@ import numpy as np
 
 from designs import Design, Rng, cycle
 from files import meta_text, noisy, table_of, write_dataset
-from generate import clean_readings, drawn
+from generate import clean_readings, ingredients
 from plant import INDEX, Array
 from worlds import world_called
 
@@ -76,11 +77,11 @@ def _pose(pose: dict[str, Any], limb: Array) -> tuple[float, float]:
     return round(th1, 6), round(th2, 6)
 
 
-def play(truth: dict[str, Any], rig_toml: str, record: Path, together: Path, alone: Path) -> None:
+def play(answer: Path, rig_toml: str, record: Path, together: Path, alone: Path) -> None:
     """Writes the experiment twice: its rows after the record's, empty where one of the two reads a column that the
     other does not (an encoder was fitted, a gauge put up), and by itself."""
-    world = world_called(truth["world"])
-    case, _, _ = drawn(truth["seed"], truth["index"], truth["of"], world)
+    truth = json.loads((answer / "truth.json").read_text())
+    world, case = world_called(truth["world"]), ingredients(answer)
     shown: Design = case["shown"]
     with (record / "data.csv").open(newline="") as file:
         reader = csv.DictReader(file)

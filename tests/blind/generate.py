@@ -14,6 +14,7 @@ import json
 import math
 import multiprocessing
 import os
+import pickle
 import shutil
 import sys
 import time
@@ -65,6 +66,10 @@ def schedule(seed: int, cases: Cases) -> list[tuple[str, int]]:
     plan = [(kind, i) for kind, count in counts.items() for i in range(count)]
     order = np.random.default_rng([seed, 1]).permutation(len(plan))
     return [plan[i] for i in order]
+
+
+INGREDIENTS = "ingredients.pickle"  # in a case's answer: drawing a case anew takes as long as making it
+KEPT_PARTS = ("believed", "trust", "shown", "held", "limb")
 
 
 class Retry(Exception):
@@ -355,6 +360,12 @@ def drawn(
     raise Unmade(f"case {index} ({kind} {number}) cannot be made: {given_up[-3:]}")
 
 
+def ingredients(answer: Path) -> dict[str, Any]:
+    """Limb, designs and trust of a case without an outsider, from the folder of its answer."""
+    found: dict[str, Any] = pickle.loads((answer / INGREDIENTS).read_bytes())
+    return {**found, "outsider": None}
+
+
 def clean_readings(case: dict[str, Any], rows: Array, world: World = SIMULATOR) -> Array:
     """Noise-free readings of the case's true limb."""
     if case["outsider"] is not None:
@@ -380,6 +391,8 @@ def write_case(seed: int, index: int, cases: Cases, out: Path, world: World = SI
         readings = held.seen(clean_readings(case, held.rows, world)[:, held.columns])
         meta = meta_text(held, f"holdout {name}", displacements=world.displacements)
         write_dataset(answer / "holdout", meta, table_of(held, readings))
+    if case["outsider"] is None:
+        (answer / INGREDIENTS).write_bytes(pickle.dumps({part: case[part] for part in KEPT_PARTS}))
     truth = {
         "id": name,
         **truth,

@@ -88,8 +88,7 @@ def _next_job(job: tuple[str, str, str]) -> str:
         return name
     rig = (read(results / "main" / name / "diagnosis.json").get("next_experiment") or {}).get("rig_toml", "")
     try:
-        truth = read(root / "answers" / name / "truth.json")
-        follow_up.play(truth, rig, root / "cases" / name, out / "together", out / "alone")
+        follow_up.play(root / "answers" / name, rig, root / "cases" / name, out / "together", out / "alone")
         diagnoser.diagnose(out / "together", out, report=False)
         if read(out / "diagnosis.json").get("verdict", "data_fault") == "data_fault":  # takes no empty cells
             diagnoser.diagnose(out / "alone", out, report=False)

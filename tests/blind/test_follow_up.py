@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-import json
 import math
 from pathlib import Path
 
@@ -40,8 +39,7 @@ def test_played_after_the_record(tmp_path: Path) -> None:
     write_case(SUBSET_SEED, 0, 24, tmp_path)
     name = identity(SUBSET_SEED, 0)
     case = tmp_path / "cases" / name
-    truth = json.loads((tmp_path / "answers" / name / "truth.json").read_text())
-    follow_up.play(truth, RIG, case, tmp_path / "together", tmp_path / "alone")
+    follow_up.play(tmp_path / "answers" / name, RIG, case, tmp_path / "together", tmp_path / "alone")
     before, after, both = (rows(p / "data.csv") for p in (case, tmp_path / "alone", tmp_path / "together"))
     assert len(after) == 9
     assert len(both) == len(before) + len(after)

@@ -18,11 +18,11 @@ from engine_limb import EngineLimb
 Flags = npt.NDArray[np.bool_]
 Rows = npt.NDArray[np.intp]
 
-_AT_REST = 1e-10  # last Newton step: rad or mm
+_AT_REST = 1e-7  # last Newton step, rad or mm: what it leaves is of its square
 _STEPS = 80
 _PLAIN_STEPS = 12  # then ever shorter ones: torques with kinks can make full steps go round in circles
 _RUNAWAY = 1e4
-_PLANE = [0, 2]
+_PLANE = slice(0, 3, 2)
 _JUST_MORE = 1e-9  # of the friction's torque, and of a deflection [rad]
 
 
@@ -137,18 +137,17 @@ class ManyRests:
         at = q.copy()
         at[:, self.joints[0]] += theta[:, 0]
         at[:, self.joints[1]] -= theta[:, 1]
-        anchor, axis = np.empty((2, len(q), self.springs, 3))
-        place = np.empty((len(q), model.nbody, 3))
-        for row, angles in enumerate(at):
-            data.qpos[:] = angles
+        anchor, axis = np.empty((2, len(q), self.springs, 2))
+        place = np.empty((len(q), model.nbody, 2))
+        angles, anchors, axes, places = data.qpos, *(
+            one[:, _PLANE] for one in (data.xanchor, data.xaxis, data.xpos)
+        )  # views: the engine writes into them
+        for row in range(len(q)):
+            angles[:] = at[row]
             mujoco.mj_kinematics(model, data)
-            anchor[row], axis[row], place[row] = data.xanchor, data.xaxis, data.xpos
+            anchor[row], axis[row], place[row] = anchors, axes, places
         return _Shape(
-            place[:, self._tip_body][:, _PLANE],
-            anchor[:, :, _PLANE],
-            axis[:, :, _PLANE],
-            place[:, self._weight_bodies][:, :, _PLANE],
-            place[:, self._cable_body][:, _PLANE],
+            place[:, self._tip_body], anchor, axis, place[:, self._weight_bodies], place[:, self._cable_body]
         )
 
     def tip_mm(self, theta: Array, q: Array | None = None) -> Array:

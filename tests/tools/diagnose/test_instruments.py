@@ -18,6 +18,7 @@ from brace.dataset import load_dataset
 from brace.diagnose.diagnosis import Diagnosis
 from brace.diagnose.loading.choose import LabelSet
 from brace.diagnose.loading.troubles.kinds import OUTLIERS
+from brace.diagnose.loading.troubles.lag import lag_in_words
 from brace.diagnose.loading.troubles.likeliest import Trouble, with_trouble
 from brace.diagnose.options import Options
 from brace.diagnose.run import diagnose
@@ -32,8 +33,6 @@ GAIN_STEP = 0.1
 STEP_ROW = 107  # within a run of 17 readings
 SLIP_MM = (0.06, -0.09)
 PLAY_MM, STEP_MM = 0.15, 0.635
-SLOW_LAG_S = 4.0 * PLAY_MM / 2.0 / STEP_MM
-SLOW_ODDS = float(np.exp(0.5 * (3.0 * np.log10(SLOW_LAG_S / 0.1)) ** 2))  # 1 s, ten times the usual, lies 3 sigmas out
 QUICK = "dwell_s = 0.2\n"
 
 
@@ -247,7 +246,7 @@ def test_what_begins_with_the_record_is_no_step(tmp_path: Path, limb: Path, what
 
 def test_a_late_sensor_is_a_lag_and_no_friction(tmp_path: Path, limb: Path) -> None:
     """Where equal steps hide the difference to a play at the contact, both are named."""
-    found = spoiled(tmp_path / "record", limb, reads_late, values={})
+    found = spoiled(tmp_path / "record", limb, reads_late, values={}, rig=QUICK)
     assert "lag@sensor" in [effect.label for effect in found.effects]
     assert not [effect for effect in found.effects if effect.name != "lag" and effect.confidence >= 0.8]
     assert found.model.number("joint.tibia.coulomb_n_mm") == 0.0
@@ -264,16 +263,39 @@ def test_a_lag_is_no_noise_of_a_record_without_repeats(tmp_path: Path, limb: Pat
     assert lag.value == pytest.approx(0.48 * 0.2, rel=0.02), "a limb fitted without its lag makes it 4 % too long"
 
 
-@pytest.mark.parametrize(("rig", "times_likelier"), [(QUICK, 1.0), ("", SLOW_ODDS)])
-def test_play_reads_like_a_lag(tmp_path: Path, limb: Path, rig: str, times_likelier: float) -> None:
-    """Equal steps hide the difference. A lag of up to 0.1 s is as common as play; a rig that waits for 4 s before each
-    reading needs a lag of 4 s * half the play / step."""
-    found = spoiled(tmp_path / "record", limb, lambda columns: None, values={"contact.play_mm": PLAY_MM}, rig=rig)
+def times_rarer(time_s: float) -> float:
+    """Than a lag of up to 0.1 s: 1 s, ten times as much, lies three sigmas out."""
+    return float(np.exp(0.5 * (3.0 * np.log10(max(time_s / 0.1, 1.0))) ** 2))
+
+
+@pytest.mark.parametrize(("wait_s", "play_mm"), [(0.2, PLAY_MM), (4.0, 0.05)])
+def test_play_reads_like_a_lag(tmp_path: Path, limb: Path, wait_s: float, play_mm: float) -> None:
+    """Equal steps hide the difference: late by wait * half the play / step, a sensor reads the same in a rig that moves
+    on. A lag of up to 0.1 s is as common as play. Half of the rigs that are said to wait for 0.3 s move on, and the
+    fewer, the longer the wait; in the others the sensor must settle so slowly that it lacks as much after the wait."""
+    values, waits = {"contact.play_mm": play_mm}, f"dwell_s = {wait_s}\n"
+    found = spoiled(tmp_path / "record", limb, lambda columns: None, values=values, rig=waits)
     said = {effect.label: effect.confidence for effect in found.effects}
     assert set(said) == {"contact_play@contact", "lag@sensor"}
+    share, moves_on = play_mm / 2.0 / STEP_MM, 0.3 / (0.3 + wait_s)
+    rarer = 1.0 / (
+        moves_on / times_rarer(share * wait_s) + (1.0 - moves_on) / times_rarer(wait_s / np.log(1.0 / share))
+    )
     odds = said["contact_play@contact"] / said["lag@sensor"]
-    assert odds == pytest.approx(times_likelier, rel=0.35), "the record's noise moves the odds a little"
+    assert odds == pytest.approx(rarer, rel=0.35), "the record's noise moves the odds a little"
     assert sum(said.values()) < 1.0
+
+
+def test_a_lag_is_told_with_what_the_rig_is_said_to_do(tmp_path: Path, limb: Path) -> None:
+    """A rig that waits leaves nothing of a delay; forces that are early are no sensor's."""
+    record = cast(Record, SimpleNamespace(dataset=load_dataset(loading_record(tmp_path / "record", limb))))
+    late, early = lag_in_words(record, 1.2, 0.05), lag_in_words(record, -1.2, 0.05)
+    assert late.startswith("the forces are read 1200 ms (+-50) after the displacements if the rig did not wait 4 s")
+    assert f"settles with a time constant of {4.0 / np.log(4.0 / 1.2):.2g} s" in late
+    assert "before the displacements if the rig did not wait 4 s" in early and "settles" not in early
+    quick = loading_record(tmp_path / "quick", limb, rig=QUICK)
+    record = cast(Record, SimpleNamespace(dataset=load_dataset(quick)))
+    assert lag_in_words(record, 0.05, 0.002).startswith("the forces are read 50 ms (+-2) after the displacements; give")
 
 
 def test_a_lag_beside_friction_is_no_play_beside_it(tmp_path: Path, limb: Path) -> None:

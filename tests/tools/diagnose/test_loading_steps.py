@@ -15,9 +15,9 @@ from brace.dataset.intake import Dataset
 from brace.diagnose.loading.choose import LabelSet, posterior_of
 from brace.diagnose.loading.confidence import RIGHT_IN_BOTH, RIGHT_IN_ONE, as_found_twice, of_label
 from brace.diagnose.loading.evidence import SPREAD, score
-from brace.diagnose.loading.extensions import TAKES_BACK, Outside, outside
+from brace.diagnose.loading.extensions import TAKES_BACK, Outside, _by_load, outside
 from brace.diagnose.loading.fit import fit
-from brace.identify.noise import growth_of, noise_of, robust_sigma
+from brace.identify.noise import growth_of, hinted_growth, noise_of, robust_sigma
 from brace.dataset.enough import enough_rows
 from brace.diagnose.loading.parts import locked_rows
 from brace.identify import record as loading_record
@@ -131,6 +131,36 @@ def test_noise_that_grows_is_asked_of_both_channels_of_a_sensor() -> None:
     assert growth_of(list(zip(white, size))) == [None, None]
     one, other = growth_of([(3.0 * both[0], 3.0 * size[0]), (white[1], size[1])])
     assert one is not None and other is None
+
+
+def test_one_channel_that_grows_by_itself_must_be_far_likelier() -> None:
+    """Of one sensor both grow, though the few readings of one under load happen to say nothing of it: without the ten
+    that repeat each other by chance both would speak for it."""
+    rng = np.random.default_rng(12)
+    size = np.abs(5.0 * rng.standard_normal((2, 300)))
+    off = 0.02 * np.hypot(1.0, 0.15 * size) * rng.standard_normal((2, 300))
+    off[0][np.argsort(size[0])[-10:]] *= 0.3
+    alone = growth_of([(off[0], size[0])])
+    found = growth_of(list(zip(off, size)))
+    assert alone == [None] and None not in found
+
+
+def test_repeats_that_only_hint_at_a_noise_that_grows_ask_what_the_search_leaves(
+    tmp_path: Path, believed: LimbModel
+) -> None:
+    """Too few readings under load for repeats to say it alone; a record whose noise does not grow asks nothing."""
+    grows = recorded(tmp_path / "grows", believed, 4, growth=0.005)
+    steady = recorded(tmp_path / "steady", believed, 4)
+    assert noise_of(grows, ["fx_n", "fz_n"])["fx_n"].growth_ratio == 0.0, "not by repeats alone"
+    hinted = hinted_growth(grows, ["fx_n", "fz_n"])
+    assert set(hinted) == {"fx_n", "fz_n"} and hinted_growth(steady, ["fx_n", "fz_n"]) == {}
+
+
+def test_rounding_is_no_sign_of_a_load() -> None:
+    """What a model plays at rest is rounding, whose sign would follow the reading."""
+    ways = _by_load(np.array([1e-15, -1e-15, 2.0, -3.0]))
+    assert ways["acted under positive load only"].tolist() == [0.0, 0.0, 1.0, 0.0]
+    assert ways["acted under negative load only"].tolist() == [0.0, 0.0, 0.0, 1.0]
 
 
 def test_a_reading_under_load_is_no_glitch(tmp_path: Path, believed: LimbModel) -> None:

@@ -20,7 +20,7 @@ USUAL_LOAD_RATIO = 0.2  # friction over load: a gear with an efficiency of two t
 FADES_SHRINK = 0.005  # of the rms: by how much less a fading share must leave; physics expects it, so this is little
 FADING_STARTS = ((8.0, 0.4), (40.0, 0.6))  # of one over the range of torques; and the share where nothing is carried
 MOST_TIMES = 40  # at which a link's change is tried
-CLIPPED_SIGMAS = 3.0  # of noise: by how much two readings that are clipped at one level may differ
+CLIPPED_SIGMAS = 3.0  # of noise: by how much a clipped reading may lie below the level
 READINGS_CLIPPED = (4, 8, 16, 32, 64, 128, 256)  # of which a saturation is tried
 
 
@@ -45,10 +45,10 @@ def cubic_n_mm_per_rad3(at: LoadingPlace) -> float:
 
 
 def saturation_limits(at: LoadingPlace) -> tuple[float, float]:
-    """Up to about the second largest reading. A saturation must clip two readings at least: nothing tells one clipped
-    reading from one that is off for another reason."""
-    second, highest = (float(force_n) for force_n in at.size.force_n[-2:])
-    return 0.05 * highest, min(1.02 * highest, second + CLIPPED_SIGMAS * at.size.force_sigma_n)
+    """Up to about the largest reading. One clipped reading is enough: of all readings a glitch seldom hits the largest
+    one, pulls it down and yet leaves it the largest."""
+    highest = float(at.size.force_n[-1])
+    return 0.05 * highest, highest + CLIPPED_SIGMAS * at.size.force_sigma_n
 
 
 def saturation_tries(at: LoadingPlace) -> tuple[float, ...]:

@@ -169,9 +169,9 @@ INSTRUMENT_TROUBLES: tuple[RivalCause, ...] = (
     _trouble(
         "lag", "sensor", "a sensor that reads late",
         "the forces are read a while after the displacements of the same row",
-        "load once more with twice the dwell: a lag shows half as much, play as much as before",
+        "load once more with twice the dwell: a lag shows half as much or less, play as much as before",
         Size("sensor.lag_s", "s", -1e3, 1e3, usual=0.1),  # an amplifier's filter and a bus make some 10 to 100 ms
-        rarer=1.0,  # a lag of that size is as common as play; its size says the rest
+        rarer=1.0,  # a lag of that size is as common as play; its size and the rig's wait say the rest
     ),
     _trouble(
         "gain_step", "sensor", "a sensor whose gain stepped",

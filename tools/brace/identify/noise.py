@@ -25,6 +25,7 @@ ASSUMED_SHARE = 0.02  # of the largest reading: what scales and dial gauges read
 ASSUMED_FREEDOM = 2.0  # readings that this is worth
 ASSUMED = "not enough readings; 2 % of the largest is assumed"
 GROWTH_GAIN = 12.0  # twice the log-likelihood that a noise growing with load must gain to be believed
+GROWTH_HINT = 6.0  # the same, to be asked of what a search leaves as well
 
 
 @dataclass(frozen=True)
@@ -86,6 +87,15 @@ def noise_of(dataset: Dataset, channels: Sequence[str]) -> dict[str, ChannelNois
             found = growing[name]
             noise[name] = ChannelNoise(max(growth[0], found.least), growth[1], found.source + GROWING, found.freedom)
     return noise
+
+
+def hinted_growth(dataset: Dataset, names: Sequence[str]) -> dict[str, tuple[float, float]]:
+    """(floor, growth) of those of the force's channels of which repeats say that their noise grows with the load, but
+    not clearly enough to be believed alone."""
+    found = {name: _differences(dataset, name) for name in names}
+    repeated = {name: one for name, one in found.items() if one.source == REPEATS}
+    growth = growth_of([(one.off, one.size) for one in repeated.values()], GROWTH_HINT)
+    return {name: (max(one[0], repeated[name].least), one[1]) for name, one in zip(repeated, growth) if one is not None}
 
 
 def rounding_of(dataset: Dataset, channel: str) -> float:
@@ -222,9 +232,12 @@ def _off_curves(
     return np.concatenate(off), np.concatenate(size), 1.0
 
 
-def growth_of(channels: Sequence[tuple[np.ndarray, np.ndarray]]) -> list[tuple[float, float] | None]:
+def growth_of(
+    channels: Sequence[tuple[np.ndarray, np.ndarray]], must_gain: float = GROWTH_GAIN
+) -> list[tuple[float, float] | None]:
     """(floor, growth) of each channel (differences, sizes of the readings) whose noise grows with the reading, far more
-    likely than that it does not: all of them in one ratio to their floors, or one or the other by itself."""
+    likely than that it does not: all of them in one ratio to their floors, or one or the other by itself. They are one
+    sensor's, so that one of them by itself must be far more likely still."""
     scales = [float(np.sqrt(np.mean(size**2))) if size.size else 0.0 for _, size in channels]
     if not scales or max(scales) <= 0.0:
         return [None] * len(channels)
@@ -238,8 +251,8 @@ def growth_of(channels: Sequence[tuple[np.ndarray, np.ndarray]]) -> list[tuple[f
     together = np.sum(costs, axis=0)
     shared = int(np.argmin(together))
     own = [int(np.argmin(cost)) for cost in costs]
-    pays = [max(0.0, float(cost[0] - cost[best]) - GROWTH_GAIN) for cost, best in zip(costs, own)]
-    if float(together[0] - together[shared]) - GROWTH_GAIN > sum(pays):
+    pays = [max(0.0, float(cost[0] - cost[best]) - must_gain) for cost, best in zip(costs, own)]
+    if float(together[0] - together[shared]) > max(must_gain, sum(pays)):
         own, pays = [shared] * len(own), [1.0] * len(own)
     return [
         (float(np.sqrt(floor2[best])), float(ratios[best, 0] * np.sqrt(floor2[best]))) if pay > 0.0 else None

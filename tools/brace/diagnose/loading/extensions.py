@@ -34,6 +34,7 @@ TAKES_BACK = 0.0  # nats, even odds, to take back what would be named; below tha
 PROBE_SIGMAS = 3.0  # of the whole record: how far a number is turned to see what it does
 HIDDEN = 0.02  # share of a change that must stay when all that the hypothesis turns is taken out
 LEAST_RANGE_DEGC = 0.1
+LEAST_LOAD = 1e-6  # of the largest
 UNCHANGING = TIME_KEYS | STILL_KEYS  # numbers that are a change themselves, or a moment or a limit
 OWN_LOAD = ("joint.femur", "joint.tibia", "sensor")  # parts that know their own load; others go by the load at the tip
 
@@ -178,9 +179,10 @@ def _ways(record: Record, fitted: Fit) -> dict[str, dict[str, np.ndarray]]:
 
 def _by_load(load: np.ndarray) -> dict[str, np.ndarray]:
     size = np.abs(load) / max(float(np.quantile(np.abs(load), 0.99)), 1e-12)
+    loaded = size > LEAST_LOAD  # where the limb rests, rounding makes the sign, and that follows the reading
     return {
-        "acted under positive load only": np.where(load > 0.0, 1.0, 0.0),
-        "acted under negative load only": np.where(load < 0.0, 1.0, 0.0),
+        "acted under positive load only": np.where(loaded & (load > 0.0), 1.0, 0.0),
+        "acted under negative load only": np.where(loaded & (load < 0.0), 1.0, 0.0),
         "grew with the load": size,
         "grew with the square of the load": size**2,
     }

@@ -1,5 +1,5 @@
 """What even a few load-deflection pairs tell by themselves: how the force rises along each direction that was pushed,
-with its interval, beside what the model says."""
+with its interval, beside what the model says. And what of a diagnosis rests on a single reading."""
 
 from __future__ import annotations
 
@@ -7,10 +7,13 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from brace.diagnose.loading.fit import Fit
+from brace.effects.catalogue import CLIPPED_SIGMAS
 from brace.identify.information import half_width_90
 from brace.identify.noise import FORCES
 from brace.identify.record import NOT_MEASURED, Record
 
+SATURATION = "sensor.saturation_n"
 FEW = 60  # rows, up to which a record's slopes are told
 LEAST = 3  # readings of one slope
 
@@ -36,6 +39,20 @@ def slopes_in_words(record: Record, believed: np.ndarray) -> Iterator[str]:
                 f"at configuration {int(config)} {force} rises by {measured:.3g} N/mm along {'xz'[axis]} "
                 f"({measured - half:.3g} to {measured + half:.3g}); the model says {modelled:.3g}"
             )
+
+
+def rests_on_one(record: Record, fitted: Fit) -> Iterator[str]:
+    """A sentence where a saturation clips a single reading."""
+    if SATURATION not in fitted.space.keys:
+        return
+    sigma, read = record.sigma[: len(FORCES)], record.forces_read
+    at_level = np.abs(record.measured[: len(FORCES)]) > fitted.value(SATURATION) - CLIPPED_SIGMAS * sigma
+    if np.count_nonzero(at_level & read) == 1:
+        row = int(np.flatnonzero(np.any(at_level & read, axis=0))[0]) + 1
+        yield (
+            f"the saturation shows in one reading alone, the largest (row {row}): if something else disturbed it, the "
+            "sensor may be sound; load once more to a larger force"
+        )
 
 
 def _slope(way_mm: np.ndarray, force_n: np.ndarray) -> tuple[float, float]:

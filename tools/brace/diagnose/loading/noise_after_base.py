@@ -7,7 +7,7 @@ import numpy as np
 from brace.dataset.enough import enough_rows
 from brace.diagnose.loading.fit import Fit, fit
 from brace.diagnose.loading.space import Trust, space_of
-from brace.identify.noise import FORCES, GROWING, ChannelNoise, growth_of, rounding_of
+from brace.identify.noise import FORCES, GROWING, REPEATS, ChannelNoise, growth_of, hinted_growth, rounding_of
 from brace.identify.noise_after_base import (
     LEAST_DIFFERENCES,
     REPEATED,
@@ -53,7 +53,7 @@ def with_less_noise(record: Record, fitted: Fit) -> Record | None:
 
 def with_growth(record: Record, fitted: Fit) -> Record | None:
     """The record with noise that grows with the load where a fit's residuals show that far better than a constant
-    one; None where they do not. Channels whose repeats have spoken stay."""
+    one; None where they do not. Of channels with repeats these are asked: a missing effect comes again in each."""
     left = fitted.residual.reshape(record.measured.shape) * record.sigma
     asked, given = [], []
     for place, name in enumerate(record.channels):
@@ -65,6 +65,9 @@ def with_growth(record: Record, fitted: Fit) -> Record | None:
         asked.append(name)
         given.append((left[place][taken], np.abs(record.measured[place][taken])))
     found = {name: growth for name, growth in zip(asked, growth_of(given)) if growth is not None}
+    forces = [name for name in record.channels if name in FORCES]
+    if all(record.noise[name].source == REPEATS for name in forces):
+        found |= hinted_growth(record.dataset, forces)
     if not found:
         return None
     noise = dict(record.noise)

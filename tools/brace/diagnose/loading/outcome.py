@@ -32,7 +32,7 @@ from brace.diagnose.loading.next_experiment.experiment import next_experiment
 from brace.diagnose.loading.fit import Fit
 from brace.diagnose.loading.troubles.likeliest import Trouble
 from brace.diagnose.loading.troubles.kinds import LAG
-from brace.diagnose.loading.few_readings import FEW, slopes_in_words
+from brace.diagnose.loading.few_readings import FEW, rests_on_one, slopes_in_words
 from brace.diagnose.loading.hold_out import held_out, load_range
 from brace.diagnose.loading.intervals import intervals, without_none
 from brace.diagnose.loading.limb_of import limb_of
@@ -110,6 +110,7 @@ def _all_but_next(
     if record.rows <= FEW:  # of a few runs drawn again the share of draws with the same choice says more
         most = agreed.bootstrap_share
         effects = tuple(replace(one, confidence=min(one.confidence, most)) for one in effects)
+    effects = tuple(sorted(effects, key=lambda one: -round(one.confidence, 9)))
     held = held_out(final.record, after, locked) if decision.verdict != "unknown" else ()
     late = tuple(_trouble(one, 1.0 / (1.0 + np.exp(-one.lead))) for one in final.troubles if one.name == LAG)
     return Diagnosis(
@@ -141,6 +142,7 @@ def _all_but_next(
         notes=(
             *(words for effect in effects if (words := in_words(alike, effect.label))),
             *slopes_in_words(whole, model_numbers(believed)),
+            *(rests_on_one(record, after) if named else ()),
             *load_range(held),
             *_notes(whole, record, final, twin, agreed, after),
             *([resolved.note] if resolved.note else []),

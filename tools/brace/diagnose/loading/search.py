@@ -9,8 +9,8 @@ from itertools import combinations
 
 import numpy as np
 
-from brace.diagnose.loading.evidence import score
-from brace.diagnose.loading.fit import Fit, fit
+from brace.diagnose.loading.evidence import evidence, score
+from brace.diagnose.loading.fit import KEPT_PROMISE, Fit, fit
 from brace.identify.record import Record
 from brace.diagnose.loading.screen import Promise, screen
 from brace.diagnose.loading.space import Trust, space_of
@@ -22,6 +22,7 @@ PARENTS = {1: 5, 2: 3}  # hypotheses of so many effects that the next are grown 
 CHILDREN = 5  # labels that are fitted beside each parent
 LEAST_GAIN = 1.0  # of cost: what gains less is no hypothesis of its own
 READINGS_EACH = 3  # of a tip that was moved, that every freedom of a hypothesis must have: with fewer all would fit
+NEAR_BEST = 5.0  # nats: a promise that would come so near to the best so far is worth a fit to the end
 GROW_GAIN = 9.0  # of promised cost: a child that promises less is not fitted
 
 
@@ -115,8 +116,21 @@ class Search:
         if _name(promise.space.variants) in self.tried or too_many:
             return
         fitted = fit(self.record, promise.space, promise.start, final=False)
+        if self._fell_short(promise, fitted, parent):
+            start = fitted.x if fitted.cost < parent.fit.cost else promise.start
+            fitted = min(fitted, fit(self.record, promise.space, start), key=lambda one: one.cost)
         if parent.fit.cost - fitted.cost > LEAST_GAIN:
             self._keep(fitted)
+
+    def _fell_short(self, promise: Promise, fitted: Fit, parent: Hypothesis) -> bool:
+        """Whether a rough fit kept little of a promise that would make it one of the best. Its derivatives are those of
+        a limb that does not turn, and in a record of large displacements they may lead nowhere."""
+        kept, promised = parent.fit.cost - fitted.cost, parent.fit.cost - promise.cost
+        if kept > KEPT_PROMISE * promised:
+            return False
+        own, effects, base = promise.space.own, len(promise.space.variants), self.base.fit
+        hoped = evidence(promise.cost, base.cost, own, effects, self.record.readings, self.record.noise_freedom)
+        return hoped > max(one.score for one in self.tried.values()) - NEAR_BEST
 
     def _finished(self, rough: Hypothesis) -> Hypothesis:
         """Fitted to the end: the rough fit of an effect that turns the limb may stop far from it, and further effects

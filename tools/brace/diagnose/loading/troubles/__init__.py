@@ -5,6 +5,7 @@ more likely than every set of effects, the search is done again with its columns
 (Record.beside), so that the limb is judged by what the trouble leaves of the record.
 
 kinds      which columns each trouble has
+lag        how likely a lag is, and its sentence
 steps      from which reading on a gain or a zero is another one
 likeliest  the trouble that explains the record best, fitted
 words      the trouble in a sentence"""

@@ -11,7 +11,7 @@ import numpy as np
 from brace.dataset import DataFault
 from brace.diagnose.diagnosis import Interval
 from brace.diagnose.loading.choose import LabelSet
-from brace.diagnose.loading.evidence import evidence, freedoms, implausible, score
+from brace.diagnose.loading.evidence import evidence, freedoms, score
 from brace.diagnose.loading.fit import Fit, fit
 from brace.diagnose.loading.intervals import Z_90
 from brace.identify.record import Record
@@ -28,6 +28,7 @@ from brace.diagnose.loading.troubles.kinds import (
     kinds,
     lag_columns,
 )
+from brace.diagnose.loading.troubles.lag import rarity_nats
 from brace.diagnose.loading.troubles.words import first_row, shown
 from brace.effects.rivals import RIVAL_BY_NAME, RivalCause
 
@@ -191,16 +192,11 @@ def _fitted(record: Record, base: Fit, option: _Option, against: float) -> Troub
     inner = whitened.T @ whitened + (np.eye(whitened.shape[1]) / option.spread**2 if option.spread else 0.0)
     left = fitted.space.residuals(record, fitted.x[None])[0]
     sizes = np.linalg.pinv(inner, hermitian=True) @ (whitened.T @ left)
-    lead -= _implausible(option.kind, sizes)
+    if option.kind == LAG:
+        lead -= rarity_nats(record, float(sizes[0]))
     if option.kind == SLIP and _goes_back(sizes):
         lead = -np.inf
     return _told(record, option, fitted, wide, sizes, lead)
-
-
-def _implausible(kind: str, sizes: np.ndarray) -> float:
-    """What the trouble's first size costs in nats, by the prior of its kind."""
-    size = RIVAL_BY_NAME[kind].ways[0][0] if kind in RIVAL_BY_NAME else None
-    return 0.0 if size is None else implausible(abs(float(sizes[0])) / size.usual, size.plausible_times)
 
 
 def _goes_back(sizes: np.ndarray) -> bool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from brace.identify.record import Record
+from brace.diagnose.loading.troubles.lag import lag_in_words
 from brace.diagnose.loading.troubles.kinds import GAIN_STEP, LAG, NOT_TOLD, POSE, SLIP, ZERO_STEP, ZEROS
 
 MOST_LISTED = 8  # rows
@@ -13,10 +14,7 @@ MOST_LISTED = 8  # rows
 def shown(record: Record, name: str, columns: np.ndarray, sizes: np.ndarray, sigma: float) -> str:
     """`columns` are channels x rows x sizes, `sigma` that of the first size."""
     if name == LAG:
-        return (
-            f"the forces are read {1e3 * sizes[0]:.3g} ms (+-{1e3 * sigma:.1g}) after the displacements; give both "
-            "columns one clock, or read after the tip has come to rest"
-        )
+        return lag_in_words(record, float(sizes[0]), sigma)
     if name == GAIN_STEP:
         return (
             f"the sensor reads {100.0 * sizes[0]:+.2g} % {_since(record, first_row(columns))}, and as believed before; "
