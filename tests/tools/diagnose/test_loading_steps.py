@@ -134,8 +134,7 @@ def test_noise_that_grows_is_asked_of_both_channels_of_a_sensor() -> None:
 
 
 def test_one_channel_that_grows_by_itself_must_be_far_likelier() -> None:
-    """Of one sensor both grow, though the few readings of one under load happen to say nothing of it: without the thirty
-    that repeat each other by chance both would speak for it."""
+    """Of one sensor both grow, though the thirty readings of one under most load agree by chance."""
     rng = np.random.default_rng(12)
     size = np.abs(5.0 * rng.standard_normal((2, 300)))
     off = 0.02 * np.hypot(1.0, 0.15 * size) * rng.standard_normal((2, 300))
