@@ -8,7 +8,7 @@ from pathlib import Path
 
 import follow_up
 import pytest
-from generate import identity, write_case
+from generate import identity, schedule, write_case
 from plant import INDEX, NEUTRAL
 from seeds import SUBSET_SEED
 
@@ -36,8 +36,9 @@ def rows(path: Path) -> list[dict[str, str]]:
 
 def test_played_after_the_record(tmp_path: Path) -> None:
     """Rows, runs, configurations and time go on; columns of which the record had none are empty there."""
-    write_case(SUBSET_SEED, 0, 24, tmp_path)
-    name = identity(SUBSET_SEED, 0)
+    index = next(i for i, (kind, _) in enumerate(schedule(SUBSET_SEED, 24)) if kind == "single")
+    write_case(SUBSET_SEED, index, 24, tmp_path)
+    name = identity(SUBSET_SEED, index)
     case = tmp_path / "cases" / name
     follow_up.play(tmp_path / "answers" / name, RIG, case, tmp_path / "together", tmp_path / "alone")
     before, after, both = (rows(p / "data.csv") for p in (case, tmp_path / "alone", tmp_path / "together"))

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import json
 import os
-import socket
 import subprocess
 import sys
 import time
@@ -97,12 +96,6 @@ def motors_of(
     return float(motors[0]), float(motors[1])
 
 
-def free_port() -> int:
-    with socket.socket() as taken:
-        taken.bind(("127.0.0.1", 0))
-        return int(taken.getsockname()[1])
-
-
 @dataclass
 class Sim:
     """A `brace sim` that runs."""
@@ -114,9 +107,8 @@ class Sim:
 @contextmanager
 def simulated(folder: Path, model: Path, *options: object, can: str | None = None) -> Iterator[Sim]:
     """`brace sim` of this model on free ports, until the end of the block. folder: for what it says when it fails."""
-    can = can or f"tcp://127.0.0.1:{free_port()}"
-    modbus = f"modbus-tcp://127.0.0.1:{free_port()}"
-    command = [sys.executable, "-m", "brace", "sim", "--model", model, "--can", can, "--modbus", modbus, *options]
+    ports = ("--can", can or "tcp://127.0.0.1:0", "--modbus", "modbus-tcp://127.0.0.1:0")
+    command = [sys.executable, "-m", "brace", "sim", "--model", model, *ports, *options]
     with (folder / "errors").open("w+") as errors:
         process = subprocess.Popen(
             [*map(str, command), "--seconds", "1200", "--json"], stdout=subprocess.PIPE, stderr=errors, text=True
@@ -126,8 +118,9 @@ def simulated(folder: Path, model: Path, *options: object, can: str | None = Non
         if not line:
             errors.seek(0)
             pytest.fail("brace sim did not start: " + errors.read())
-        assert json.loads(line)["event"] == "ready"
-        yield Sim(can, modbus)
+        ready = json.loads(line)
+        assert ready["event"] == "ready"
+        yield Sim(ready["limbs"][0]["can"], ready["limbs"][0]["modbus_tcp"])
         process.terminate()
         process.wait(timeout=60)
         process.stdout.close()
