@@ -287,7 +287,8 @@ def test_play_reads_like_a_lag(tmp_path: Path, limb: Path, wait_s: float, play_m
 
 
 def test_a_lag_is_told_with_what_the_rig_is_said_to_do(tmp_path: Path, limb: Path) -> None:
-    """A rig that waits leaves nothing of a delay; forces that are early are no sensor's."""
+    """Where the rig is said to wait, the sentence says what must be wrong: the rig did not wait, or the sensor settles
+    slowly. No sensor settles before the force comes, so that early forces have no time constant."""
     record = cast(Record, SimpleNamespace(dataset=load_dataset(loading_record(tmp_path / "record", limb))))
     late, early = lag_in_words(record, 1.2, 0.05), lag_in_words(record, -1.2, 0.05)
     assert late.startswith("the forces are read 1200 ms (+-50) after the displacements if the rig did not wait 4 s")

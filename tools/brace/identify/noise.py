@@ -25,7 +25,7 @@ ASSUMED_SHARE = 0.02  # of the largest reading: what scales and dial gauges read
 ASSUMED_FREEDOM = 2.0  # readings that this is worth
 ASSUMED = "not enough readings; 2 % of the largest is assumed"
 GROWTH_GAIN = 12.0  # twice the log-likelihood that a noise growing with load must gain to be believed
-GROWTH_HINT = 6.0  # the same, to be asked of what a search leaves as well
+GROWTH_HINT = 6.0  # the same, where what a search leaves must agree before it is believed
 
 
 @dataclass(frozen=True)

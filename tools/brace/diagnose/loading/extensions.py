@@ -34,7 +34,7 @@ TAKES_BACK = 0.0  # nats, even odds, to take back what would be named; below tha
 PROBE_SIGMAS = 3.0  # of the whole record: how far a number is turned to see what it does
 HIDDEN = 0.02  # share of a change that must stay when all that the hypothesis turns is taken out
 LEAST_RANGE_DEGC = 0.1
-LEAST_LOAD = 1e-6  # of the largest
+LEAST_LOAD = 1e-6  # of the largest load: less is a limb at rest
 UNCHANGING = TIME_KEYS | STILL_KEYS  # numbers that are a change themselves, or a moment or a limit
 OWN_LOAD = ("joint.femur", "joint.tibia", "sensor")  # parts that know their own load; others go by the load at the tip
 
