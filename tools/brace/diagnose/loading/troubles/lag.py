@@ -1,6 +1,6 @@
 """How likely a lag is before the record is seen, and the sentence that tells of it. While a rig moves on, a late
-sensor reads the force of an earlier displacement. Where a rig waits before each reading, a delay changes nothing; there a
-sensor makes the same readings only if it has not settled yet."""
+sensor reads the force of an earlier displacement. Where a rig waits before each reading, a delay changes nothing. Only
+a sensor that has not settled yet makes the same readings there."""
 
 from __future__ import annotations
 
