@@ -261,4 +261,4 @@ def test_look_alikes_of_the_knee(soft_knee: tuple[Record, Any]) -> None:
     assert found.power[a, b] < 0.5 < found.power[a, found.labels.index(GAP.label)]
     gain = final.base.fit.cost - next(item.best.fit.cost for item in final.sets if item.label == JOINT.label)
     assert found.detectability[a] == pytest.approx(np.sqrt(gain), rel=0.1)
-    assert LINK.label in in_words(found, JOINT.label)
+    assert LINK.label in in_words(found, [JOINT.label])[0]

@@ -60,11 +60,25 @@ def test_what_turning_tells_apart(links: str, paper_limb: Path, paper_rig: Path)
     assert base[3] < base[0]  # a preload does not help everywhere
 
 
+LIKE_B = "in this record a looks like b (of 100 such records 30 would tell the two apart)"
+
+
 def test_only_what_a_record_may_not_tell_apart_is_told_as_alike() -> None:
     labels = ("a", "b", "c", "d")
     alike = np.array([[1.0, 0.99, 0.97, 0.5]] * 4)
     power = np.array([[1.0, 0.3, 0.96, 0.1]] * 4)
     found = Confusability(labels, np.ones(4), alike, np.zeros((4, 4)), power)
-    assert in_words(found, "a") == "in this record a looks like b (of 100 such records 30 would tell the two apart)"
-    assert in_words(found, "e") == ""
-    assert in_words(replace(found, power=np.ones((4, 4))), "a") == ""
+    assert in_words(found, ["a"]) == (LIKE_B,)
+    assert in_words(found, ["e"]) == ()
+    assert in_words(replace(found, power=np.ones((4, 4))), ["a"]) == ()
+
+
+def test_two_that_look_like_each_other_are_told_once() -> None:
+    power = np.array([[1.0, 0.3], [0.2, 1.0]])
+    found = Confusability(("a", "b"), np.ones(2), np.ones((2, 2)), np.zeros((2, 2)), power)
+    assert in_words(found, ["a", "b"]) == (LIKE_B,)
+    # What b looks like stands nowhere else where a does not look like b.
+    one_way = replace(found, cosine=np.array([[1.0, 0.5], [0.99, 1.0]]))
+    assert in_words(one_way, ["a", "b"]) == (
+        "in this record b looks like a (of 100 such records 20 would tell the two apart)",
+    )

@@ -140,7 +140,7 @@ def _all_but_next(
             whole, believed, shown, judged, locked if whole is record else np.zeros(whole.rows, bool)
         ),
         notes=(
-            *(words for effect in effects if (words := in_words(alike, effect.label))),
+            *in_words(alike, [effect.label for effect in effects]),
             *slopes_in_words(whole, model_numbers(believed)),
             *(rests_on_one(record, after) if named else ()),
             *load_range(held),

@@ -124,13 +124,17 @@ def _orthonormal(columns: np.ndarray) -> np.ndarray:
     return np.asarray(basis[:, sizes > DEPENDENT * sizes[0]])
 
 
-def in_words(found: Confusability, label: str) -> str:
-    """One sentence for a report; empty where nothing looks like `label`."""
-    row = found.labels.index(label) if label in found.labels else 0
-    power = {other: found.power[row, found.labels.index(other)] for other in found.look_alikes(label)[1:]}
-    listed = ", ".join(
-        f"{other} (of 100 such records {100.0 * chance:.0f} would tell the two apart)"
-        for other, chance in power.items()
-        if chance <= TOLD_APART
-    )
-    return f"in this record {label} looks like {listed}" if listed else ""
+def in_words(found: Confusability, labels: Sequence[str]) -> tuple[str, ...]:
+    """For a report, one sentence for each label that others look like. Two labels that look like each other are told
+    once, with the first of them."""
+    told: set[tuple[str, str]] = set()
+    sentences = []
+    for label in labels:
+        row = found.labels.index(label) if label in found.labels else 0
+        chance = {other: found.power[row, found.labels.index(other)] for other in found.look_alikes(label)[1:]}
+        alike = [other for other, won in chance.items() if won <= TOLD_APART and (other, label) not in told]
+        if alike:
+            listed = (f"{one} (of 100 such records {100.0 * chance[one]:.0f} would tell the two apart)" for one in alike)
+            sentences.append(f"in this record {label} looks like {', '.join(listed)}")
+        told |= {(label, other) for other in alike}
+    return tuple(sentences)
