@@ -134,7 +134,9 @@ def in_words(found: Confusability, labels: Sequence[str]) -> tuple[str, ...]:
         chance = {other: found.power[row, found.labels.index(other)] for other in found.look_alikes(label)[1:]}
         alike = [other for other, won in chance.items() if won <= TOLD_APART and (other, label) not in told]
         if alike:
-            listed = (f"{one} (of 100 such records {100.0 * chance[one]:.0f} would tell the two apart)" for one in alike)
-            sentences.append(f"in this record {label} looks like {', '.join(listed)}")
+            listed = ", ".join(
+                f"{other} (of 100 such records {100.0 * chance[other]:.0f} would tell the two apart)" for other in alike
+            )
+            sentences.append(f"in this record {label} looks like {listed}")
         told |= {(label, other) for other in alike}
     return tuple(sentences)
