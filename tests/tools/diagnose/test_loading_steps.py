@@ -134,7 +134,8 @@ def test_noise_that_grows_is_asked_of_both_channels_of_a_sensor() -> None:
 
 
 def test_one_channel_that_grows_by_itself_must_be_far_likelier() -> None:
-    """Of one sensor both grow, though the thirty readings of one under most load agree by chance."""
+    """The noise of both channels of a sensor grows. By chance the thirty readings of one channel under the most load
+    scatter little."""
     rng = np.random.default_rng(12)
     size = np.abs(5.0 * rng.standard_normal((2, 300)))
     off = 0.02 * np.hypot(1.0, 0.15 * size) * rng.standard_normal((2, 300))

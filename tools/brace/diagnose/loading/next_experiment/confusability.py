@@ -125,8 +125,9 @@ def _orthonormal(columns: np.ndarray) -> np.ndarray:
 
 
 def in_words(found: Confusability, labels: Sequence[str]) -> tuple[str, ...]:
-    """For a report, one sentence for each label that others look like. Two labels that look like each other are told
-    once, with the first of them."""
+    """Sentences for a report. Each names one of `labels` and the labels that this record may not tell from it; a label
+    that the record tells from all others has no sentence. Two labels that look like each other share the sentence of
+    the first."""
     told: set[tuple[str, str]] = set()
     sentences = []
     for label in labels:
