@@ -108,6 +108,7 @@ uint64_t brace_client_deadline_after(int timeout_ms);
 brace_client_status_t brace_client_fail(brace_client_t *client, brace_client_status_t status, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 brace_client_status_t brace_client_fail_version(brace_client_t *client, uint32_t node, uint32_t hash);
+brace_client_status_t brace_client_out_of_range(brace_client_t *client);
 
 brace_client_status_t brace_can_open(brace_client_t *client, uint32_t node, uint32_t bit_rate, uint64_t deadline_us);
 brace_client_status_t brace_can_read(brace_client_t *client, uint32_t wanted, uint64_t deadline_us,
