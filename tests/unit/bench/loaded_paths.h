@@ -9,16 +9,10 @@
 #include "brace/loaded_space.h"
 #include "brace/loaded_space_fixed.h"
 #include "sample_limbs.h"
+#include "times.h"
 #include "unity.h"
 
 typedef enum { FLOATS, INTEGERS, PATHS } path_t;
-
-/* An emulated board has to show that its arithmetic agrees; a host plays ten times as many. */
-#ifdef __arm__
-enum { TIMES = 1, STRIDE = 11 };
-#else
-enum { TIMES = 10, STRIDE = 1 };
-#endif
 
 static brace_limb_t limb;
 static brace_gravity_t weights;

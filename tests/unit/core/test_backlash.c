@@ -206,27 +206,24 @@ static void bad_and_late_samples_are_a_fault_that_heals(void)
 }
 
 /* A servo with droop, friction and a gap before a spring of stiffness k [N mm/rad] to the ground; no inertia. */
-static const double servo = 60000.0, friction = 200.0;
+static const double servo = 60000.0, friction = 200.0, half_gap_rad = 0.005;
 static double motor_rad, load_n_mm;
 static double lags_ms, reached_rad; /* how late the servo follows, and the set-point that it has come to */
 
+/* Where the servo's torque is the spring's load and so much more. */
+static double motor_at(double setpoint_rad, double k, double more_n_mm)
+{
+    const double pull_n_mm = servo * setpoint_rad - more_n_mm, free_rad = pull_n_mm / servo;
+    return fabs(free_rad) <= half_gap_rad ? free_rad
+                                          : (pull_n_mm + copysign(k * half_gap_rad, pull_n_mm)) / (servo + k);
+}
+
 static void follow(double setpoint_rad, double k)
 {
-    double load = 0.0;
     reached_rad += (setpoint_rad - reached_rad) / (1.0 + lags_ms);
-    setpoint_rad = reached_rad;
-    for (int i = 0; i < 60; i++) { /* to rest: small steps of the motor */
-        const double beyond = motor_rad > 0.005 ? motor_rad - 0.005 : motor_rad < -0.005 ? motor_rad + 0.005 : 0.0;
-        load = k * beyond;
-        const double torque = servo * (setpoint_rad - motor_rad);
-        const double out_of_balance = torque - load;
-        const double moves = out_of_balance > friction    ? out_of_balance - friction
-                             : out_of_balance < -friction ? out_of_balance + friction
-                                                          : 0.0;
-        motor_rad += moves / (servo + k) * 0.5;
-    }
-    load_n_mm = load;
-    tick(motor_rad, servo * (setpoint_rad - motor_rad));
+    motor_rad = fmin(fmax(motor_rad, motor_at(reached_rad, k, friction)), motor_at(reached_rad, k, -friction));
+    load_n_mm = k * (motor_rad - fmin(fmax(motor_rad, -half_gap_rad), half_gap_rad));
+    tick(motor_rad, servo * (reached_rad - motor_rad));
 }
 
 static void take_up(int flank, double k, int ticks)

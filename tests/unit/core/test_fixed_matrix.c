@@ -72,9 +72,10 @@ static void link_matrix(const fixed_rest_t *rest, double times, double m[3][3])
     m[0][0] -= times * times * number(rest->root_softens, 27);
 }
 
-/* How far each coordinate turns a link's root and its curvatures. The femur's turn the tibia's root. */
-static const double turns_tibia[3][COORDINATES] = {{0, 0, 1, 1, 1, 1}, {1, 0, 0, 0, 0, 0}, {0, 1, 0, 0, 0, 0}};
-static const double turns_femur[3][COORDINATES] = {{0, 0, 0, 0, 0, 1}, {0, 0, 0, 1, 0, 0}, {0, 0, 0, 0, 1, 0}};
+/* Which of a link's root and curvatures each coordinate turns. The femur's turn the tibia's root. */
+enum { ROOT, CURVATURE_A, CURVATURE_B, NOTHING };
+static const int turns_tibia[COORDINATES] = {CURVATURE_A, CURVATURE_B, ROOT, ROOT, ROOT, ROOT};
+static const int turns_femur[COORDINATES] = {NOTHING, NOTHING, NOTHING, CURVATURE_A, CURVATURE_B, ROOT};
 
 static double yields_of(int coordinate)
 {
@@ -90,11 +91,9 @@ static void whole_matrix(double times, double m[COORDINATES][COORDINATES])
     link_matrix(&limb.femur, times, femur);
     for (int i = 0; i < COORDINATES; i++) {
         for (int j = 0; j < COORDINATES; j++) {
-            double sum = 0.0;
-            for (int e = 0; e < 9; e++) {
-                const int p = e / 3, q = e % 3;
-                sum += turns_tibia[p][i] * tibia[p][q] * turns_tibia[q][j];
-                sum += turns_femur[p][i] * femur[p][q] * turns_femur[q][j];
+            double sum = tibia[turns_tibia[i]][turns_tibia[j]];
+            if (turns_femur[i] != NOTHING && turns_femur[j] != NOTHING) {
+                sum += femur[turns_femur[i]][turns_femur[j]];
             }
             m[i][j] = (i == j ? 1.0 : 0.0) + yields_of(i) * sum;
         }
@@ -170,15 +169,15 @@ static void solve(double m[COORDINATES][COORDINATES], double x[COORDINATES])
 /* How a coordinate moves the tip along an axis: what it turns, times the levers of that. */
 static double lever_of(int coordinate, int axis)
 {
-    double sum = 0.0;
     const fixed_rest_t *const rests[] = {&limb.tibia, &limb.femur};
+    const int turned[] = {turns_tibia[coordinate], turns_femur[coordinate]};
+    double sum = 0.0;
     for (int link = 0; link < 2; link++) {
         const fixed_rest_t *rest = rests[link];
         const fixed_vec_t root = fixed_minus(fixed_quarter(rest->tip), rest->aside);
         const fixed_vec_t levers[3] = {root, fixed_plus(rest->a, rest->end), fixed_plus(rest->b, rest->end)};
-        for (int p = 0; p < 3; p++) {
-            const double turns = link == 0 ? turns_tibia[p][coordinate] : turns_femur[p][coordinate];
-            sum += turns * number(axis == 0 ? levers[p].x : levers[p].z, 28);
+        if (turned[link] != NOTHING) {
+            sum += number(axis == 0 ? levers[turned[link]].x : levers[turned[link]].z, 28);
         }
     }
     return sum;

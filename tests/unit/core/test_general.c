@@ -5,6 +5,7 @@
 #include "brace/general.h"
 #include "reference_planar.h"
 #include "sample_limbs.h"
+#include "times.h"
 #include "unity.h"
 
 #define PI 3.14159265358979324
@@ -104,7 +105,7 @@ static brace_limb_t random_limb(void)
 static void test_random_limbs(void)
 {
     int judged = 0;
-    while (judged < 20000) {
+    while (judged < 2000 * TIMES) {
         const brace_limb_t limb = random_limb();
         if (brace_limb_check(&limb) != BRACE_OK ||
             limb.link[BRACE_FEMUR].bending_mm_per_n + limb.link[BRACE_TIBIA].bending_mm_per_n < 1e-3f) {
