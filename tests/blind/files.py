@@ -14,6 +14,7 @@ from plant import IN_LIMB_TOML, INDEX, LINKS, NEUTRAL, ROW, Array
 
 Table = dict[str, Any]
 INTEGERS = ("run", "config", "rep", "step")
+RANGE_N = 145.0  # of the force sensor
 _ALWAYS = ("axial_mm_per_n", "bending_mm_per_n", "tilt_rad", "compliance_rad_per_n_mm")
 
 
@@ -41,7 +42,7 @@ def meta_text(design: Design, title: str, *, displacements: str = "") -> str:
     return (
         f'format = 1\nkind = "loading"\ntitle = "{title}"\n{said}{held}[sensor]\n'
         f"resolution_n = {design.resolution_n!r}\n"
-        f"range_n = 145.0\n[rig]\nstep_mm = {design.step_mm!r}\ndwell_s = {design.dwell_s!r}\n"
+        f"range_n = {RANGE_N!r}\n[rig]\nstep_mm = {design.step_mm!r}\ndwell_s = {design.dwell_s!r}\n"
         f'zeroed = "{"per_run" if design.zeroed else "never"}"\n'
     )
 

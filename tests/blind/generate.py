@@ -29,7 +29,7 @@ import effects
 import spoil
 from designs import Design, Rng, Trust, true_limb
 from detect import SAME_CLASS, Bench
-from files import limb_text, meta_text, noisy, table_of, write_dataset
+from files import RANGE_N, limb_text, meta_text, noisy, table_of, write_dataset
 from plant import BUILD, IN_LIMB_TOML, INDEX, LINKS, Array
 from worlds import SIMULATOR, World, options_of_world, world_called
 
@@ -348,13 +348,18 @@ def identity(seed: int, index: int) -> str:
 def drawn(
     seed: int, index: int, cases: Cases, world: World = SIMULATOR
 ) -> tuple[dict[str, Any], Rng, list[str]]:
-    """A case's ingredients and the generator to go on with; also why earlier draws were given up."""
+    """A case's ingredients, its noise-free readings among them, and the generator to go on with; also why earlier draws
+    were given up."""
     kind, number = schedule(seed, cases)[index]
     given_up: list[str] = []
     for attempt in range(60):
         rng = np.random.default_rng([seed, 2, index, attempt])
         try:
-            return build(kind, number, rng, world), rng, given_up
+            case = build(kind, number, rng, world)
+            case["clean"] = clean_readings(case, case["shown"].rows, world)
+            if np.max(np.abs(case["clean"][:, :2])) > RANGE_N:
+                raise Retry("a force is beyond the sensor's range")
+            return case, rng, given_up
         except (Retry, np.linalg.LinAlgError, ArithmeticError, ValueError) as why:
             given_up.append(str(why))
     raise Unmade(f"case {index} ({kind} {number}) cannot be made: {given_up[-3:]}")
@@ -380,7 +385,7 @@ def write_case(seed: int, index: int, cases: Cases, out: Path, world: World = SI
     case, rng, given_up = drawn(seed, index, cases, world)
     name = identity(seed, index)
     shown, held, truth = case["shown"], case["held"], case["truth"]
-    table = table_of(shown, noisy(rng, shown, clean_readings(case, shown.rows, world)))
+    table = table_of(shown, noisy(rng, shown, case["clean"]))
     if "spoil" in case:
         truth["fields"] = spoil.KINDS[case["spoil"]](rng, table)
     folder, answer = out / "cases" / name, out / "answers" / name

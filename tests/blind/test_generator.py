@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from designs import believed_limb, loading_test, trust
 from detect import Bench
-from generate import DETECTABILITIES, Retry, build, generate, listing, schedule, seal_of, total, write_case
+from generate import DETECTABILITIES, Retry, build, drawn, generate, listing, schedule, seal_of, total, write_case
 from plant import INDEX, play
 from seeds import DEVELOPMENT_CASES, DEVELOPMENT_SEED, SUBSET_SEED, TEST_CASES, TEST_SEED
 
@@ -64,6 +64,15 @@ def test_a_plan_may_say_how_detectable() -> None:
     truth = build(kind, number, np.random.default_rng(5))["truth"]
     assert (truth["kind"], truth["wanted"]) == ("single", 8.0)
     assert truth["effects"] == [dict(zip(("name", "where"), effects.CATALOGUE[0], strict=True))]
+
+
+def test_no_reading_is_beyond_the_sensor(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A sensor of 145 N has never read 174 N: such a draw is drawn again."""
+    forces_n = np.abs(drawn(SUBSET_SEED, 0, "none=1")[0]["clean"][:, :2])
+    monkeypatch.setattr("generate.RANGE_N", 0.9 * np.max(forces_n))
+    case, _, given_up = drawn(SUBSET_SEED, 0, "none=1")
+    assert "a force is beyond the sensor's range" in given_up
+    assert np.max(np.abs(case["clean"][:, :2])) <= 0.9 * np.max(forces_n)
 
 
 # Of the first forty seeds those whose pair has a saturation: to draw the others takes half a second each.

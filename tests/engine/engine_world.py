@@ -23,7 +23,7 @@ from worlds import Setting, World
 HERE = Path(__file__).resolve().parent
 BENT_RAD, ALL_RAD = (0.9, 2.4), (0.45, 2.75)  # of the knee
 STEPS_MM = (0.25, 0.35, 0.635)
-MOST_N = 110.0  # of a stroke's force, of a sensor that reads 145 N
+MOST_N = 110.0  # of a stroke's force as planned; the sensor reads 145 N
 
 
 def believed_beams(rng: Rng) -> Array:
