@@ -357,7 +357,8 @@ def drawn(
         try:
             case = build(kind, number, rng, world)
             case["clean"] = clean_readings(case, case["shown"].rows, world)
-            if np.max(np.abs(case["clean"][:, :2])) > RANGE_N:
+            forces_n = case["clean"][:, :2]
+            if np.max(np.abs(forces_n)) > RANGE_N:
                 raise Retry("a force is beyond the sensor's range")
             return case, rng, given_up
         except (Retry, np.linalg.LinAlgError, ArithmeticError, ValueError) as why:

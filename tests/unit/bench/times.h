@@ -3,7 +3,7 @@
 #define TIMES_H
 
 #ifdef __arm__
-enum { TIMES = 1, STRIDE = 11 /* through what is gone through in order */ };
+enum { TIMES = 1, STRIDE = 11 /* it plays every eleventh entry of a list */ };
 #else
 enum { TIMES = 10, STRIDE = 1 };
 #endif

@@ -206,24 +206,28 @@ static void bad_and_late_samples_are_a_fault_that_heals(void)
 }
 
 /* A servo with droop, friction and a gap before a spring of stiffness k [N mm/rad] to the ground; no inertia. */
-static const double servo = 60000.0, friction = 200.0, half_gap_rad = 0.005;
+static const double servo_n_mm_per_rad = 60000.0, friction_n_mm = 200.0, half_gap_rad = 0.005;
 static double motor_rad, load_n_mm;
 static double lags_ms, reached_rad; /* how late the servo follows, and the set-point that it has come to */
 
-/* Where the servo's torque is the spring's load and so much more. */
+/* The motor's angle at which the servo's torque is the spring's load plus more_n_mm. */
 static double motor_at(double setpoint_rad, double k, double more_n_mm)
 {
-    const double pull_n_mm = servo * setpoint_rad - more_n_mm, free_rad = pull_n_mm / servo;
-    return fabs(free_rad) <= half_gap_rad ? free_rad
-                                          : (pull_n_mm + copysign(k * half_gap_rad, pull_n_mm)) / (servo + k);
+    const double pull_n_mm = servo_n_mm_per_rad * setpoint_rad - more_n_mm, free_rad = pull_n_mm / servo_n_mm_per_rad;
+    if (fabs(free_rad) <= half_gap_rad) {
+        return free_rad;
+    }
+    return (pull_n_mm + copysign(k * half_gap_rad, pull_n_mm)) / (servo_n_mm_per_rad + k);
 }
 
 static void follow(double setpoint_rad, double k)
 {
     reached_rad += (setpoint_rad - reached_rad) / (1.0 + lags_ms);
-    motor_rad = fmin(fmax(motor_rad, motor_at(reached_rad, k, friction)), motor_at(reached_rad, k, -friction));
+    const double lowest_rad = motor_at(reached_rad, k, friction_n_mm);
+    const double highest_rad = motor_at(reached_rad, k, -friction_n_mm);
+    motor_rad = fmin(fmax(motor_rad, lowest_rad), highest_rad); /* between them friction holds the motor */
     load_n_mm = k * (motor_rad - fmin(fmax(motor_rad, -half_gap_rad), half_gap_rad));
-    tick(motor_rad, servo * (reached_rad - motor_rad));
+    tick(motor_rad, servo_n_mm_per_rad * (reached_rad - motor_rad));
 }
 
 static void take_up(int flank, double k, int ticks)
@@ -257,7 +261,7 @@ static void a_takeup_preloads_verifies_and_lets_go(void)
             TEST_ASSERT_TRUE(out.valid && out.flank == flank);
         }
         /* the standing motor's friction may hide that much, and the slow mean six of its sigma */
-        ASSERT_CLOSE(load_n_mm, out.preload_n_mm, friction * 1.2 + 6.0 * 32.0);
+        ASSERT_CLOSE(load_n_mm, out.preload_n_mm, friction_n_mm * 1.2 + 6.0 * 32.0);
         TEST_ASSERT_TRUE(flank * load_n_mm > 800.0);
         TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_takeup_let_go(&joint));
         double before = (double)out.command_rad;
@@ -377,7 +381,7 @@ static double begin_to_verify(int flank)
         follow((double)out.command_rad, 1e5);
     }
     TEST_ASSERT_EQUAL_INT(BRACE_TAKEUP_VERIFY, out.phase);
-    return servo * ((double)out.command_rad - motor_rad);
+    return servo_n_mm_per_rad * ((double)out.command_rad - motor_rad);
 }
 
 /* The load has to stay for 100 ms, and in the second half of that time the motor too, within a quarter of the gap. */

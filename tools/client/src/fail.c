@@ -1,4 +1,4 @@
-/* Why a call failed, in words; and until when it may try. */
+/* Writes in words why a call failed, and works out until when a call may try. */
 #include "client_internal.h"
 
 #include <stdarg.h>
