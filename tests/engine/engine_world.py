@@ -93,7 +93,7 @@ WORLD = World(
         "engine_chain", "engine_limb", "many_rests", "engine_plant", "engine_bench", "engine_outsiders", "engine_world",
     )),
     development_seed=220_003,
-    test_seed=436_470,
+    test_seed=732_463,
     development_cases="none=26,single@25=27,single@12=14,single@100=6,pair=12,outside=20,disguised=8",
     test_cases="none=200,single@12=81,single@25=81,single@60=84,single@150=54,pair=60,outside=130,disguised=24",
     page="engine",

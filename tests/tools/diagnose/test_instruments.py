@@ -17,9 +17,9 @@ from handmade import loading_record
 from brace.dataset import load_dataset
 from brace.diagnose.diagnosis import Diagnosis
 from brace.diagnose.loading.choose import LabelSet
-from brace.diagnose.loading.troubles.kinds import OUTLIERS
+from brace.diagnose.loading.troubles.kinds import GROWTH, OUTLIERS, SLIP
 from brace.diagnose.loading.troubles.lag import lag_in_words
-from brace.diagnose.loading.troubles.likeliest import Trouble, with_trouble
+from brace.diagnose.loading.troubles.likeliest import Trouble, most_likely, with_trouble
 from brace.diagnose.options import Options
 from brace.diagnose.run import diagnose
 from brace.identify.record import Record
@@ -372,3 +372,25 @@ def test_single_readings_that_stand_out_are_told_once() -> None:
     assert kept is zeros and whole.columns.shape == (2, 9, 4)
     assert (whole.name, whole.field, whole.row) == (OUTLIERS, "fx_n, fz_n", 3)
     assert "(row 3, 6, 8)" in whole.shown
+
+
+@pytest.mark.parametrize(
+    ("slip", "growth", "name"),
+    [
+        (64.5, 64.4, GROWTH),  # one or the other: nobody can tell which
+        (64.5, 62.0, GROWTH),
+        (64.5, 61.0, SLIP),  # 1 to 33
+        (61.0, 64.5, GROWTH),
+        (4.0, 3.9, SLIP),  # not far ahead of the catalogue: a rival of what is named, no more
+        (-4.0, -5.0, None),
+    ],
+)
+def test_a_trouble_is_not_told_where_something_without_a_name_is_as_likely(
+    slip: float, growth: float, name: str | None
+) -> None:
+    def weighed(name: str, lead: float) -> Trouble:
+        return Trouble(name, "fx_n", 1, np.zeros((2, 9, 1)), cast(LabelSet, None), lead, 1.0, 0.1, "")
+
+    found = most_likely([weighed(SLIP, slip), weighed(GROWTH, growth)])
+    assert (found and found.name) == name
+    assert found is None or found.lead == max(slip, growth)

@@ -36,7 +36,7 @@ MUST_LEAD = 4.6  # nats: 100 to 1 against the best of the catalogue, as every na
 REFITTED = 5  # kinds of trouble beside sets of effects, the most likely ones
 BY_SLOPES = 0.01  # nats for each sigma squared that a trouble explains by slopes: what a fit may explain beside
 BACK = 0.2  # of the largest slip: what slips that go back may leave
-MAY_BE = -3.0  # nats: 1 to 20, from which a trouble is a rival of what was named
+MAY_BE = -3.0  # nats: 1 to 20, from which a trouble is a rival of what was named, or of a likelier trouble
 FLAT = 1e3  # whitened: a size of which nothing is known before
 
 
@@ -107,8 +107,19 @@ def likeliest(record: Record, sets: Sequence[LabelSet]) -> Trouble | None:
         first.setdefault((option.kind, option.rest.labels), option)
     chosen = [one for place, one in enumerate(first.values()) if place < REFITTED or one.kind == LAG]
     troubles = [_fitted(record, base, option, against) for option in chosen]
-    likely = max(troubles, key=lambda one: one.lead, default=None)
-    return likely if likely is not None and likely.lead > MAY_BE else None
+    return most_likely(troubles)
+
+
+def most_likely(troubles: Sequence[Trouble]) -> Trouble | None:
+    """The one with the most lead, or None where not even that may be. A trouble far ahead of the catalogue is told only
+    where nothing without a name may be it as well: then that comes instead, because one of the two is far ahead."""
+    first = max(troubles, key=lambda one: one.lead, default=None)
+    if first is None or first.lead <= MAY_BE:
+        return None
+    nameless = max((one for one in troubles if not one.told), key=lambda one: one.lead, default=None)
+    if not first.far_ahead or nameless is None or nameless.lead <= first.lead + MAY_BE:
+        return first
+    return replace(nameless, lead=first.lead)
 
 
 def with_trouble(record: Record, troubles: Sequence[Trouble], found: Trouble) -> tuple[Trouble, ...]:
