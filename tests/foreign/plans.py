@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-DEVELOPMENT_SEED, TEST_SEED, SUBSET_SEED = 260_017, 728_391, 470_021
+DEVELOPMENT_SEED, TEST_SEED, SUBSET_SEED = 260_017, 774_192, 470_021
 
 
 @dataclass(frozen=True)
