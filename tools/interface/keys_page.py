@@ -7,9 +7,10 @@ from interface.dictionary import Dictionary, Entry
 _HEAD = """# Keys of limb.toml
 
 Written by `tools/interface` from `firmware/interface/dictionary.toml`; do not edit. Besides these a file has `format = 1`
-and may have a `name`. What is not written has its default, the zero effect; unknown keys are refused. Every key here is
-one member of the controller's parameter block (`brace params pack`), a float or a whole number of 32 bits. Its number
-is what `read_entry` and `write_entry` on CAN call it by, and half its Modbus register; it never changes.
+and may have a `name`. What is not written has its default, the zero effect; unknown keys are refused. Every key but
+those of the last section is one member of the controller's parameter block (`brace params pack`), a float or a whole
+number of 32 bits. Its number is what `read_entry` and `write_entry` on CAN call it by, and half its Modbus register; it
+never changes.
 The last column is what a controller uses that has no valid block; it then flags every K `UNCALIBRATED`.
 
 """

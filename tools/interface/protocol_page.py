@@ -6,7 +6,9 @@ from collections.abc import Sequence
 
 from interface.measured import Values
 from interface.messages import Frame, Signal, Wire
-from interface.registers import MEASURED_ENTRY
+from interface.registers import COMMAND_ENTRY, MEASURED_ENTRY
+
+WRITTEN_AS_ENTRIES = ("stop", "end_test", "life_mac", "seal_mac")  # wire/answers/parameters.c
 
 _HEAD = """# Frames on CAN
 
@@ -74,6 +76,13 @@ def protocol_page(wire: Wire, values: Values, dictionary_hash: int) -> str:
         f" measured values count from {MEASURED_ENTRY}:\n\n| number | name | type | unit |\n|---|---|---|---|\n"
     )
     parts += [f"| {MEASURED_ENTRY + v.index} | `{v.name}` | {v.type} | {v.unit} |\n" for v in values.measured]
+    parts.append(
+        "\n`write_entry` takes four commands, too, in every mode that allows them. Its answer's value is then the"
+        " controller's setting: bench or guarded ([security.md](security.md)).\n\n| number | name | what it does |\n"
+        "|---|---|---|\n"
+    )
+    parts += [f"| {COMMAND_ENTRY + v.index} | `{v.name}` | {v.description} |\n"
+              for v in values.commands if v.name in WRITTEN_AS_ENTRIES]  # fmt: skip
     return "".join(parts)
 
 

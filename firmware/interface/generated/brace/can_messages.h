@@ -128,7 +128,7 @@ typedef struct {
     uint32_t sequence;
     /* the force along z per displacement along z [N/mm, -4194.3 to 4194.3] */
     float k_zz_n_per_mm;
-    /* the age of the joints' samples when the frame was made; 127 stands for 127 ms and more [ms, 0 to 127] */
+    /* the age of the joints' samples when the frame was made; 127 ms stands for 127 ms and more [ms, 0 to 127] */
     float age_ms;
     /* which side of the femur joint's backlash is loaded */
     uint32_t play_femur;
@@ -262,7 +262,7 @@ typedef struct {
     float lambda_3_n_per_mm;
     /* the quality of K in space */
     uint32_t flags;
-    /* the age of the joints' samples when the frame was made; 127 stands for 127 ms and more [ms, 0 to 127] */
+    /* the age of the joints' samples when the frame was made; 127 ms stands for 127 ms and more [ms, 0 to 127] */
     float age_ms;
     /* which side of the coxa joint's backlash is loaded */
     uint32_t play_coxa;
@@ -309,9 +309,9 @@ void brace_can_unpack_space_6(const uint8_t data[8], brace_can_space_6_t *messag
 typedef struct {
     /* the number of the snapshot; the frames of one snapshot carry the same number */
     uint32_t sequence;
-    /* k_xx with neither the force on the tip nor the weight counted [N/mm, -4194.3 to 4194.3] */
+    /* k_xx with neither the force on the tip nor the weight counted, every gap closed [N/mm, -4194.3 to 4194.3] */
     float unloaded_k_xx_n_per_mm;
-    /* k_xz with neither the force on the tip nor the weight counted [N/mm, -4194.3 to 4194.3] */
+    /* k_xz with neither the force on the tip nor the weight counted, every gap closed [N/mm, -4194.3 to 4194.3] */
     float unloaded_k_xz_n_per_mm;
 } brace_can_load_0_t;
 #define BRACE_CAN_LOAD_0_UNLOADED_K_XX_N_PER_MM_MOST 4194.3035f
@@ -323,7 +323,7 @@ void brace_can_unpack_load_0(const uint8_t data[8], brace_can_load_0_t *message)
 typedef struct {
     /* the number of the snapshot; the frames of one snapshot carry the same number */
     uint32_t sequence;
-    /* k_zz with neither the force on the tip nor the weight counted [N/mm, -4194.3 to 4194.3] */
+    /* k_zz with neither the force on the tip nor the weight counted, every gap closed [N/mm, -4194.3 to 4194.3] */
     float unloaded_k_zz_n_per_mm;
     /* how far the weight's direction leans out of the limb's plane [rad, -3.2767 to 3.2767] */
     float gravity_lean_rad;
@@ -398,7 +398,8 @@ void brace_can_unpack_load_across_0(const uint8_t data[8], brace_can_load_across
 typedef struct {
     /* the number of the snapshot; the frames of one snapshot carry the same number */
     uint32_t sequence;
-    /* K across the limb's plane with neither the force on the tip nor the weight counted [N/mm, 0 to 8388.61] */
+    /* K across the limb's plane with neither the force on the tip nor the weight counted, every gap closed [N/mm,
+     * 0 to 8388.61] */
     float unloaded_k_across_n_per_mm;
     /* the quality of K in space */
     uint32_t flags;
@@ -414,7 +415,8 @@ typedef struct {
     uint32_t sequence;
     /* the CRC of the parameters in force */
     uint32_t parameter_crc;
-    /* the age of the joints' samples when the frame was made; 32767 stands for 32767 ms and more [ms, 0 to 32767] */
+    /* the age of the joints' samples when the frame was made; 32767 ms stands for 32767 ms and more [ms, 0 to
+     * 32767] */
     float age_ms;
     /* the quality of K */
     uint32_t flags;
@@ -460,7 +462,8 @@ void brace_can_unpack_snapshot_fd(const uint8_t data[64], brace_can_snapshot_fd_
 typedef struct {
     /* the number of the snapshot */
     uint32_t sequence;
-    /* the age of the joints' samples when the frame was made; 32767 stands for 32767 ms and more [ms, 0 to 32767] */
+    /* the age of the joints' samples when the frame was made; 32767 ms stands for 32767 ms and more [ms, 0 to
+     * 32767] */
     float age_ms;
     /* the low half of the CRC of the parameters in force */
     uint32_t parameter_tag;
@@ -510,7 +513,8 @@ void brace_can_unpack_space_fd(const uint8_t data[64], brace_can_space_fd_t *mes
 typedef struct {
     /* the number of the snapshot */
     uint32_t sequence;
-    /* the age of the joints' samples when the frame was made; 32767 stands for 32767 ms and more [ms, 0 to 32767] */
+    /* the age of the joints' samples when the frame was made; 32767 ms stands for 32767 ms and more [ms, 0 to
+     * 32767] */
     float age_ms;
     /* the quality of K */
     uint32_t flags;
