@@ -115,9 +115,12 @@ const char *brace_node_posix_text(int32_t status);
 uint64_t brace_node_step(brace_node_t *node, uint64_t time_us);
 
 /* Runs in step with the wall clock until the simulation's time is until_us or brace_node_stop is called. Blocks all
- * signals in its thread. returns the simulation's time. */
+ * signals in its thread. brace_node_stop ends every later run, too; brace_node_step goes on working.
+ * returns the time of the last tick, at most until_us. */
 uint64_t brace_node_run(brace_node_t *node, uint64_t until_us);
 void brace_node_stop(brace_node_t *node);
+
+/* The calls below that return int32_t return 0, or -3: no such limb, a null pointer, or a value out of its range. */
 
 /* From a time on, the set-points move to these values at the drives' rate. If the time lies before the last one of the
  * limb's script, the last one is used. */

@@ -137,8 +137,10 @@ int32_t brace_dynamixel_start(brace_dynamixel_t *driver, const brace_servo_setup
 void brace_dynamixel_serve(brace_dynamixel_t *driver, uint32_t now_us);
 
 /* As joint_read and joint_command in brace_hal.h. A finite torque limit needs operating mode 5 (current-based
- * position); in another mode it is E_UNSUPPORTED. E_DEVICE: the servo is silent, refused, or has no torque; or an
- * offset that nobody has commanded for 100 ms goes back, and the command is more than 0.02 rad away from it. */
+ * position); in another mode it is E_UNSUPPORTED.
+ *   read: E_DEVICE: the servo is silent or refused. AGAIN before the first sample leaves joint as it is
+ *   command: E_DEVICE: the servo is silent, refused, or has no torque; or an offset that nobody has commanded for 100
+ *   ms goes back, and the command is more than 0.02 rad away from it */
 int32_t brace_dynamixel_read(brace_dynamixel_t *driver, int32_t joint_index, brace_hal_joint_t *joint);
 int32_t brace_dynamixel_command(brace_dynamixel_t *driver, int32_t joint_index,
                                 const brace_hal_joint_command_t *command);

@@ -42,9 +42,11 @@ typedef struct {
  * Returns the filled door, static; never null. Call once, from main. Does not wait for anything.
  *
  *   now_us        1 MHz counter, steps of 1 us
- *   serial_setup  sets baud [1200, 1500000]; accepts a parity without effect, because an emulator passes bytes, not
- *   bits serial_write  writes to the transmitter as many bytes as it takes at once; serial_read reads a ring of 512
- *   bytes nvm_...       RAM that a reset keeps and the emulator's end does not; write unit 4
+ *   serial_setup  sets baud [1200, 1500000]; accepts a parity without effect, because an emulator passes bytes and no
+ *                 bits
+ *   serial_write  writes to the transmitter as many bytes as it takes at once
+ *   serial_read   reads a ring of 512 bytes
+ *   nvm_...       RAM that a reset keeps and the emulator's end does not; write unit 4
  */
 const brace_hal_t *brace_hal_mps2(const mps2_board_t *board);
 

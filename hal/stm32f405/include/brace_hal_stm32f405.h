@@ -130,16 +130,16 @@ uint32_t stm32f405_sector_bytes(uint8_t sector);
  *                controller does not answer (an emulator), or there is no crystal and neither listen_only nor loopback is
  *                asked for. On a bus that is held dominant, can_health tells bus_off until the bus is free
  *   can_send     three mailboxes, first in first out whatever the identifiers, so the order is kept; AGAIN when all
- *     three
- *                are full; E_UNSUPPORTED when listening only. A frame that nobody takes for 100 ms is dropped by
- *                the next can_health
+ *                three are full, or until the bus has been quiet once after can_setup; E_UNSUPPORTED when
+ *                listening only. A frame that nobody takes for 100 ms is dropped by the next can_health
  *   can_receive  ring of 64 frames; the controller's filter rejects extended and remote frames, and other identifiers
  *   can_recover  drops the frames that wait in the mailboxes, because they are stale by then; E_DEVICE: the crystal was
  *                lost, and CAN stays off
- *   nvm_write    E_DEVICE while the supply is below 2.9 V; whole words of 4 bytes: 16 us each, 100 us at
- *                most; up to 10 words in one call always end within 1 ms
- *   nvm_erase    16 KiB: 0.25 s, at most 0.5 s; 128 KiB: 1 s, at most 2 s. The processor stands still; the watchdog is
- *                fed before. E_DEVICE: protected, or not finished in twice that time
+ *   nvm_write    E_DEVICE while the supply is below 2.9 V and board.guards_supply is set; whole words of 4 bytes: 16 us
+ *                each, 100 us at most; up to 10 words in one call always end within 1 ms
+ *   nvm_erase    16 KiB: 0.25 s, at most 0.5 s; 128 KiB: 1 s, at most 2 s; before, up to 0.6 s until what is being sent
+ *                has left. The processor stands still; the watchdog is fed before. E_DEVICE: the supply, as above;
+ *                protected, or not finished in twice that time
  *   key_read     from the first block of one-time programmable memory (0x1fff7800) that holds a key; not the image, not a
  *                set, nothing erases it
  *   key_write    once; 0.2 ms. A write that the power cut costs one of 16 blocks

@@ -38,6 +38,7 @@ static void test_rows_are_the_single_function_s(void)
         TEST_ASSERT_TRUE(isnan(rows[i].stiffness.k_xz_n_per_mm) && isnan(rows[i].stiffness.k_zz_n_per_mm));
         TEST_ASSERT_TRUE(isnan(rows[i].stiffness.lambda_min_n_per_mm) && isnan(rows[i].stiffness.lambda_max_n_per_mm));
         TEST_ASSERT_TRUE(isnan(rows[i].displacement.x_mm) && isnan(rows[i].displacement.z_mm));
+        TEST_ASSERT_TRUE(isnan(rows[i].tibia_mm.x) && isnan(rows[i].tibia_mm.z));
         TEST_ASSERT_TRUE(isnan(rows[i].hip_turn_rad) && isnan(rows[i].knee_turn_rad));
         TEST_ASSERT_TRUE(isnan(rows[i].buckling_factor));
         TEST_ASSERT_EQUAL_UINT32(0u, rows[i].stiffness.flags);

@@ -12,7 +12,8 @@
  *
  * K is valid when the mode is MONITOR, TAKING_UP or LOADING_TEST, the newest sound samples of femur and tibia joint
  * are no older than controller.age_limit_us, the posture is inside both drives' travel, and parameters are in force
- * (safe defaults count, flagged UNCALIBRATED). A limb whose coxa joint is fitted has its K in space too.
+ * (safe defaults count, flagged UNCALIBRATED), and K exists there: a singular posture has none (NEAR_SINGULAR), nor has
+ * a load that folds the limb (SOFTENED). A limb whose coxa joint is fitted has its K in space too.
  *
  * A joint with play (gap_rad >= 1e-5) carries nothing while its load does not prove a side: K is valid then, flagged
  * GAP_OPEN, with both bounds. The same holds while the joint's newest sample is more than four ticks old (its drive
@@ -28,8 +29,9 @@
 /* Starts a controller: takes the parameters in force from the store, sets up CAN (listen only while the node's number
  * is unset), and is in START until the first ticks have brought sound samples.
  *   hal: lives as long as app; entries that are not optional must be there
- * returns BRACE_OK, BRACE_E_NULL, BRACE_E_PARAMETER (a mandatory entry of hal is missing).
- * Not for the tick: some 50,000 instructions, and can_setup's 20 ms. */
+ * returns BRACE_OK, BRACE_E_NULL, BRACE_E_PARAMETER: now_us, joint_read, nvm_read, nvm_write, nvm_erase, watchdog_feed,
+ *   reset_cause or crash_clear is null. Other mandatory entries are checked by hal/selftest only.
+ * Not for the tick: some 50,000 instructions, and can_setup's 1 ms, twice where CAN FD is refused. */
 brace_status_t brace_app_start(brace_app_t *app, const brace_hal_t *hal);
 
 /* One tick; call it every parameters.controller.tick_us.

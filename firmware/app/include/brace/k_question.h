@@ -36,7 +36,7 @@ typedef struct {
 typedef struct {
     brace_stiffness_t k;               /* in the limb's plane; flags: UNCALIBRATED, OUT_OF_RANGE (outside the drives'
                                           travel), and the model's own */
-    brace_stiffness_spatial_t in_space;
+    brace_stiffness_spatial_t in_space; /* in the robot's frame; only after a question in space, else not to be used */
     brace_displacement_t moved_mm;     /* by force and weight, in the limb's plane */
     float moved_across_mm;             /* the same across that plane; NaN: limb in its plane */
     float buckling_factor;             /* infinity: none; NaN: not counted, or limb in space */

@@ -51,9 +51,10 @@ typedef enum {
     BRACE_LOADING_DONE = 2,
     BRACE_LOADING_STOPPED = 3,     /* on request */
     BRACE_LOADING_E_FORCE = -1,    /* the force passed its bound */
-    BRACE_LOADING_E_TORQUE = -2,   /* a motor's torque passed its bound */
+    BRACE_LOADING_E_TORQUE = -2,   /* a motor's torque passed 95 % of its bound */
     BRACE_LOADING_E_TRAVEL = -3,   /* a motor went beyond twice its command and 0.01 rad, or out of its travel */
-    BRACE_LOADING_E_TIME = -4,     /* not done within twice its time, 3 s a step for the servos, and 2 s */
+    BRACE_LOADING_E_TIME = -4,     /* not done within twice its time, 3 s a step for the servos, and 2 s; nor
+                                      within 3,002 s */
     BRACE_LOADING_E_NO_FORCE = -5, /* neither sensor nor joints tell the force */
     BRACE_LOADING_E_LOST = -6,     /* a fault, or a flank that was taken up let go */
     BRACE_LOADING_E_FLAT = -7      /* too few steps with a displacement: the motors do not follow */

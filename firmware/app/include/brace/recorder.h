@@ -14,7 +14,8 @@ enum { BRACE_RECORDER_ROWS = 256 };
 /* One row. Numbers as in data.csv: displacement and force of the tip. */
 typedef struct {
     uint16_t run;    /* loading tests since start, from 1 */
-    uint16_t config; /* posture: counts up when a test begins more than 0.01 rad from where the one before did */
+    uint16_t config; /* posture: counts up when a test begins more than 0.01 rad from where the first
+                        of this config did */
     uint8_t axis;    /* 0: x, 1: z */
     uint8_t rep;     /* tests before this one along this axis at this posture */
     uint16_t step;   /* of the pass 0 -> +n -> 0 -> -n -> 0, from 0 */

@@ -57,8 +57,12 @@ typedef struct {
     bool is_held;       /* what moves the limb stands */
     bool has_challenge;
     uint64_t challenge;
-    uint32_t strangers, replays, silences, commits_refused, erases;
-    int32_t last_refusal;
+    uint32_t strangers;       /* commands and signs of life that were refused, but for replays */
+    uint32_t replays;         /* refused with BRACE_REFUSED_REPLAY */
+    uint32_t silences;        /* how often the limb stood because its owner was silent */
+    uint32_t commits_refused; /* too early, or with another CRC */
+    uint32_t erases;          /* of a slot, since start */
+    int32_t last_refusal;     /* BRACE_REFUSED_...; 0: none */
 } brace_session_report_t;
 
 void brace_app_session(const brace_app_t *app, brace_session_report_t *report);
@@ -93,7 +97,8 @@ brace_status_t brace_app_stop(brace_app_t *app);
  * or in TAKING_UP with every joint asked before holding. snapshot.play[].takeup tells how it went. If one joint
  * fails, every joint is let go in the reverse order.
  *   joint_index: BRACE_COXA, BRACE_FEMUR or BRACE_TIBIA; flank: +1 or -1
- * returns also BRACE_E_RANGE (joint, flank), BRACE_E_UNSUPPORTED (no play, or no joint_command) */
+ * returns also BRACE_E_RANGE (joint or flank; the joint is taken up already, or in FAULT), BRACE_E_UNSUPPORTED (no
+ * play, no joint_command, or drive.takeup_torque_n_mm is too small to prove a side) */
 brace_status_t brace_app_take_up(brace_app_t *app, int32_t joint_index, int32_t flank);
 
 /* Lets every joint go, the last taken up first; the mode is MONITOR when the last is back. Ends a loading test too. */
@@ -225,12 +230,14 @@ void brace_app_gravity(const brace_app_t *app, float *direction_rad, float *lean
 brace_status_t brace_app_uncertainty(brace_app_t *app, brace_stiffness_sigma_t *sigma);
 
 /* What the K of now makes of a displacement, and of a load.
- * returns as brace_contact_force and brace_contact_sag; BRACE_E_MODE: there is no valid K */
+ * returns as brace_contact_force and brace_contact_sag; BRACE_E_RANGE also while a gap is open: then nothing carries
+ * the tip in some direction. BRACE_E_MODE: there is no valid K */
 brace_status_t brace_app_contact_force(const brace_app_t *app, brace_displacement_t displacement,
                                        brace_contact_force_t *contact);
 brace_status_t brace_app_sag(const brace_app_t *app, brace_force_t load, brace_displacement_t *sag);
 
 /* How far the force of now is from sliding on a surface.
+ *   normal_rad: direction of the surface's normal, towards the limb, from +x [-7.9, 7.9]; friction_ratio [0, 10]
  * returns as brace_contact_grip; BRACE_E_NOT_FINITE also where the force is not known */
 brace_status_t brace_app_grip(const brace_app_t *app, float normal_rad, float friction_ratio,
                               brace_contact_grip_t *grip);

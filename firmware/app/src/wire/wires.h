@@ -15,7 +15,7 @@ typedef struct {
     brace_measured_t measured; /* of this tick */
 } wires_t;
 
-/* Sets the ports up. Before the first tick; may block can_setup's 20 ms. */
+/* Sets the ports up. Before the first tick; may block can_setup's 1 ms, twice where CAN FD is refused. */
 void wires_start(wires_t *wires, const brace_hal_t *hal, const brace_parameters_t *parameters);
 
 /* One tick, after the snapshot has been published: every port takes what has come, answers it, and sends what is due.

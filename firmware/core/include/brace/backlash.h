@@ -51,8 +51,8 @@ brace_status_t brace_backlash_tick(brace_backlash_t *joint, const brace_backlash
  * for null. */
 uint32_t brace_backlash_detection_us(const brace_backlash_t *joint);
 
-/* The least preload of a take-up, even when less is wanted: friction, bias, eighteen sigma of the fast filter [N mm].
- * With noise of 5 % of range that is 21 % of range and the friction. 0 for null. */
+/* The least preload of a take-up, even when less is wanted: friction with its tolerance, bias, eighteen sigma of the
+ * fast filter [N mm]. With noise of 5 % of range that is 21 % of range and the friction. 0 for null. */
 float brace_takeup_preload_min_n_mm(const brace_backlash_t *joint);
 
 /* Asks for the backlash to be taken up against a flank. From then on the motor's setpoint has to follow

@@ -39,7 +39,8 @@ typedef enum {
 } brace_takeup_result_t;
 
 typedef struct {
-    float torque_max_n_mm;    /* bound of the motor torque (0, torque_range]; above brace_takeup_preload_min_n_mm */
+    float torque_max_n_mm;    /* bound of the motor torque [1e-3, torque_range]; above
+                                 brace_takeup_preload_min_n_mm + friction_n_mm */
     float preload_n_mm;       /* load wanted on the flank; raised to what can be verified [0, torque_max] */
     float travel_max_rad;     /* bound of the motor's travel; more than the gap and its wind-up (0, 1] */
     float reach_max_rad;      /* bound of the command; more than travel and the servo's droop at torque_max (0, 2] */

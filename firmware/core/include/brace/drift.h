@@ -37,7 +37,8 @@
  * Off the tick; stack at most 250 bytes. */
 brace_status_t brace_drift_learn(brace_drift_t *drift, const brace_limb_t *limb, const brace_drift_setup_t *setup);
 
-/* Clears an alarm and the evidence, and watches on from the baseline that it holds. During learning it has no effect.
+/* Clears an alarm and the evidence, and watches on from the baseline that it holds. It begins a new run;
+ * during learning it does nothing else.
  * returns BRACE_OK, BRACE_E_NULL. */
 brace_status_t brace_drift_reset(brace_drift_t *drift);
 

@@ -64,7 +64,7 @@ typedef struct {
     brace_drift_state_t state;
     brace_drift_cause_t cause; /* likeliest cause; meaningful only while evidence is large */
     uint32_t could_be;         /* causes nearly as likely, as bits 1 << cause; includes the likeliest */
-    float evidence;            /* log likelihood ratio of the likeliest cause; the alarm is at BRACE_DRIFT_ALARM */
+    float evidence;            /* the largest log likelihood ratio of all causes; the alarm is at BRACE_DRIFT_ALARM */
     float loss_ratio;          /* loss by the likeliest cause; of tibia or knee the tibia's. 0 for UNEXPLAINED */
     float loss_sigma_ratio;    /* one sigma of loss_ratio */
     uint32_t since_steps;      /* readings since the likeliest change */
@@ -75,7 +75,8 @@ typedef struct {
 
 /* What readings at a posture can show. */
 typedef struct {
-    float sigma_of_loss_ratio[BRACE_DRIFT_CAUSE_COUNT]; /* one sigma of a loss from one reading like the one given */
+    float sigma_of_loss_ratio[BRACE_DRIFT_CAUSE_COUNT]; /* one sigma of a loss from one reading like the one
+                                                           given; 1e9: it shows nothing of this cause */
     uint32_t steps_needed[BRACE_DRIFT_CAUSE_COUNT];     /* such readings until a loss of 10 % is flagged, on
                                                            average; BRACE_DRIFT_NEVER: no number of them suffices */
 } brace_drift_outlook_t;

@@ -55,7 +55,7 @@ typedef struct {
 } brace_loaded_joint_t;
 
 typedef struct {
-    brace_force_t tip;       /* force of the ground on the tip [N, -1e4 to 1e4] */
+    brace_force_t tip;       /* force of the ground on the tip [N], |x| + |z| at most 1e4 */
     brace_vec_t down;        /* direction of the weight in the limb's plane; shorter than 1 where the plane leans */
     brace_loaded_joint_t hip, knee; /* the joints; the base's rotation is added to the hip */
 } brace_load_t;

@@ -12,8 +12,9 @@
 #include "brace/loaded.h"
 #include "brace/loaded_fixed_types.h"
 
-/* The limb's constants as scaled integers. A limb that does not keep its units (a number that is none, a weight below
- * 0) takes no load: BRACE_E_SINGULAR.
+/* The limb's constants as scaled integers. Where a number of `loaded` is NaN or does not fit its scaled
+ * integer, or a weight is negative, `fixed` is marked as unusable, and brace_loaded_fixed_stiffness returns
+ * BRACE_E_SINGULAR.
  * loaded: from brace_loaded_collapse. No pointer may be null.
  * Cost: once per parameter change; float and double, in software where there is no FPU. */
 void brace_loaded_fixed_collapse(const brace_loaded_t *loaded, brace_loaded_fixed_t *fixed);

@@ -46,9 +46,11 @@ brace_status_t brace_loaded_space_fixed_stiffness(const brace_loaded_space_fixed
                                                   const brace_space_fixed_rest_t *rest,
                                                   brace_space_result_t *result);
 
-/* The buckling factor in five steps, as brace_loaded_space_buckling_step, with links that are one part each.
- * factor: NaN where a word does not hold what the search meets (1 of 600 random limbs). From 2 to 10, median 0.1 %,
- *         nine of ten within 0.9 %, 96 of 100 within 2 %, the worst of 600 13 %: a short, soft coxa link is one part.
+/* The buckling factor in at most five steps, as brace_loaded_space_buckling_step, with links that are one part each:
+ * step until one returns true. A step after that begins a new search.
+ * factor: 1 where the limb buckles near the present load; NaN where a word does not hold what the search meets (1 of
+ *         600 random limbs). From 2 to 10, median 0.1 %, nine of ten within 0.9 %, 96 of 100 within 2 %, the worst of
+ *         600 13 %: a short, soft coxa link is one part.
  * Cost on a Cortex-M3: a step at most 6,700 instructions, the last 8,500. */
 void brace_loaded_space_fixed_buckling_begin(brace_buckling_search_t *search);
 bool brace_loaded_space_fixed_buckling_step(const brace_loaded_space_fixed_t *fixed,

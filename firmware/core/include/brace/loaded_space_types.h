@@ -42,7 +42,7 @@ typedef struct {
 } brace_k3_t;
 
 typedef struct {
-    brace_vec3_t tip_n;  /* force of the ground on the tip [-1e4 to 1e4] */
+    brace_vec3_t tip_n;  /* force of the ground on the tip, |x| + |y| + |z| at most 1e4 */
     brace_vec3_t down;   /* direction of the weight, a unit vector */
     brace_loaded_joint_t yaw, hip, knee; /* without the base's rotation */
 } brace_space_load_t;

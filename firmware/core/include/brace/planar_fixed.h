@@ -40,8 +40,7 @@ brace_status_t brace_planar_fixed_collapse(const brace_limb_t *limb, brace_plana
 /* K, its eigenvalues and the stiff axis.
  * theta1_rad_q28, theta2_rad_q28: true angles [rad * 2^28]; every int32 is valid, from -8 rad to 8 rad.
  * stiffness: written on success only. stiff_axis_rad: [-pi/2, pi/2). Where the eigenvalues are equal to within 1e-5,
- * the
- *            axis is less exact the closer they are.
+ *            the axis is less exact the closer they are.
  *            flags: BRACE_FLAG_NEAR_SINGULAR when the limb is so slender or so uneven that the accuracy below is
  *            not promised.
  * returns BRACE_OK, BRACE_E_NULL.

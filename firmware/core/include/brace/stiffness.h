@@ -17,7 +17,7 @@ typedef struct {
     float k_xx_n_per_mm;
     float k_xz_n_per_mm;
     float k_zz_n_per_mm;
-    float lambda_min_n_per_mm; /* smaller eigenvalue of K, > 0 */
+    float lambda_min_n_per_mm; /* smaller eigenvalue of K, > 0; 0 while a gap is open; any sign in a measured K */
     float lambda_max_n_per_mm; /* larger eigenvalue of K */
     float stiff_axis_rad;      /* direction of lambda_max from +x, [-pi/2, pi/2] */
     uint32_t flags;            /* BRACE_FLAG_... */

@@ -15,6 +15,7 @@ size_t brace_loaded_batch(const brace_loaded_t *loaded, const brace_load_t *join
     const brace_loaded_stiffness_t none = {
         .stiffness = {NOT_A_NUMBER, NOT_A_NUMBER, NOT_A_NUMBER, NOT_A_NUMBER, NOT_A_NUMBER, NOT_A_NUMBER, 0u},
         .displacement = {NOT_A_NUMBER, NOT_A_NUMBER},
+        .tibia_mm = {NOT_A_NUMBER, NOT_A_NUMBER},
         .hip_turn_rad = NOT_A_NUMBER,
         .knee_turn_rad = NOT_A_NUMBER,
         .buckling_factor = NOT_A_NUMBER};

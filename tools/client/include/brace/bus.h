@@ -36,10 +36,10 @@ typedef struct {
 
 typedef struct brace_bus brace_bus_t;
 
-/* Opens a bus within timeout_ms [1, 60 000]. bit_rate [bit/s] is set on an SLCAN adapter (10 000 to 1 000 000, the
- * rates that it knows; 0: 1 000 000). A SocketCAN interface keeps the rate that the system has set. On anything but OK
- * *bus is null, and `why`, when not null, gets one line that says what, why and what to try (at most why_room
- * characters with its end). */
+/* Opens a bus within timeout_ms [1, 60 000]. bit_rate [bit/s]: 10 000, 20 000, 50 000, 100 000, 125 000, 250 000,
+ * 500 000, 800 000 or 1 000 000, or 0 for that; others are E_USAGE. It is set on an SLCAN adapter. A SocketCAN
+ * interface keeps the rate that the system has set. On anything but OK *bus is null, and `why`, when not null, gets one
+ * line that says what, why and what to try (at most why_room characters with its end). */
 brace_bus_status_t brace_bus_open(const char *url, uint32_t bit_rate, int timeout_ms, brace_bus_t **bus, char *why,
                                   unsigned why_room);
 
@@ -51,7 +51,7 @@ void brace_bus_close(brace_bus_t *bus);
 brace_bus_status_t brace_bus_send(brace_bus_t *bus, const brace_bus_frame_t *frame, int timeout_ms);
 
 /* Gives the next data frame with an 11-bit identifier. It skips remote, extended and error frames. It waits at most
- * timeout_ms, however many frames it skips.
+ * timeout_ms, however many frames it skips; on SocketCAN it returns E_TIMEOUT after 4,096 skipped ones, too.
  * returns OK, E_TIMEOUT, E_DOWN */
 brace_bus_status_t brace_bus_receive(brace_bus_t *bus, brace_bus_frame_t *frame, int timeout_ms);
 

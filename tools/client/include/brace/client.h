@@ -152,7 +152,7 @@ typedef struct {
     uint32_t cause;          /* brace_drift_cause_text: the likeliest; 0: none */
     uint32_t could_be;       /* every cause that is nearly as likely, a bit each: brace_drift_could_be_text */
     uint32_t next_step;      /* brace_drift_next_step_text */
-    float evidence;          /* log likelihood ratio of the likeliest cause; the alarm is at 20 */
+    float evidence;          /* the largest log likelihood ratio of all causes; the alarm is at 20 */
     float loss_ratio;        /* share of stiffness that the likeliest cause has lost; negative: it has become stiffer */
     float loss_sigma_ratio;  /* one sigma of loss_ratio */
     uint32_t since_readings; /* readings of loading tests since the change began; 65535: so many or more */
@@ -185,7 +185,8 @@ void brace_client_identity(const brace_client_t *client, brace_client_identity_t
  * and a third read, each of one tick, which may be later than that of the other parts. For K in space of a limb without
  * a coxa joint the call returns E_TIMEOUT over CAN, where no such frame comes, and E_UNSUPPORTED over Modbus.
  * BRACE_PART_LOAD over CAN returns E_TIMEOUT while controller.load_hz is 0; brace_client_load then asks.
- * returns OK, E_TIMEOUT, E_SILENT, E_BIT_RATE, E_NODE, E_DOWN, E_VERSION, E_UNSUPPORTED */
+ * returns OK, E_USAGE (wanted), E_TIMEOUT, E_SILENT, E_BIT_RATE, E_NODE, E_DOWN, E_VERSION, E_UNSUPPORTED,
+ * E_REFUSED (an exception over Modbus) */
 brace_client_status_t brace_client_read(brace_client_t *client, uint32_t wanted, int timeout_ms,
                                         brace_client_snapshot_t *snapshot);
 
@@ -195,8 +196,8 @@ brace_client_status_t brace_client_read(brace_client_t *client, uint32_t wanted,
 brace_client_status_t brace_client_k_at_posture(brace_client_t *client, float theta1_rad, float theta2_rad,
                                                 int timeout_ms, brace_client_k_t *k);
 
-/* K at any joint angles under a force of the ground on the tip [N, each at most 8388, together at most 10000] and the
- * limb's weight. The angles are those before the load turns the joints; their range is that of
+/* K at any joint angles under a force of the ground on the tip [N, each at most 8388, their magnitudes added at most
+ * 10000] and the limb's weight. The angles are those before the load turns the joints; their range is that of
  * brace_client_k_at_posture. The controller refuses where no stable equilibrium is near: the load folds the limb. When
  * another client asks for K under a force at the same time, both ask again, until the time-out. */
 brace_client_status_t brace_client_k_under_load_at_posture(brace_client_t *client, float theta1_rad, float theta2_rad,

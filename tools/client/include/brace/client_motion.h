@@ -31,7 +31,8 @@ typedef enum {
     BRACE_MOTION_REFUSED = 4,   /* the controller did not begin it */
     BRACE_MOTION_FAILED = 5,    /* it began and failed, or a fault ended it; what was taken up is let go */
     BRACE_MOTION_STOPPED = 6,   /* somebody has stopped it: the limb stands */
-    BRACE_MOTION_TIMED_OUT = 7, /* it took longer than its limit, and the client has told it to stop */
+    BRACE_MOTION_TIMED_OUT = 7, /* it took longer than its limit, and the client has told it to stop; or it
+                                   has not begun, because no answer came: brace_client_why tells which */
     BRACE_MOTION_OWNER_LOST = 8, /* the controller heard no sign of life in time: the limb stands */
     BRACE_MOTION_NOT_BEGUN = 9  /* the call that was to begin it failed before it asked for anything */
 } brace_motion_state_t;
@@ -81,10 +82,11 @@ brace_client_status_t brace_client_begin_loading_test(brace_client_t *client, co
 /* A loading test that runs, or was stopped and stands, goes back to where it began. What was taken up is held. */
 brace_client_status_t brace_client_begin_end_test(brace_client_t *client, int timeout_ms, int limit_ms);
 
-/* Gives a sign of life when one is due, asks the controller how the motion goes, and tells it. At most timeout_ms; 20
- * suffices over CAN, 50 over Modbus. Without a motion it does nothing.
+/* Gives a sign of life when one is due, asks the controller how the motion goes, and tells it. At most timeout_ms, and
+ * 100 ms more when it has to stop the limb; 20 suffices over CAN, 50 over Modbus. Without a motion it does nothing.
  *   motion: written whatever is returned; null is allowed
- * returns OK; E_DOWN; after a second without an answer E_TIMEOUT, E_SILENT, E_NODE, E_BIT_RATE */
+ * returns OK; at once E_DOWN, E_FULL, E_VERSION, E_REFUSED (an exception over Modbus); after a second without an answer
+ * E_TIMEOUT, E_SILENT, E_NODE, E_BIT_RATE */
 brace_client_status_t brace_client_step(brace_client_t *client, int timeout_ms, brace_motion_t *motion);
 
 /* Steps until the motion has ended, which its limit bounds.
