@@ -377,11 +377,11 @@ def test_single_readings_that_stand_out_are_told_once() -> None:
 @pytest.mark.parametrize(
     ("slip", "growth", "name"),
     [
-        (64.5, 64.4, GROWTH),  # one or the other: nobody can tell which
+        (64.5, 64.4, GROWTH),  # nobody can tell which of the two it is
         (64.5, 62.0, GROWTH),
-        (64.5, 61.0, SLIP),  # 1 to 33
+        (64.5, 61.0, SLIP),  # the slip is 33 times likelier
         (61.0, 64.5, GROWTH),
-        (4.0, 3.9, SLIP),  # not far ahead of the catalogue: a rival of what is named, no more
+        (4.0, 3.9, SLIP),  # the slip is not far ahead of the catalogue: an effect is named, with the slip as a rival
         (-4.0, -5.0, None),
     ],
 )

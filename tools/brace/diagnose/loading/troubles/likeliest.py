@@ -111,8 +111,9 @@ def likeliest(record: Record, sets: Sequence[LabelSet]) -> Trouble | None:
 
 
 def most_likely(troubles: Sequence[Trouble]) -> Trouble | None:
-    """The one with the most lead, or None where not even that may be. A trouble far ahead of the catalogue is told only
-    where nothing without a name may be it as well: then that comes instead, because one of the two is far ahead."""
+    """Chooses the trouble with the most lead; None where even that trouble is improbable. Where it is far ahead of the
+    catalogue and a trouble without a name is nearly as likely (1 to 20), the one without a name is returned, with the
+    lead of the first: one of the two is far ahead, and nobody can tell which."""
     first = max(troubles, key=lambda one: one.lead, default=None)
     if first is None or first.lead <= MAY_BE:
         return None
