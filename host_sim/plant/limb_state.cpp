@@ -131,6 +131,7 @@ bool LimbState<World>::move_to(double theta1_rad, double theta2_rad, double t_s,
     placed_ = true;
     if (!same_structure) {
         find(model_, displacements_, theta1_rad, theta2_rad, t_s, structure_);
+        unload();
         has_earlier_ = false;
     }
     if (!(prepared_ && same_structure && same_joints)) {
@@ -139,49 +140,53 @@ bool LimbState<World>::move_to(double theta1_rad, double theta2_rad, double t_s,
     return prepared_;
 }
 
+// Without load no hinge's turn changes what the others do: a joint's spring adds its lever's square to the compliance.
+template <class World>
+void LimbState<World>::unload()
+{
+    typename World::Condensed unloaded;
+    unloaded.about(without_loads(structure_), std::array<JointHinge, N>{}, typename World::Shape{});
+    joints_rigid_mm_per_n_ = unloaded.compliance_mm_per_n();
+    for (std::size_t k = 0; k < N; ++k) {
+        unloaded_lever_mm_[k] = unloaded.lever_mm(static_cast<int>(k));
+    }
+}
+
 // A joint that is more than a spring is an unknown, unless it is rigid and without backlash.
 template <class World>
 bool LimbState<World>::prepare()
 {
     is_condensed_ = false;
     known_count_ = 0;
-    std::array<JointHinge, N> joint{};
+    const Mat contact = contact_mm_per_n_ * Mat::Identity();
+    Mat own = joints_rigid_mm_per_n_;
+    Mat stuck = own + contact; // while no unknown turns
     for (std::size_t k = 0; k < N; ++k) {
         law_[k] = joint_law(model_, World::kFirstJoint + static_cast<int>(k), temp_degc_);
-        joint[k].compliance_rad_per_n_mm = law_[k].compliance_rad_per_n_mm;
+        const Vec &lever_mm = unloaded_lever_mm_[k];
+        const Mat by_joint = law_[k].compliance_rad_per_n_mm * lever_mm * lever_mm.transpose();
+        const bool stops = law_[k].compliance_rad_per_n_mm != 0.0 || law_[k].gap_rad != 0.0;
+        is_unknown_[k] = stops && !is_linear(law_[k]);
+        own += by_joint;
+        if (!is_unknown_[k]) {
+            stuck += by_joint;
+        }
     }
-    const typename World::Structure unloaded = without_loads(structure_);
-    const typename World::Shape straight;
-    const Mat contact = contact_mm_per_n_ * Mat::Identity();
-    typename World::Condensed condensed;
-    condensed.about(unloaded, joint, straight);
-    const Mat whole = condensed.compliance_mm_per_n() + contact;
+    const Mat whole = own + contact;
     const double whole_mm_per_n = whole.trace();
     if (!(least_share(whole) > 1e-15)) {
         return false;
     }
     for (std::size_t k = 0; k < N; ++k) {
-        const bool rigid = law_[k].compliance_rad_per_n_mm == 0.0;
-        is_unknown_[k] = !is_linear(law_[k]) && !(rigid && law_[k].gap_rad == 0.0);
-        if (is_unknown_[k]) {
-            joint[k].compliance_rad_per_n_mm = 0.0;
-            if (rigid) {
-                law_[k].compliance_rad_per_n_mm =
-                    kStopCompliance * whole_mm_per_n
-                    / std::max(condensed.lever_mm(static_cast<int>(k)).squaredNorm(), 1.0);
-            }
+        if (is_unknown_[k] && law_[k].compliance_rad_per_n_mm == 0.0) {
+            law_[k].compliance_rad_per_n_mm =
+                kStopCompliance * whole_mm_per_n / std::max(unloaded_lever_mm_[k].squaredNorm(), 1.0);
         }
     }
-    const double own_mm_per_n = condensed.compliance_mm_per_n().trace();
+    const double own_mm_per_n = own.trace();
     softest_mm_per_n_ = own_mm_per_n > 0.0 ? own_mm_per_n : whole_mm_per_n;
-    stops_mm_per_n_ = 0.0;
-    if (has_unknowns()) {
-        condensed.about(unloaded, joint, straight);
-        const Mat stuck = condensed.compliance_mm_per_n() + contact;
-        if (!(least_share(stuck) > 1e-12)) {
-            stops_mm_per_n_ = kRigidCompliance * whole_mm_per_n;
-        }
-    }
+    const bool is_rigid = has_unknowns() && !(least_share(stuck) > 1e-12);
+    stops_mm_per_n_ = is_rigid ? kRigidCompliance * whole_mm_per_n : 0.0;
     return true;
 }
 

@@ -71,6 +71,7 @@ public:
 
 private:
     void let_creep(double t_s);
+    void unload();
     bool prepare();
     bool foresee(const Vec &target_mm);
     bool lead_to(const Vec &target_mm, int free_axis);
@@ -89,8 +90,10 @@ private:
     double contact_mm_per_n_ = 0.0;
     double theta1_rad_ = 0.0, theta2_rad_ = 0.0, t_s_ = 0.0, temp_degc_ = 0.0;
     typename World::Structure structure_{};
-    double softest_mm_per_n_ = 0.0; // trace of its compliance without load
-    double stops_mm_per_n_ = 0.0;   // yields in series, where all else is rigid while joints stick
+    Mat joints_rigid_mm_per_n_ = Mat::Zero(); // its compliance without load and with rigid joints
+    std::array<Vec, N> unloaded_lever_mm_{};  // of the joints
+    double softest_mm_per_n_ = 0.0;           // trace of its compliance without load
+    double stops_mm_per_n_ = 0.0;             // yields in series, where all else is rigid while joints stick
     std::array<JointLaw, N> law_{}; // the compliance of a rigid joint with backlash is its stop's
     std::array<bool, N> is_unknown_{}; // joints that are more than springs; they are the unknowns of a RestProblem
 
