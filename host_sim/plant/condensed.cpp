@@ -1,54 +1,59 @@
 #include "plant/condensed.h"
 
-#include <algorithm>
-#include <cmath>
-
 namespace brace::plant {
 namespace {
 
-using Eigen::Vector2d;
+template <class Number>
+using Vec = Eigen::Matrix<Number, 2, 1>;
+template <class Number>
+using Mat = Eigen::Matrix<Number, 2, 2>;
 
-Vector2d quarter_turn(const Vector2d &v)
+template <class Number>
+Vec<Number> quarter_turn(const Vec<Number> &v)
 {
     return {-v.y(), v.x()};
 }
 
 // A body's turn, from half its angle: what a small turn moves keeps all its digits.
+template <class Number>
 struct Turn {
-    explicit Turn(double angle_rad)
+    void by(const Number &angle_rad)
     {
-        const double half_sin = std::sin(0.5 * angle_rad);
-        sin = 2.0 * half_sin * std::cos(0.5 * angle_rad);
+        const Number half_rad = 0.5 * angle_rad;
+        const Number half_sin = sin_of(half_rad);
+        sin = 2.0 * half_sin * cos_of(half_rad);
         versine = 2.0 * half_sin * half_sin;
     }
 
-    Vector2d moved(const Vector2d &v) const { return sin * quarter_turn(v) - versine * v; }
+    Vec<Number> moved(const Vec<Number> &v) const { return sin * quarter_turn(v) - versine * v; }
 
-    double sin, versine; // 1 - cos
+    Number sin, versine; // 1 - cos
 };
 
 // What a body yields, seen from the robot.
+template <class Number>
 struct Yielding {
-    Yielding(const Body &body, const Turn &turn)
+    Yielding(const BodyOf<Number> &body, const Turn<Number> &turn)
     {
-        const double cos_2 = 1.0 - 2.0 * turn.sin * turn.sin;
-        const double sin_2 = 2.0 * turn.sin * (1.0 - turn.versine);
-        const Vector2d &d = body.deviation_mm_per_n;
-        const double deviation = d.x() * cos_2 - d.y() * sin_2;
+        const Number cos_2 = 1.0 - 2.0 * turn.sin * turn.sin;
+        const Number sin_2 = 2.0 * turn.sin * (1.0 - turn.versine);
+        const Vec<Number> &d = body.deviation_mm_per_n;
+        const Number deviation = d.x() * cos_2 - d.y() * sin_2;
         xx = body.mean_mm_per_n + deviation;
         xz = d.x() * sin_2 + d.y() * cos_2;
         zz = body.mean_mm_per_n - deviation;
     }
 
-    Vector2d stretch_mm(const Vector2d &force_n) const
+    Vec<Number> stretch_mm(const Vec<Number> &force_n) const
     {
         return {xx * force_n.x() + xz * force_n.y(), xz * force_n.x() + zz * force_n.y()};
     }
 
-    double xx, xz, zz;
+    Number xx, xz, zz;
 };
 
-void add_square(Eigen::Matrix2d &sum, double factor, double x, double z)
+template <class Number>
+void add_square(Mat<Number> &sum, const Number &factor, const Number &x, const Number &z)
 {
     sum(0, 0) += factor * x * x;
     sum(0, 1) += factor * x * z;
@@ -57,34 +62,41 @@ void add_square(Eigen::Matrix2d &sum, double factor, double x, double z)
 
 } // namespace
 
-void Condensed::about(const Structure &structure, const std::array<JointHinge, 2> &joint, const Shape &shape)
+template <class Number>
+void CondensedOf<Number>::linearise(const StructureOf<Number> &structure,
+                                    const std::array<JointHingeOf<Number>, 2> &joint, const Shape &shape)
 {
-    count_ = structure.body_count;
-    const auto count = static_cast<std::size_t>(count_);
-    double angle_rad = 0.0; // of the present body
-    for (std::size_t i = 0; i < count; ++i) {
+    count_ = static_cast<std::size_t>(structure.body_count);
+    shape_ = shape;
+    std::array<Turn<Number>, kMostBodies> turns; // of the bodies
+    Number angle_rad = 0.0;
+    for (std::size_t i = 0; i < count_; ++i) {
         angle_rad += shape.turn_rad[i];
     }
+    for (std::size_t i = count_; i-- > 0;) {
+        turns[i].by(angle_rad);
+        angle_rad -= shape.turn_rad[i];
+    }
 
-    Vector2d tip_mm = Vector2d::Zero();
-    Eigen::Matrix2d compliance_mm_per_n = Eigen::Matrix2d::Zero();
-    Eigen::Matrix2d torque_n_mm_per_rad = Eigen::Matrix2d::Zero();
-    std::array<Vector2d, 2> lever_mm{Vector2d::Zero(), Vector2d::Zero()};
-    std::array<double, 2> torques_n_mm{};
-    int negative_pivots = 0;
-    Vector2d force_n = shape.force_n; // that acts beyond where we are
-    double curvature = 0.0;           // W_phiphi
-    Vector2d lever = Vector2d::Zero();
-    std::array<double, 2> by_turn{};
-    double torque_n_mm = 0.0;
-    for (std::size_t i = count; i-- > 0;) {
-        const Body &body = structure.body[i];
-        const Turn turn(angle_rad);
+    Vec<Number> tip_mm = Vec<Number>::Zero();
+    Mat<Number> compliance_mm_per_n = Mat<Number>::Zero();
+    Mat<Number> torque_n_mm_per_rad = Mat<Number>::Zero();
+    std::array<Vec<Number>, 2> lever_mm{Vec<Number>::Zero(), Vec<Number>::Zero()};
+    std::array<Number, 2> torques_n_mm{};
+    Number negative_pivots = 0.0;
+    Vec<Number> force_n = shape.force_n; // that acts beyond where we are
+    Number curvature = 0.0;              // W_phiphi
+    Vec<Number> lever = Vec<Number>::Zero();
+    std::array<Number, 2> by_turn{};
+    Number torque_n_mm = 0.0;
+    for (std::size_t i = count_; i-- > 0;) {
+        const BodyOf<Number> &body = structure.body[i];
+        const Turn<Number> &turn = turns[i];
         const auto let_yield = [&]() __attribute__((always_inline)) {
-            const Yielding spring(body, turn);
-            const Vector2d turned_force = quarter_turn(force_n);
-            const Vector2d stretch = spring.stretch_mm(force_n);
-            const Vector2d by_turned = spring.stretch_mm(turned_force);
+            const Yielding<Number> spring(body, turn);
+            const Vec<Number> turned_force = quarter_turn(force_n);
+            const Vec<Number> stretch = spring.stretch_mm(force_n);
+            const Vec<Number> by_turned = spring.stretch_mm(turned_force);
             compliance_mm_per_n(0, 0) += spring.xx;
             compliance_mm_per_n(0, 1) += spring.xz;
             compliance_mm_per_n(1, 1) += spring.zz;
@@ -97,14 +109,14 @@ void Condensed::about(const Structure &structure, const std::array<JointHinge, 2
         if (body.yields == Yields::at_end) {
             let_yield();
         }
-        const Vector2d moved = turn.moved(body.extent_mm);
-        const Vector2d extent = body.extent_mm + moved;
+        const Vec<Number> moved = turn.moved(body.extent_mm);
+        const Vec<Number> extent = body.extent_mm + moved;
         tip_mm += moved;
         lever += quarter_turn(extent);
         curvature -= extent.dot(force_n);
         torque_n_mm += quarter_turn(extent).dot(force_n);
-        if (body.weight_n != 0.0) {
-            const Vector2d arm = body.weight_arm_mm + turn.moved(body.weight_arm_mm);
+        if (is_there(body.weight_n)) {
+            const Vec<Number> arm = body.weight_arm_mm + turn.moved(body.weight_arm_mm);
             curvature -= body.weight_n * arm.dot(structure.down);
             torque_n_mm += body.weight_n * (arm.x() * structure.down.y() - arm.y() * structure.down.x());
             force_n += body.weight_n * structure.down;
@@ -115,11 +127,11 @@ void Condensed::about(const Structure &structure, const std::array<JointHinge, 2
 
         const bool is_joint = body.joint != kElastic;
         const auto k = static_cast<std::size_t>(is_joint ? body.joint : 0);
-        const double compliance = is_joint ? joint[k].compliance_rad_per_n_mm : body.hinge_rad_per_n_mm;
-        const double strained_rad = shape.turn_rad[i] - (is_joint ? joint[k].unstrained_rad : 0.0);
-        const double load_n_mm = is_joint ? structure.joint_load_n_mm[body.joint] : 0.0;
-        const double pivot = 1.0 - compliance * curvature;
-        const double per_pivot = 1.0 / pivot;
+        const Number compliance = is_joint ? joint[k].compliance_rad_per_n_mm : body.hinge_rad_per_n_mm;
+        const Number strained_rad = shape.turn_rad[i] - (is_joint ? joint[k].unstrained_rad : Number(0.0));
+        const Number load_n_mm = is_joint ? structure.joint_load_n_mm[body.joint] : Number(0.0);
+        const Number pivot = 1.0 - compliance * curvature;
+        const Number per_pivot = 1.0 / pivot;
         Hinge &hinge = hinge_[i];
         hinge = {body.joint,
                  curvature,
@@ -128,7 +140,7 @@ void Condensed::about(const Structure &structure, const std::array<JointHinge, 2
                  torque_n_mm + load_n_mm,
                  compliance * per_pivot,
                  (compliance * (torque_n_mm + load_n_mm) - strained_rad) * per_pivot};
-        negative_pivots += pivot < 0.0 ? 1 : 0;
+        negative_pivots += one_if_negative(pivot);
         add_square(compliance_mm_per_n, hinge.turn_per_torque, lever.x(), lever.y());
         add_square(torque_n_mm_per_rad, hinge.turn_per_torque, by_turn[0], by_turn[1]);
         for (const std::size_t j : {0, 1}) {
@@ -147,43 +159,73 @@ void Condensed::about(const Structure &structure, const std::array<JointHinge, 2
             torque_n_mm_per_rad(0, 1) += by_turn[1 - k];
             by_turn[k] += curvature;
         }
-        angle_rad -= shape.turn_rad[i];
     }
-    compliance_mm_per_n.diagonal() += structure.base_mm_per_n;
+    compliance_mm_per_n(0, 0) += structure.base_mm_per_n.x();
+    compliance_mm_per_n(1, 1) += structure.base_mm_per_n.y();
     compliance_mm_per_n(1, 0) = compliance_mm_per_n(0, 1);
     torque_n_mm_per_rad(1, 0) = torque_n_mm_per_rad(0, 1);
     tip_mm += structure.base_mm_per_n.cwiseProduct(force_n);
-    tip_mm_ = tip_mm;
-    compliance_mm_per_n_ = compliance_mm_per_n;
-    torque_n_mm_per_rad_ = torque_n_mm_per_rad;
-    lever_mm_ = lever_mm;
-    torque_n_mm_ = torques_n_mm;
-    negative_pivots_ = negative_pivots;
+    tangent_ = {tip_mm, torques_n_mm, compliance_mm_per_n, lever_mm, torque_n_mm_per_rad, negative_pivots};
 }
 
-double Condensed::follow(const Change<2> &change, Shape &shape, std::array<double, 2> &torque_n_mm) const
+template <class Number>
+void CondensedOf<Number>::go(const ChangeOf<Number, 2> &change, FollowedOf<Number, 2, kMostBodies> &followed) const
 {
-    double turned_rad = 0.0; // the present body
-    double most_rad = 0.0;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(count_); ++i) {
+    Number turned_rad = 0.0; // the present body
+    Number most_rad = 0.0;
+    for (std::size_t i = 0; i < count_; ++i) {
         const Hinge &hinge = hinge_[i];
         const auto k = static_cast<std::size_t>(hinge.joint);
         const bool is_joint = hinge.joint != kElastic;
-        const double kept_rad = is_joint ? change.turn_rad[k] : 0.0;
+        const Number kept_rad = is_joint ? change.turn_rad[k] : Number(0.0);
         turned_rad += kept_rad;
-        const double more_n_mm = hinge.lever_mm.dot(change.force_n) + hinge.by_turn_n_mm_per_rad[0] * change.turn_rad[0]
+        const Number more_n_mm = hinge.lever_mm.dot(change.force_n) + hinge.by_turn_n_mm_per_rad[0] * change.turn_rad[0]
                                  + hinge.by_turn_n_mm_per_rad[1] * change.turn_rad[1];
-        const double sprung_rad =
+        const Number sprung_rad =
             hinge.lacks_rad + hinge.turn_per_torque * (more_n_mm + hinge.curvature_n_mm_per_rad * turned_rad);
         turned_rad += sprung_rad;
-        shape.turn_rad[i] += kept_rad + sprung_rad;
+        followed.shape.turn_rad[i] = shape_.turn_rad[i] + (kept_rad + sprung_rad);
         if (is_joint) {
-            torque_n_mm[k] = hinge.torque_n_mm + more_n_mm + hinge.curvature_n_mm_per_rad * turned_rad;
+            followed.torque_n_mm[k] = hinge.torque_n_mm + more_n_mm + hinge.curvature_n_mm_per_rad * turned_rad;
         }
-        most_rad = std::max(most_rad, std::fabs(turned_rad));
+        most_rad = larger(most_rad, magnitude(turned_rad));
     }
-    shape.force_n += change.force_n;
-    return most_rad;
+    followed.shape.force_n = shape_.force_n + change.force_n;
+    followed.most_rad = most_rad;
+}
+
+template <>
+void CondensedOf<double>::about(const Structure &structure, const std::array<JointHinge, 2> &joint, const Shape &shape)
+{
+    linearise(structure, joint, shape);
+}
+
+template <>
+void CondensedOf<double>::follow(const Change<2> &change, FollowedOf<double, 2, kMostBodies> &followed) const
+{
+    go(change, followed);
+}
+
+// Where the machine has instructions for four numbers they are taken, where not, pairs. Nothing is fused, so the bits
+// are the same.
+#if defined(__x86_64__) && defined(__GLIBC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+#define BRACE_FOUR_AT_ONCE __attribute__((flatten, target_clones("avx2", "default")))
+#else
+#define BRACE_FOUR_AT_ONCE __attribute__((flatten))
+#endif
+
+template <>
+BRACE_FOUR_AT_ONCE void CondensedOf<Lanes>::about(const StructureOf<Lanes> &structure,
+                                                  const std::array<JointHingeOf<Lanes>, 2> &joint, const Shape &shape)
+{
+    linearise(structure, joint, shape);
+}
+
+template <>
+BRACE_FOUR_AT_ONCE void CondensedOf<Lanes>::follow(const ChangeOf<Lanes, 2> &change,
+                                                   FollowedOf<Lanes, 2, kMostBodies> &followed) const
+{
+    go(change, followed);
 }
 
 } // namespace brace::plant

@@ -14,50 +14,49 @@
 #include <Eigen/Core>
 #include <array>
 
+#include "plant/lanes.h"
 #include "plant/shape.h"
 #include "plant/structure.h"
 
 namespace brace::plant {
 
-using Shape = ShapeOf<2, kMostBodies>;
-
-class Condensed {
+// Number: double for one limb, Lanes for four that have the same bodies.
+template <class Number>
+class CondensedOf {
 public:
+    using Shape = ShapeOf<Number, 2, kMostBodies>;
+
     // Linearises about a shape.
-    void about(const Structure &structure, const std::array<JointHinge, 2> &joint, const Shape &shape);
+    void about(const StructureOf<Number> &structure, const std::array<JointHingeOf<Number>, 2> &joint,
+               const Shape &shape);
 
-    // With force and kept turns as they are and all springs at rest: displacement of the tip from its unloaded place,
-    // and torques of the loads on the joints.
-    const Eigen::Vector2d &tip_mm() const { return tip_mm_; }
-    double torque_n_mm(int joint) const { return torque_n_mm_[static_cast<std::size_t>(joint)]; }
-    // How these follow: the tip the force, the tip a turn and so a torque the force, a torque the turns.
-    const Eigen::Matrix2d &compliance_mm_per_n() const { return compliance_mm_per_n_; }
-    const Eigen::Vector2d &lever_mm(int joint) const { return lever_mm_[static_cast<std::size_t>(joint)]; }
-    const Eigen::Matrix2d &torque_n_mm_per_rad() const { return torque_n_mm_per_rad_; }
-    int negative_pivots() const { return negative_pivots_; }
+    const TangentOf<Number, 2> &tangent() const { return tangent_; }
 
-    // Moves the shape to rest under a change. torque_n_mm: of the loads on the joints, there. Returns by how much the
-    // body turns that turns most [rad].
-    double follow(const Change<2> &change, Shape &shape, std::array<double, 2> &torque_n_mm) const;
+    // Moves the shape that it was linearised about to rest under a change.
+    void follow(const ChangeOf<Number, 2> &change, FollowedOf<Number, 2, kMostBodies> &followed) const;
 
 private:
     struct Hinge {
         int joint;
-        double curvature_n_mm_per_rad; // W_phiphi before the elimination
-        Eigen::Vector2d lever_mm;      // W_phiy
-        std::array<double, 2> by_turn_n_mm_per_rad;
-        double torque_n_mm;
-        double turn_per_torque; // c / p
-        double lacks_rad;       // turn to rest while nothing else changes
+        Number curvature_n_mm_per_rad;       // W_phiphi before the elimination
+        Eigen::Matrix<Number, 2, 1> lever_mm; // W_phiy
+        std::array<Number, 2> by_turn_n_mm_per_rad;
+        Number torque_n_mm;
+        Number turn_per_torque; // c / p
+        Number lacks_rad;       // turn to rest while nothing else changes
     };
 
-    int count_ = 0;
-    int negative_pivots_ = 0;
+    void linearise(const StructureOf<Number> &structure, const std::array<JointHingeOf<Number>, 2> &joint,
+                   const Shape &shape);
+    void go(const ChangeOf<Number, 2> &change, FollowedOf<Number, 2, kMostBodies> &followed) const;
+
+    std::size_t count_ = 0;
     std::array<Hinge, kMostBodies> hinge_;
-    Eigen::Vector2d tip_mm_;
-    std::array<double, 2> torque_n_mm_;
-    std::array<Eigen::Vector2d, 2> lever_mm_;
-    Eigen::Matrix2d compliance_mm_per_n_, torque_n_mm_per_rad_;
+    Shape shape_;
+    TangentOf<Number, 2> tangent_;
 };
+
+using Condensed = CondensedOf<double>;
+using Shape = Condensed::Shape;
 
 } // namespace brace::plant

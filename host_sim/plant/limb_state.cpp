@@ -132,6 +132,7 @@ bool LimbState<World>::move_to(double theta1_rad, double theta2_rad, double t_s,
     if (!same_structure) {
         find(model_, displacements_, theta1_rad, theta2_rad, t_s, structure_);
         unload();
+        ++structures_found_;
         has_earlier_ = false;
     }
     if (!(prepared_ && same_structure && same_joints)) {
@@ -146,10 +147,8 @@ void LimbState<World>::unload()
 {
     typename World::Condensed unloaded;
     unloaded.about(without_loads(structure_), std::array<JointHinge, N>{}, typename World::Shape{});
-    joints_rigid_mm_per_n_ = unloaded.compliance_mm_per_n();
-    for (std::size_t k = 0; k < N; ++k) {
-        unloaded_lever_mm_[k] = unloaded.lever_mm(static_cast<int>(k));
-    }
+    joints_rigid_mm_per_n_ = unloaded.tangent().compliance_mm_per_n;
+    unloaded_lever_mm_ = unloaded.tangent().lever_mm;
 }
 
 // A joint that is more than a spring is an unknown, unless it is rigid and without backlash.
@@ -225,25 +224,25 @@ void LimbState<World>::let_creep(double t_s)
 }
 
 template <class World>
-auto LimbState<World>::take_step(const Vec &target_mm, int free_axis) -> Step
+auto LimbState<World>::joint_hinges() const -> std::array<JointHinge, N>
 {
-    typename World::Shape &shape = rest_.shape;
     std::array<JointHinge, N> joint;
-    std::array<double, N> turn_rad;
     for (std::size_t k = 0; k < N; ++k) {
-        turn_rad[k] = shape.turn_rad[static_cast<std::size_t>(structure_.joint_body[k])];
-        joint[k] = is_unknown_[k] ? JointHinge{0.0, turn_rad[k]}
+        joint[k] = is_unknown_[k] ? JointHinge{0.0, turn_of(k)}
                                   : JointHinge{law_[k].compliance_rad_per_n_mm, delayed_rad_[k]};
     }
-    if (!is_condensed_) {
-        condensed_.about(structure_, joint, shape);
-        is_condensed_ = displacements_ == Displacements::small;
-    }
+    return joint;
+}
+
+template <class World>
+auto LimbState<World>::change_under(const Tangent<N> &tangent) -> Change<N>
+{
+    const Vec &force_n = rest_.shape.force_n;
     const double series_mm_per_n = contact_mm_per_n_ + stops_mm_per_n_;
-    Mat compliance = condensed_.compliance_mm_per_n();
+    Mat compliance = tangent.compliance_mm_per_n;
     compliance.diagonal().array() += series_mm_per_n;
-    const Mat stiffness = stiffness_held<N>(compliance, free_axis);
-    const Vec lacks_mm = target_mm - condensed_.tip_mm() - series_mm_per_n * shape.force_n;
+    const Mat stiffness = stiffness_held<N>(compliance, search_.free_axis);
+    const Vec lacks_mm = search_.part_target_mm - tangent.tip_mm - series_mm_per_n * force_n;
     Change<N> change;
     bool solved = true;
     if (!has_unknowns()) {
@@ -254,7 +253,7 @@ auto LimbState<World>::take_step(const Vec &target_mm, int free_axis) -> Step
         RestState<N> state;
         std::array<std::size_t, N> joint_of{};
         problem.stiffness_n_per_mm = stiffness;
-        problem.displacement_mm = lacks_mm + compliance * shape.force_n;
+        problem.displacement_mm = lacks_mm + compliance * force_n;
         problem.joint_count = 0;
         for (std::size_t k = 0; k < N; ++k) {
             if (!is_unknown_[k]) {
@@ -263,75 +262,83 @@ auto LimbState<World>::take_step(const Vec &target_mm, int free_axis) -> Step
             const auto i = static_cast<std::size_t>(problem.joint_count++);
             joint_of[i] = k;
             JointUnknown<N> &unknown = problem.joint[i];
-            unknown.lever_mm = condensed_.lever_mm(static_cast<int>(k));
+            unknown.lever_mm = tangent.lever_mm[k];
             unknown.law = law_[k];
             unknown.before_rad = before_rad_[k];
-            unknown.load_n_mm =
-                condensed_.torque_n_mm(static_cast<int>(k)) - unknown.lever_mm.dot(shape.force_n);
+            unknown.load_n_mm = tangent.torque_n_mm[k] - unknown.lever_mm.dot(force_n);
             state.deflection_rad[i] = rest_.instant_rad[k];
-            problem.displacement_mm += (turn_rad[k] - delayed_rad_[k]) * unknown.lever_mm;
+            problem.displacement_mm += (turn_of(k) - delayed_rad_[k]) * unknown.lever_mm;
         }
         for (int i = 0; i < problem.joint_count; ++i) {
             for (int j = 0; j < problem.joint_count; ++j) {
                 const std::size_t a = joint_of[static_cast<std::size_t>(i)];
                 const std::size_t b = joint_of[static_cast<std::size_t>(j)];
                 const double by_turn =
-                    condensed_.torque_n_mm_per_rad()(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b));
+                    tangent.torque_n_mm_per_rad(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b));
                 problem.by_loads_n_mm_per_rad(i, j) = -by_turn;
-                problem.joint[static_cast<std::size_t>(i)].load_n_mm -= by_turn * (turn_rad[b] - delayed_rad_[b]);
+                problem.joint[static_cast<std::size_t>(i)].load_n_mm -= by_turn * (turn_of(b) - delayed_rad_[b]);
             }
         }
         find_rest(problem, state);
         solved = state.solved;
-        change.force_n = state.force_n - shape.force_n;
+        change.force_n = state.force_n - force_n;
         for (std::size_t i = 0; i < static_cast<std::size_t>(problem.joint_count); ++i) {
             const std::size_t k = joint_of[i];
             rest_.instant_rad[k] = state.deflection_rad[i];
-            change.turn_rad[k] = state.deflection_rad[i] + delayed_rad_[k] - turn_rad[k];
+            change.turn_rad[k] = state.deflection_rad[i] + delayed_rad_[k] - turn_of(k);
         }
     }
-    const double turned_rad = condensed_.follow(change, shape, rest_.torque_n_mm);
+    rest_.tip_mm = tangent.tip_mm + tangent.compliance_mm_per_n * change.force_n;
     for (std::size_t k = 0; k < N; ++k) {
-        if (!is_unknown_[k]) {
-            rest_.instant_rad[k] =
-                shape.turn_rad[static_cast<std::size_t>(structure_.joint_body[k])] - delayed_rad_[k];
-        }
+        rest_.tip_mm += change.turn_rad[k] * tangent.lever_mm[k];
     }
-    rest_.tip_mm = condensed_.tip_mm() + condensed_.compliance_mm_per_n() * change.force_n;
-    for (std::size_t k = 0; k < N; ++k) {
-        rest_.tip_mm += change.turn_rad[k] * condensed_.lever_mm(static_cast<int>(k));
-    }
-    return {solved && condensed_.negative_pivots() == negatives<N>(compliance, free_axis),
-            turned_rad <= kMostTurn_rad
-                ? std::max(change.force_n.norm(), turned_rad * structure_.reach_mm / softest_mm_per_n_)
-                : kLost_n,
-            kRounding * stiffness.norm() * (target_mm.norm() + rest_.tip_mm.norm())};
+    search_.stable = solved && tangent.negative_pivots == negatives<N>(compliance, search_.free_axis);
+    search_.change_n = change.force_n.norm();
+    search_.rounding_n = kRounding * stiffness.norm() * (search_.part_target_mm.norm() + rest_.tip_mm.norm());
+    return change;
 }
 
-// Steps until the next one would move nothing.
 template <class World>
-bool LimbState<World>::settle(const Vec &target_mm, int free_axis)
+void LimbState<World>::went_to(const typename World::Followed &followed)
 {
+    rest_.shape = followed.shape;
+    rest_.torque_n_mm = followed.torque_n_mm;
+    for (std::size_t k = 0; k < N; ++k) {
+        if (!is_unknown_[k]) {
+            rest_.instant_rad[k] = turn_of(k) - delayed_rad_[k];
+        }
+    }
+    const double moved_n = followed.most_rad <= kMostTurn_rad
+                               ? std::max(search_.change_n, followed.most_rad * structure_.reach_mm / softest_mm_per_n_)
+                               : kLost_n;
+    const Outcome so = outcome(moved_n);
+    if (so != Outcome::goes_on) {
+        end_part(so == Outcome::settled);
+    }
+}
+
+// Steps go on until the next one would move nothing.
+template <class World>
+auto LimbState<World>::outcome(double moved_n) -> Outcome
+{
+    const Outcome last = search_.stable ? Outcome::settled : Outcome::lost;
     if (displacements_ == Displacements::small) {
-        rest_.shape = {};
-        return take_step(target_mm, free_axis).stable;
+        return last;
     }
-    double last_n = kLost_n;
-    for (int i = 0; i < kMostSteps; ++i) {
-        const Step step = take_step(target_mm, free_axis);
-        if (!(step.moved_n < kLost_n)) {
-            return false;
-        }
-        // Each step squares what is left, so the next one moves less than in proportion.
-        if (step.moved_n <= kGoodMove_n || (i > 0 && step.moved_n * step.moved_n <= kGoodMove_n * last_n)) {
-            return step.stable;
-        }
-        if (i > 2 && step.moved_n > 0.5 * last_n) {
-            return step.stable && step.moved_n <= std::max(kPromisedMove_n, step.rounding_n);
-        }
-        last_n = step.moved_n;
+    const int step = search_.steps++;
+    const double last_n = search_.last_n;
+    search_.last_n = moved_n;
+    if (!(moved_n < kLost_n)) {
+        return Outcome::lost;
     }
-    return false;
+    // Each step squares what is left, so the next one moves less than in proportion.
+    if (moved_n <= kGoodMove_n || (step > 0 && moved_n * moved_n <= kGoodMove_n * last_n)) {
+        return last;
+    }
+    if (step > 2 && moved_n > 0.5 * last_n) {
+        return moved_n <= std::max(kPromisedMove_n, search_.rounding_n) ? last : Outcome::lost;
+    }
+    return search_.steps < kMostSteps ? Outcome::goes_on : Outcome::lost;
 }
 
 // Goes on to where rest would be if the limb went on as it came. It saves a step of Newton's method. A joint that
@@ -359,53 +366,99 @@ bool LimbState<World>::foresee(const Vec &target_mm)
     return true;
 }
 
-// Finds rest with the tip at the target; where that fails, it leads the tip there in shorter steps. false: rest_ is
-// where the way ended.
+// Begins to lead the tip to the target.
 template <class World>
-bool LimbState<World>::lead_to(const Vec &target_mm, int free_axis)
+void LimbState<World>::begin_search(const Vec &target_mm, int free_axis)
 {
     for (int axis = 0; axis < N; ++axis) {
         if ((free_axis >> axis & 1) != 0) {
             rest_.shape.force_n[axis] = 0.0;
         }
     }
-    Rest last = rest_;
-    if (free_axis == 0 && foresee(target_mm)) {
-        if (settle(target_mm, free_axis)) {
-            reached_mm_ = target_mm;
-            return true;
-        }
-        rest_ = last;
+    search_.target_mm = target_mm;
+    search_.free_axis = free_axis;
+    search_.start_mm = reached_mm_;
+    search_.reached = 0.0;
+    search_.part = 1.0;
+    search_.last = rest_;
+    search_.foreseen = free_axis == 0 && foresee(target_mm);
+    search_.goes_on = true;
+    begin_part();
+}
+
+template <class World>
+void LimbState<World>::begin_part()
+{
+    search_.to = std::min(1.0, search_.reached + search_.part);
+    search_.part_target_mm = search_.to == 1.0
+                                 ? search_.target_mm
+                                 : Vec(search_.start_mm + search_.to * (search_.target_mm - search_.start_mm));
+    search_.steps = 0;
+    search_.last_n = kLost_n;
+    if (displacements_ == Displacements::small) {
+        rest_.shape = {};
     }
-    const Vec start_mm = reached_mm_;
-    double reached = 0.0;
-    for (double part = 1.0; part >= kShortestPart;) {
-        const double to = std::min(1.0, reached + part);
-        reached_mm_ = to == 1.0 ? target_mm : Vec(start_mm + to * (target_mm - start_mm));
-        if (settle(reached_mm_, free_axis)) {
-            if (to == 1.0) {
-                return true;
-            }
-            last = rest_;
-            reached = to;
-        } else if (displacements_ == Displacements::small) {
-            return false;
-        } else {
-            rest_ = last;
-            part *= 0.5;
+}
+
+// Where rest is not found, the next part begins where the last one ended, and is half as long.
+template <class World>
+void LimbState<World>::end_part(bool settled)
+{
+    if (settled && search_.to == 1.0) {
+        end_search(search_.target_mm, true);
+        return;
+    }
+    if (settled) {
+        search_.last = rest_;
+        search_.reached = search_.to;
+    } else if (search_.foreseen) {
+        rest_ = search_.last;
+        search_.foreseen = false;
+    } else if (displacements_ == Displacements::small) {
+        end_search(search_.target_mm, false);
+        return;
+    } else {
+        rest_ = search_.last;
+        search_.part *= 0.5;
+        if (search_.part < kShortestPart) {
+            end_search(search_.start_mm + search_.reached * (search_.target_mm - search_.start_mm), false);
+            return;
         }
     }
-    reached_mm_ = start_mm + reached * (target_mm - start_mm);
-    return false;
+    begin_part();
+}
+
+template <class World>
+void LimbState<World>::end_search(const Vec &reached_mm, bool solved)
+{
+    reached_mm_ = reached_mm;
+    search_.solved = solved;
+    search_.goes_on = false;
+}
+
+// Steps alone to the end.
+template <class World>
+void LimbState<World>::seek()
+{
+    while (seeks()) {
+        if (!is_condensed_) {
+            condensed_.about(structure_, joint_hinges(), rest_.shape);
+            is_condensed_ = displacements_ == Displacements::small;
+        }
+        typename World::Followed followed;
+        condensed_.follow(change_under(condensed_.tangent()), followed);
+        went_to(followed);
+    }
 }
 
 template <class World>
 bool LimbState<World>::hang()
 {
-    const bool solved = lead_to(reached_mm_, kAllFree<N>);
+    begin_search(reached_mm_, kAllFree<N>);
+    seek();
     before_rad_ = rest_.instant_rad;
     origin_mm_ = rest_.tip_mm;
-    return solved;
+    return search_.solved;
 }
 
 template <class World>
@@ -434,28 +487,45 @@ auto LimbState<World>::known_at(const Vec &target_mm, int free_axis) const -> co
 template <class World>
 auto LimbState<World>::hold_tip(const Vec &displacement_mm, int free_axis) -> LimbRest<N>
 {
+    begin_hold(displacement_mm, free_axis);
+    seek();
+    return end_hold();
+}
+
+template <class World>
+void LimbState<World>::begin_hold(const Vec &displacement_mm, int free_axis)
+{
     tip_mm_ = effects::contact_play::dragged_mm<N>(model_, tip_mm_, displacement_mm);
     const Vec target_mm = origin_mm_ + tip_mm_;
     const Known *known = forgets() ? known_at(target_mm, free_axis) : nullptr;
-    bool solved = true;
+    is_new_ = known == nullptr;
+    goes_on_ = false;
     if (known != nullptr) {
         rest_ = known->rest;
-        reached_mm_ = target_mm;
-    } else {
-        const bool searched = displacements_ == Displacements::finite || has_unknowns();
-        const bool goes_on = searched && free_axis == 0 && target_mm != reached_mm_;
-        const Known last = goes_on ? Known{reached_mm_, free_axis, rest_} : Known{};
-        solved = lead_to(target_mm, free_axis);
-        if (goes_on) {
-            earlier_ = last;
-            has_earlier_ = solved;
-        }
-        if (solved && forgets() && known_count_ < kMostKnown) {
-            known_[static_cast<std::size_t>(known_count_++)] = {target_mm, free_axis, rest_};
-        }
+        end_search(target_mm, true);
+        return;
+    }
+    const bool searched = displacements_ == Displacements::finite || has_unknowns();
+    goes_on_ = searched && free_axis == 0 && target_mm != reached_mm_;
+    if (goes_on_) {
+        before_hold_ = {reached_mm_, free_axis, rest_};
+    }
+    begin_search(target_mm, free_axis);
+}
+
+template <class World>
+auto LimbState<World>::end_hold() -> LimbRest<N>
+{
+    const bool solved = search_.solved;
+    if (goes_on_) {
+        earlier_ = before_hold_;
+        has_earlier_ = solved;
+    }
+    if (is_new_ && solved && forgets() && known_count_ < kMostKnown) {
+        known_[static_cast<std::size_t>(known_count_++)] = {search_.target_mm, search_.free_axis, rest_};
     }
     before_rad_ = rest_.instant_rad;
-    const Vec carried_n = rest_.shape.force_n + structure_.total_weight_n() * structure_.down;
+    const Vec carried_n = rest_.shape.force_n + total_weight_n(structure_) * structure_.down;
     LimbRest<N> rest{rest_.shape.force_n, rest_.instant_rad, rest_.torque_n_mm,
                      structure_.base_mm_per_n.cwiseProduct(carried_n), solved};
     for (std::size_t k = 0; k < N; ++k) {
@@ -474,13 +544,14 @@ auto LimbState<World>::torque_per_motor_turn() const -> Mat
     const bool small = displacements_ == Displacements::small;
     typename World::Condensed springs;
     springs.about(structure_, joint, small ? typename World::Shape{} : rest_.shape);
-    Mat compliance = springs.compliance_mm_per_n();
+    const Tangent<N> &tangent = springs.tangent();
+    Mat compliance = tangent.compliance_mm_per_n;
     compliance.diagonal().array() += contact_mm_per_n_ + kSmallestShare * compliance.trace();
     Mat lever;
-    for (int k = 0; k < N; ++k) {
-        lever.col(k) = springs.lever_mm(k);
+    for (std::size_t k = 0; k < N; ++k) {
+        lever.col(static_cast<Eigen::Index>(k)) = tangent.lever_mm[k];
     }
-    return springs.torque_n_mm_per_rad() - lever.transpose() * compliance.inverse() * lever;
+    return tangent.torque_n_mm_per_rad - lever.transpose() * compliance.inverse() * lever;
 }
 
 template class LimbState<InPlane>;

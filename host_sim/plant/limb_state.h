@@ -2,7 +2,8 @@
 //
 // At finite displacements a rest state is found by steps of Newton's method: the limb is linearised about a shape
 // (condensed.h), the joints that are more than springs find their rest in it exactly (equilibrium.h), and the limb
-// moves there. Small displacements are the first of these steps, from the unloaded limb.
+// moves there. Small displacements are the first of these steps, from the unloaded limb. Limbs that seek their rest
+// take their steps alone, or side by side (limbs_abreast.h).
 //
 // In the limb's plane, and in space: a world says which axes and joints there are, and how the limb is linearised.
 #pragma once
@@ -24,6 +25,7 @@ struct InPlane {
     using Structure = plant::Structure;
     using Condensed = plant::Condensed;
     using Shape = plant::Shape;
+    using Followed = FollowedOf<double, 2, kMostBodies>;
 };
 
 // Axes x, y and z of the commanded limb's plane; coxa joint, femur joint and knee. Displacements are finite there.
@@ -33,6 +35,7 @@ struct InSpace {
     using Structure = SpaceStructure;
     using Condensed = SpaceCondensed;
     using Shape = SpaceShape;
+    using Followed = FollowedOf<double, 3, kMostSpaceBodies>;
 };
 
 template <int N>
@@ -66,6 +69,21 @@ public:
     // free_axis: 0 all axes are held; in the plane also 1 x is free, 2 z is free.
     LimbRest<N> hold_tip(const Vec &displacement_mm, int free_axis = 0);
 
+    // The same in pieces: begins; seeks, a step at a time, until it seeks no more; ends.
+    void begin_hold(const Vec &displacement_mm, int free_axis = 0);
+    bool seeks() const { return search_.goes_on; }
+    void seek();
+    LimbRest<N> end_hold();
+
+    // A step at finite displacements: the limb is linearised with these hinges about this shape, changes as the tangent
+    // says, and is told where it followed to.
+    std::array<JointHinge, N> joint_hinges() const;
+    const typename World::Shape &shape() const { return rest_.shape; }
+    Change<N> change_under(const Tangent<N> &tangent);
+    void went_to(const typename World::Followed &followed);
+    const typename World::Structure &structure() const { return structure_; }
+    unsigned structures_found() const { return structures_found_; } // it grows as the structure becomes another
+
     // How the torques on the joints follow the angles of their motors while the contact holds the tip, gaps closed.
     Mat torque_per_motor_turn() const;
 
@@ -74,15 +92,12 @@ private:
     void unload();
     bool prepare();
     bool foresee(const Vec &target_mm);
-    bool lead_to(const Vec &target_mm, int free_axis);
-    bool settle(const Vec &target_mm, int free_axis);
-    // One step of Newton's method. The forces are such as would move the limb along its softest direction so far.
-    struct Step {
-        bool stable;       // it went to a minimum of the energy
-        double moved_n;    // infinite: it lost its way
-        double rounding_n; // what rounding may move
-    };
-    Step take_step(const Vec &target_mm, int free_axis);
+    void begin_search(const Vec &target_mm, int free_axis);
+    void begin_part();
+    void end_part(bool settled);
+    void end_search(const Vec &reached_mm, bool solved);
+    enum class Outcome { goes_on, settled, lost };
+    Outcome outcome(double moved_n);
 
     const Model &model_;
     const Displacements displacements_;
@@ -90,6 +105,7 @@ private:
     double contact_mm_per_n_ = 0.0;
     double theta1_rad_ = 0.0, theta2_rad_ = 0.0, t_s_ = 0.0, temp_degc_ = 0.0;
     typename World::Structure structure_{};
+    unsigned structures_found_ = 0;
     Mat joints_rigid_mm_per_n_ = Mat::Zero(); // its compliance without load and with rigid joints
     std::array<Vec, N> unloaded_lever_mm_{};  // of the joints
     double softest_mm_per_n_ = 0.0;           // trace of its compliance without load
@@ -105,6 +121,27 @@ private:
         Vec tip_mm = Vec::Zero(); // from its weightless place
     };
     Rest rest_;
+    // The tip is led to its target: in one part, or, where no rest is found so far away, in shorter ones.
+    struct Search {
+        bool goes_on;
+        bool solved;
+        Vec target_mm;
+        int free_axis;
+        Vec start_mm;
+        double reached; // of the way from start to target, as `to` and `part` are
+        double part, to;
+        Vec part_target_mm;
+        Rest last;     // rest where the part began
+        bool foreseen; // it began where rest was foreseen
+        int steps;     // in this part
+        double last_n; // the last step's force
+        // The present step of Newton's method. The forces are such as would move the limb along its softest direction
+        // so far.
+        bool stable; // it goes to a minimum of the energy
+        double change_n;
+        double rounding_n; // what rounding may move
+    };
+    Search search_{};
     // Without friction and creep a rest state depends on where the tip is held and on nothing before. A run leads the
     // tip to few places, and to most of them twice.
     struct Known {
@@ -112,6 +149,10 @@ private:
         int free_axis;
         Rest rest;
     };
+    double turn_of(std::size_t joint) const
+    {
+        return rest_.shape.turn_rad[static_cast<std::size_t>(structure_.joint_body[joint])];
+    }
     bool has_unknowns() const;
     bool forgets() const;
     const Known *known_at(const Vec &target_mm, int free_axis) const;
@@ -120,6 +161,9 @@ private:
     int known_count_ = 0;
     Known earlier_;            // where the tip was held before it came to where rest_ holds it
     bool has_earlier_ = false; // at this posture, in this run
+    Known before_hold_;
+    bool goes_on_ = false; // the hold leads the tip on
+    bool is_new_ = false;  // nothing known was at its target
     typename World::Condensed condensed_;
     bool is_condensed_ = false;                            // condensed_ is that of the unloaded limb
     Vec origin_mm_ = Vec::Zero();  // from where displacements count

@@ -2,9 +2,11 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cstring>
 
 #include "effects/link_change.h"
+#include "plant/limbs_abreast.h"
 #include "plant/sensor.h"
 
 namespace brace::plant {
@@ -131,40 +133,103 @@ bool Loading::find_rests(const effects::Model &model)
     other.change.at_s = model.change.at_s;
     const bool alike = known_ && std::memcmp(&other, &model, sizeof model) == 0;
     known_ = false;
-    LimbState<InPlane> limb(model, rows_.small_displacements != 0 ? Displacements::small : Displacements::finite);
+    std::vector<const Run *> played, copied;
     for (const Run &run : runs_) {
-        if (alike && rests_like_last(run, model)) {
-            continue;
+        if (!(alike && rests_like_last(run, model))) {
+            (rests_like_earlier(run, model) ? copied : played).push_back(&run);
         }
-        if (rests_like_earlier(run, model)) {
-            for (std::size_t i = run.first; i < run.end; ++i) {
-                rests_[i] = rests_[run.earlier + (i - run.first)];
-            }
-            continue;
-        }
-        Vector2d aside_mm = Vector2d::Zero();
-        for (std::size_t i = run.first; i < run.end; ++i) {
-            const double temp = rows_.temp_degc != nullptr ? rows_.temp_degc[i] : model.thermal.reference_degc;
-            if (!limb.move_to(rows_.theta1_rad[i], rows_.theta2_rad[i], rows_.t_s[i], temp)) {
-                return false;
-            }
-            bool hangs = true;
-            if (i == run.first) {
-                limb.start_run(rows_.creep_runs_on == 0);
-                hangs = rows_.held_at_rest == 0 || limb.hang();
-                if (rows_.preload_x_n != nullptr) {
-                    const Pressed rest = pressed(limb, {rows_.preload_x_n[i], rows_.preload_z_n[i]});
-                    aside_mm = rest.displacement_mm - Vector2d(rows_.dx_mm[i], rows_.dz_mm[i]);
-                    hangs = hangs && rest.solved;
-                }
-            }
-            rests_[i] = limb.hold_tip(Vector2d(rows_.dx_mm[i], rows_.dz_mm[i]) + aside_mm,
-                                      rows_.free_axis != nullptr ? rows_.free_axis[i] : 0);
-            rests_[i].solved = rests_[i].solved && hangs;
+    }
+    const bool remembers_runs = rows_.creep_runs_on != 0 && model.creep.ratio != 0.0;
+    const bool in_turn = rows_.small_displacements != 0 || remembers_runs || played.size() < 2;
+    if (!(in_turn ? play_in_turn(model, played) : play_abreast(model, played))) {
+        return false;
+    }
+    for (const Run *run : copied) {
+        for (std::size_t i = run->first; i < run->end; ++i) {
+            rests_[i] = rests_[run->earlier + (i - run->first)];
         }
     }
     last_ = model;
     known_ = true;
+    return true;
+}
+
+bool Loading::begin_row(Player &player, const effects::Model &model, LimbState<InPlane> &limb) const
+{
+    const std::size_t i = player.row;
+    const double temp = rows_.temp_degc != nullptr ? rows_.temp_degc[i] : model.thermal.reference_degc;
+    if (!limb.move_to(rows_.theta1_rad[i], rows_.theta2_rad[i], rows_.t_s[i], temp)) {
+        return false;
+    }
+    const Vector2d displacement_mm(rows_.dx_mm[i], rows_.dz_mm[i]);
+    if (i == player.run->first) {
+        limb.start_run(rows_.creep_runs_on == 0);
+        player.hangs = rows_.held_at_rest == 0 || limb.hang();
+        player.aside_mm.setZero();
+        if (rows_.preload_x_n != nullptr) {
+            const Pressed rest = pressed(limb, {rows_.preload_x_n[i], rows_.preload_z_n[i]});
+            player.aside_mm = rest.displacement_mm - displacement_mm;
+            player.hangs = player.hangs && rest.solved;
+        }
+    }
+    limb.begin_hold(displacement_mm + player.aside_mm, rows_.free_axis != nullptr ? rows_.free_axis[i] : 0);
+    return true;
+}
+
+void Loading::end_row(Player &player, LimbState<InPlane> &limb)
+{
+    LimbRest<2> &rest = rests_[player.row++];
+    rest = limb.end_hold();
+    rest.solved = rest.solved && player.hangs;
+}
+
+bool Loading::play_in_turn(const effects::Model &model, const std::vector<const Run *> &runs)
+{
+    LimbState<InPlane> limb(model, rows_.small_displacements != 0 ? Displacements::small : Displacements::finite);
+    for (const Run *run : runs) {
+        for (Player player{run, run->first, Vector2d::Zero(), true}; player.row < run->end;) {
+            if (!begin_row(player, model, limb)) {
+                return false;
+            }
+            limb.seek();
+            end_row(player, limb);
+        }
+    }
+    return true;
+}
+
+// A limb that is at rest goes on with its next row, or with the next run that nobody plays.
+bool Loading::play_abreast(const effects::Model &model, const std::vector<const Run *> &runs)
+{
+    LimbsAbreast limbs(model);
+    std::array<Player, kLanes> players{};
+    auto next = runs.begin();
+    for (bool some_seek = true; some_seek;) {
+        some_seek = false;
+        for (std::size_t lane = 0; lane < kLanes; ++lane) {
+            Player &player = players[lane];
+            LimbState<InPlane> &limb = limbs.limb(lane);
+            while (!limb.seeks()) {
+                if (player.run != nullptr) {
+                    end_row(player, limb);
+                }
+                if (player.run == nullptr || player.row == player.run->end) {
+                    player.run = next != runs.end() ? *next++ : nullptr;
+                    if (player.run == nullptr) {
+                        break;
+                    }
+                    player.row = player.run->first;
+                }
+                if (!begin_row(player, model, limb)) {
+                    return false;
+                }
+            }
+            some_seek = some_seek || limb.seeks();
+        }
+        if (some_seek) {
+            limbs.step();
+        }
+    }
     return true;
 }
 

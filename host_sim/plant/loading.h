@@ -34,6 +34,20 @@ private:
         bool same_pace;      // and took the same time from row to row
     };
 
+    // A limb in a row of a run, which begins with what its rig did.
+    struct Player {
+        const Run *run;
+        std::size_t row;
+        Eigen::Vector2d aside_mm; // where the tip stands more than the record says, for its preload
+        bool hangs;
+    };
+
+    // Plays runs one after the other, or some of them side by side. false: nothing yields in some direction.
+    bool play_in_turn(const effects::Model &model, const std::vector<const Run *> &runs);
+    bool play_abreast(const effects::Model &model, const std::vector<const Run *> &runs);
+    bool begin_row(Player &player, const effects::Model &model, LimbState<InPlane> &limb) const;
+    void end_row(Player &player, LimbState<InPlane> &limb);
+
     bool goes_like(const Run &run, std::size_t earlier) const;
     bool rests_like_earlier(const Run &run, const effects::Model &model) const;
     bool rests_like_last(const Run &run, const effects::Model &model) const;

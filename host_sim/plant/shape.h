@@ -11,23 +11,50 @@ using Vector = Eigen::Matrix<double, N, 1>;
 template <int N>
 using Matrix = Eigen::Matrix<double, N, N>;
 
-template <int N, int MostBodies>
+template <class Number, int N, int MostBodies>
 struct ShapeOf {
-    std::array<double, MostBodies> turn_rad{}; // of each hinge
-    Vector<N> force_n = Vector<N>::Zero();     // on the tip
+    std::array<Number, MostBodies> turn_rad{}; // of each hinge
+    Eigen::Matrix<Number, N, 1> force_n = Eigen::Matrix<Number, N, 1>::Zero(); // on the tip
 };
 
 // A joint's hinge in the elimination: its spring, and a further turn that is kept.
-struct JointHinge {
-    double compliance_rad_per_n_mm; // 0: only the kept turn is left
-    double unstrained_rad;          // turn of the hinge at which the spring carries nothing
+template <class Number>
+struct JointHingeOf {
+    Number compliance_rad_per_n_mm; // 0: only the kept turn is left
+    Number unstrained_rad;          // turn of the hinge at which the spring carries nothing
 };
+using JointHinge = JointHingeOf<double>;
 
 // A change of the kept unknowns.
+template <class Number, int N>
+struct ChangeOf {
+    Eigen::Matrix<Number, N, 1> force_n = Eigen::Matrix<Number, N, 1>::Zero();
+    std::array<Number, N> turn_rad{};
+};
 template <int N>
-struct Change {
-    Vector<N> force_n = Vector<N>::Zero();
-    std::array<double, N> turn_rad{};
+using Change = ChangeOf<double, N>;
+
+// What the elimination tells of a limb near its shape. With force and kept turns as they are and all springs at rest:
+// displacement of the tip from its unloaded place, and torques of the loads on the joints. How these follow: the tip
+// the force, the tip a turn and so a torque the force, a torque the turns.
+template <class Number, int N>
+struct TangentOf {
+    Eigen::Matrix<Number, N, 1> tip_mm;
+    std::array<Number, N> torque_n_mm;
+    Eigen::Matrix<Number, N, N> compliance_mm_per_n;
+    std::array<Eigen::Matrix<Number, N, 1>, N> lever_mm;
+    Eigen::Matrix<Number, N, N> torque_n_mm_per_rad;
+    Number negative_pivots; // how many: directions in which the limb would give way if its tip were let go
+};
+template <int N>
+using Tangent = TangentOf<double, N>;
+
+// Where a limb comes to rest when it follows a change.
+template <class Number, int N, int MostBodies>
+struct FollowedOf {
+    ShapeOf<Number, N, MostBodies> shape;
+    std::array<Number, N> torque_n_mm; // of the loads on the joints
+    Number most_rad;                   // by how much the body turned that turned most
 };
 
 } // namespace brace::plant

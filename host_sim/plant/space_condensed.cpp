@@ -92,7 +92,9 @@ void SpaceCondensed::about(const SpaceStructure &structure, const std::array<Joi
     Matrix3d by_turn = Matrix3d::Zero(); // moment by the kept turn of each joint
     Vector3d torque_n_mm = Vector3d::Zero();
     Matrix3d lever_mm = Matrix3d::Zero(), torque_n_mm_per_rad = Matrix3d::Zero();
-    count_ = negative_pivots_ = 0;
+    double negative_pivots = 0.0;
+    count_ = 0;
+    shape_ = shape;
     for (std::size_t i = static_cast<std::size_t>(structure.body_count); i-- > 0;) {
         const SpaceBody &body = structure.body[i];
         const Matrix3d &turned = placed.turned[i];
@@ -131,7 +133,7 @@ void SpaceCondensed::about(const SpaceStructure &structure, const std::array<Joi
         const double pivot = 1.0 - compliance * hinge.curvature_n_mm_per_rad;
         hinge.turn_per_torque = compliance / pivot;
         hinge.lacks_rad = (compliance * hinge.torque_n_mm - strained_rad) / pivot;
-        negative_pivots_ += pivot < 0.0 ? 1 : 0;
+        negative_pivots += pivot < 0.0 ? 1.0 : 0.0;
 
         const Vector3d turn_by_force = hinge.turn_per_torque * hinge.lever_mm;
         const Vector3d turn_by_turn = hinge.turn_per_torque * hinge.by_turn_n_mm_per_rad;
@@ -158,15 +160,17 @@ void SpaceCondensed::about(const SpaceStructure &structure, const std::array<Joi
     }
     work.compliance_mm_per_n.diagonal() += structure.base_mm_per_n;
     work.tip_mm += structure.base_mm_per_n.cwiseProduct(work.force_n);
-    tip_mm_ = work.tip_mm;
-    compliance_mm_per_n_ = work.compliance_mm_per_n;
-    torque_n_mm_per_rad_ = torque_n_mm_per_rad;
-    lever_mm_ = lever_mm;
-    torque_n_mm_ = torque_n_mm;
+    tangent_ = {work.tip_mm,
+                {torque_n_mm[0], torque_n_mm[1], torque_n_mm[2]},
+                work.compliance_mm_per_n,
+                {lever_mm.col(0), lever_mm.col(1), lever_mm.col(2)},
+                torque_n_mm_per_rad,
+                negative_pivots};
 }
 
-double SpaceCondensed::follow(const Change<3> &change, SpaceShape &shape, std::array<double, 3> &torque_n_mm) const
+void SpaceCondensed::follow(const Change<3> &change, FollowedOf<double, 3, kMostSpaceBodies> &followed) const
 {
+    followed.shape = shape_;
     const Vector3d kept(change.turn_rad[0], change.turn_rad[1], change.turn_rad[2]);
     Vector3d turned_rad = Vector3d::Zero(); // the present body
     double most_rad = 0.0;
@@ -180,14 +184,14 @@ double SpaceCondensed::follow(const Change<3> &change, SpaceShape &shape, std::a
                                  + hinge.curvature_n_mm_per_rad * kept_rad;
         const double sprung_rad = hinge.lacks_rad + hinge.turn_per_torque * more_n_mm;
         turned_rad += (kept_rad + sprung_rad) * hinge.axis;
-        shape.turn_rad[static_cast<std::size_t>(body_of_[i])] += kept_rad + sprung_rad;
+        followed.shape.turn_rad[static_cast<std::size_t>(body_of_[i])] += kept_rad + sprung_rad;
         if (is_joint) {
-            torque_n_mm[k] = hinge.torque_n_mm + more_n_mm + hinge.curvature_n_mm_per_rad * sprung_rad;
+            followed.torque_n_mm[k] = hinge.torque_n_mm + more_n_mm + hinge.curvature_n_mm_per_rad * sprung_rad;
         }
         most_rad = std::max(most_rad, turned_rad.norm());
     }
-    shape.force_n += change.force_n;
-    return most_rad;
+    followed.shape.force_n += change.force_n;
+    followed.most_rad = most_rad;
 }
 
 } // namespace brace::plant

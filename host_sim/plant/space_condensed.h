@@ -16,22 +16,17 @@
 
 namespace brace::plant {
 
-using SpaceShape = ShapeOf<3, kMostSpaceBodies>;
+using SpaceShape = ShapeOf<double, 3, kMostSpaceBodies>;
 
 class SpaceCondensed {
 public:
     // Linearises about a shape.
     void about(const SpaceStructure &structure, const std::array<JointHinge, 3> &joint, const SpaceShape &shape);
 
-    // As Condensed tells them.
-    const Eigen::Vector3d &tip_mm() const { return tip_mm_; }
-    double torque_n_mm(int joint) const { return torque_n_mm_[joint]; }
-    const Eigen::Matrix3d &compliance_mm_per_n() const { return compliance_mm_per_n_; }
-    Eigen::Vector3d lever_mm(int joint) const { return lever_mm_.col(joint); }
-    const Eigen::Matrix3d &torque_n_mm_per_rad() const { return torque_n_mm_per_rad_; }
-    int negative_pivots() const { return negative_pivots_; }
+    const Tangent<3> &tangent() const { return tangent_; }
 
-    double follow(const Change<3> &change, SpaceShape &shape, std::array<double, 3> &torque_n_mm) const;
+    // Moves the shape that it was linearised about to rest under a change.
+    void follow(const Change<3> &change, FollowedOf<double, 3, kMostSpaceBodies> &followed) const;
 
 private:
     struct Hinge {
@@ -47,11 +42,10 @@ private:
     };
 
     int count_ = 0; // of the hinges
-    int negative_pivots_ = 0;
     std::array<Hinge, kMostSpaceBodies> hinge_;
     std::array<int, kMostSpaceBodies> body_of_; // of each hinge
-    Eigen::Vector3d tip_mm_, torque_n_mm_;
-    Eigen::Matrix3d lever_mm_, compliance_mm_per_n_, torque_n_mm_per_rad_;
+    SpaceShape shape_;
+    Tangent<3> tangent_;
 };
 
 } // namespace brace::plant

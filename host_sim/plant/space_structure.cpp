@@ -156,11 +156,11 @@ void add_link(const Model &model, int index, const Line &line, double weight_n, 
 
 } // namespace
 
-double SpaceStructure::total_weight_n() const
+double total_weight_n(const SpaceStructure &structure)
 {
     double sum = 0.0;
-    for (int i = 0; i < body_count; ++i) {
-        sum += body[static_cast<std::size_t>(i)].weight_n;
+    for (int i = 0; i < structure.body_count; ++i) {
+        sum += structure.body[static_cast<std::size_t>(i)].weight_n;
     }
     return sum;
 }

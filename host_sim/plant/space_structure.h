@@ -36,8 +36,9 @@ struct SpaceStructure {
     Eigen::Vector3d base_mm_per_n;
     Eigen::Vector3d down; // a unit vector
     double reach_mm;
-    double total_weight_n() const;
 };
+
+double total_weight_n(const SpaceStructure &structure);
 
 // At commanded angles; zero offsets are added. t_s decides whether a link has changed.
 void find_structure(const Model &model, double theta1_rad, double theta2_rad, double t_s, SpaceStructure &structure);

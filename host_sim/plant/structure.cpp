@@ -90,11 +90,11 @@ void add_link(const Model &model, int index, const Vector2d &axis, double length
 
 } // namespace
 
-double Structure::total_weight_n() const
+double total_weight_n(const Structure &structure)
 {
     double sum = 0.0;
-    for (int i = 0; i < body_count; ++i) {
-        const Body &each = body[static_cast<std::size_t>(i)];
+    for (int i = 0; i < structure.body_count; ++i) {
+        const Body &each = structure.body[static_cast<std::size_t>(i)];
         sum += each.weight_n + each.end_weight_n;
     }
     return sum;

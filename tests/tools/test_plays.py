@@ -1,5 +1,6 @@
-"""Plays of the simulated limb that are taken from others: a run that repeats an earlier one, and limbs that differ by
-their sensor or by the time of a change. Each must read to the last bit what it reads by itself."""
+"""Plays of the simulated limb that are taken from others, or made beside others: a run that repeats an earlier one,
+runs that are played at once, and limbs that differ by their sensor or by the time of a change. Each must read to the
+last bit what it reads by itself."""
 
 from __future__ import annotations
 
@@ -14,6 +15,12 @@ from brace.native.plant_batch import LoadingBatchPlayer, model_numbers, number_i
 
 READINGS = ("fx_n", "fz_n", "enc1_rad", "enc2_rad", "base_x_mm")
 STEPS = np.array([0, 1, 2, 3, 2, 1, 0, -1, -2, -3, -2, -1, 0])
+BEAMS: dict[str, float | str] = {
+    "link.femur.moment_transfer": 1.0,
+    "link.tibia.moment_transfer": 0.6,
+    "base.rotation_rad_per_n_mm": 1e-6,
+}
+WEIGHTS: dict[str, float | str] = {"gravity.femur_n": 5.0, "gravity.knee_n": 3.0, "gravity.tibia_n": 8.0}
 LIMBS: dict[str, dict[str, float | str]] = {
     "springs": {},
     "play": {"joint.femur.gap_rad": 0.003, "joint.tibia.gap_rad": 0.002},
@@ -23,7 +30,10 @@ LIMBS: dict[str, dict[str, float | str]] = {
     "clearance": {"contact.play_mm": 0.2},
     "weight": {"gravity.tibia_n": 8.0},
     "a change": {"change.link": "tibia", "change.bending_factor": 1.5, "change.at_s": 333.0},
-}
+    "beams": {**BEAMS, **WEIGHTS},
+    "rubbing beams": {**BEAMS, **WEIGHTS, "joint.femur.gap_rad": 0.003, "joint.tibia.coulomb_n_mm": 300.0,
+                      "thermal.joint_compliance_per_degc": 0.01},
+}  # fmt: skip
 
 
 def record() -> dict[str, np.ndarray]:
@@ -52,10 +62,26 @@ def limb(changes: Mapping[str, float | str]) -> np.ndarray:
 @pytest.mark.parametrize("small", [False, True], ids=["finite", "small"])
 @pytest.mark.parametrize("name", LIMBS)
 def test_a_run_reads_what_it_reads_by_itself(name: str, small: bool) -> None:
-    columns, model = record(), limb(LIMBS[name])[None]
+    reads_alike(record(), LIMBS[name], small_displacements=small)
+
+
+@pytest.mark.parametrize("name", LIMBS)
+def test_a_run_that_hangs_first_reads_what_it_reads_by_itself(name: str) -> None:
+    reads_alike(record(), {**WEIGHTS, **LIMBS[name]}, held_at_rest=True)
+
+
+@pytest.mark.parametrize("name", ["springs", "friction", "creep", "warmth", "weight", "a change", "beams"])
+def test_a_run_with_a_preload_reads_what_it_reads_by_itself(name: str) -> None:
+    columns = record()
+    preload = {"preload_x_n": np.sin(columns["run"]), "preload_z_n": 2.0 - 0.1 * columns["run"]}
+    reads_alike(columns | preload, LIMBS[name])
+
+
+def reads_alike(columns: Mapping[str, np.ndarray], changes: Mapping[str, float | str], **options: bool) -> None:
+    model = limb(changes)[None]
 
     def played(some: Mapping[str, np.ndarray]) -> np.ndarray:
-        player = LoadingBatchPlayer(some, READINGS, small_displacements=small)
+        player = LoadingBatchPlayer(some, READINGS, **options)
         return np.asarray(player.play_numbers(model, settled=True)[0])
 
     whole = played(columns)

@@ -1,0 +1,35 @@
+// Copies of one limb that take their steps side by side at finite displacements, each in a lane: a record's runs know
+// nothing of one another, so each copy may play another run. Each rests where it would rest alone, to the last bit.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "plant/condensed.h"
+#include "plant/lanes.h"
+#include "plant/limb_state.h"
+
+namespace brace::plant {
+
+class LimbsAbreast {
+public:
+    explicit LimbsAbreast(const Model &model);
+
+    LimbState<InPlane> &limb(std::size_t lane) { return limb_[lane]; }
+
+    // One step of each limb that seeks its rest.
+    void step();
+
+private:
+    void put_in(std::size_t lane);
+    void put_in_structure(std::size_t lane);
+
+    std::array<LimbState<InPlane>, kLanes> limb_;
+    std::array<unsigned, kLanes> structure_seen_{};
+    StructureOf<Lanes> structure_{};
+    std::array<JointHingeOf<Lanes>, 2> joint_{};
+    CondensedOf<Lanes>::Shape shape_;
+    CondensedOf<Lanes> condensed_;
+};
+
+} // namespace brace::plant
