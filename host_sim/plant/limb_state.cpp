@@ -132,6 +132,7 @@ bool LimbState<World>::move_to(double theta1_rad, double theta2_rad, double t_s,
     if (!same_structure) {
         find(model_, displacements_, theta1_rad, theta2_rad, t_s, structure_);
         unload();
+        weight_n_ = total_weight_n(structure_) * structure_.down;
         ++structures_found_;
         has_earlier_ = false;
     }
@@ -525,7 +526,7 @@ auto LimbState<World>::end_hold() -> LimbRest<N>
         known_[static_cast<std::size_t>(known_count_++)] = {search_.target_mm, search_.free_axis, rest_};
     }
     before_rad_ = rest_.instant_rad;
-    const Vec carried_n = rest_.shape.force_n + total_weight_n(structure_) * structure_.down;
+    const Vec carried_n = rest_.shape.force_n + weight_n_;
     LimbRest<N> rest{rest_.shape.force_n, rest_.instant_rad, rest_.torque_n_mm,
                      structure_.base_mm_per_n.cwiseProduct(carried_n), solved};
     for (std::size_t k = 0; k < N; ++k) {

@@ -106,6 +106,7 @@ private:
     double theta1_rad_ = 0.0, theta2_rad_ = 0.0, t_s_ = 0.0, temp_degc_ = 0.0;
     typename World::Structure structure_{};
     unsigned structures_found_ = 0;
+    Vec weight_n_ = Vec::Zero(); // of all its bodies
     Mat joints_rigid_mm_per_n_ = Mat::Zero(); // its compliance without load and with rigid joints
     std::array<Vec, N> unloaded_lever_mm_{};  // of the joints
     double softest_mm_per_n_ = 0.0;           // trace of its compliance without load
