@@ -19,9 +19,9 @@ template <class Number>
 struct Turn {
     void by(const Number &angle_rad)
     {
-        const Number half_rad = 0.5 * angle_rad;
-        const Number half_sin = sin_of(half_rad);
-        sin = 2.0 * half_sin * cos_of(half_rad);
+        Number half_sin, half_cos;
+        sin_cos(0.5 * angle_rad, half_sin, half_cos);
+        sin = 2.0 * half_sin * half_cos;
         versine = 2.0 * half_sin * half_sin;
     }
 

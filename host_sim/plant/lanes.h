@@ -33,27 +33,59 @@ struct Lanes {
 };
 
 // What formulas for one limb or four need beside the arithmetic.
-inline double sin_of(double a) { return std::sin(a); }
-inline double cos_of(double a) { return std::cos(a); }
 inline double larger(double a, double b) { return std::max(a, b); }
 inline double magnitude(double a) { return std::fabs(a); }
 inline double one_if_negative(double a) { return a < 0.0 ? 1.0 : 0.0; }
 inline bool is_there(double a) { return a != 0.0; }
 
-inline Lanes sin_of(const Lanes &a)
-{
-    return Lanes(Lanes::Four{std::sin(a.at[0]), std::sin(a.at[1]), std::sin(a.at[2]), std::sin(a.at[3])});
-}
-inline Lanes cos_of(const Lanes &a)
-{
-    return Lanes(Lanes::Four{std::cos(a.at[0]), std::cos(a.at[1]), std::cos(a.at[2]), std::cos(a.at[3])});
-}
 inline Lanes larger(const Lanes &a, const Lanes &b) { return Lanes(a.at < b.at ? b.at : a.at); }
-inline Lanes magnitude(const Lanes &a) { return Lanes(a.at < 0.0 ? -a.at : a.at); }
+inline Lanes magnitude(const Lanes &a) { return Lanes(a.at > 0.0 ? a.at : 0.0 - a.at); }
 inline Lanes one_if_negative(const Lanes &a) { return Lanes(a.at < 0.0 ? Lanes(1.0).at : Lanes(0.0).at); }
 inline bool is_there(const Lanes &a) // in any lane
 {
     return a.at[0] != 0.0 || a.at[1] != 0.0 || a.at[2] != 0.0 || a.at[3] != 0.0;
+}
+
+// Sine and cosine by their series, of angles of at most kSeries_rad: what is left out is below a hundredth of a
+// rounding.
+constexpr double kSeries_rad = 0.5;
+
+template <class Number>
+void series(const Number &a, Number &sin, Number &cos)
+{
+    constexpr double kSin[] = {-1.0 / 1307674368000.0, 1.0 / 6227020800.0, -1.0 / 39916800.0, 1.0 / 362880.0,
+                               -1.0 / 5040.0,          1.0 / 120.0,        -1.0 / 6.0};
+    constexpr double kCos[] = {-1.0 / 87178291200.0, 1.0 / 479001600.0, -1.0 / 3628800.0, 1.0 / 40320.0,
+                               -1.0 / 720.0,         1.0 / 24.0,        -0.5};
+    const Number square = a * a;
+    Number by_sin = kSin[0], by_cos = kCos[0];
+    for (std::size_t i = 1; i < 7; ++i) {
+        by_sin = by_sin * square + kSin[i];
+        by_cos = by_cos * square + kCos[i];
+    }
+    sin = a + a * square * by_sin;
+    cos = 1.0 + square * by_cos;
+}
+
+inline void sin_cos(double a, double &sin, double &cos)
+{
+    if (std::fabs(a) <= kSeries_rad) {
+        series(a, sin, cos);
+    } else {
+        sin = std::sin(a);
+        cos = std::cos(a);
+    }
+}
+
+inline void sin_cos(const Lanes &a, Lanes &sin, Lanes &cos)
+{
+    series(a, sin, cos);
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+        if (!(std::fabs(a.at[lane]) <= kSeries_rad)) {
+            sin.at[lane] = std::sin(a.at[lane]);
+            cos.at[lane] = std::cos(a.at[lane]);
+        }
+    }
 }
 
 } // namespace brace::plant
