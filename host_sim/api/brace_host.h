@@ -226,8 +226,8 @@ typedef struct {
  * E_NO_CONVERGENCE the outputs are written nevertheless, and unsolved_rows (optional) counts the rows whose unbalance
  * is above tolerance (1e-9 N, or rounding where that is more).
  * returns OK, E_NULL, E_NOT_FINITE, E_RANGE, E_PARAMETER, E_SINGULAR, E_NO_CONVERGENCE
- * cost of a row: 0.4-0.5 us where all is springs, 1 us with play, friction or hardening, 1.5 us more with beams for
- * both links; at small displacements 0.1 us, 0.4 us and nothing. */
+ * cost of a row: 0.4 us where all is springs, 0.6-1.2 us with play, friction or hardening, 0.6 us more with beams for
+ * both links (1 us more where the record is one run); at small displacements 0.2 us, 0.4-0.7 us and nothing. */
 int32_t brace_plant_loading(const brace_plant_model_t *model, const brace_loading_rows_t *rows,
                             const brace_loading_reading_t *reading, size_t *unsolved_rows);
 

@@ -67,7 +67,6 @@ void CondensedOf<Number>::linearise(const StructureOf<Number> &structure,
                                     const std::array<JointHingeOf<Number>, 2> &joint, const Shape &shape)
 {
     count_ = static_cast<std::size_t>(structure.body_count);
-    shape_ = shape;
     std::array<Turn<Number>, kMostBodies> turns; // of the bodies
     Number angle_rad = 0.0;
     for (std::size_t i = 0; i < count_; ++i) {
@@ -169,7 +168,7 @@ void CondensedOf<Number>::linearise(const StructureOf<Number> &structure,
 }
 
 template <class Number>
-void CondensedOf<Number>::go(const ChangeOf<Number, 2> &change, FollowedOf<Number, 2, kMostBodies> &followed) const
+void CondensedOf<Number>::go(const ChangeOf<Number, 2> &change, const Shape &shape, Followed &followed) const
 {
     Number turned_rad = 0.0; // the present body
     Number most_rad = 0.0;
@@ -184,13 +183,13 @@ void CondensedOf<Number>::go(const ChangeOf<Number, 2> &change, FollowedOf<Numbe
         const Number sprung_rad =
             hinge.lacks_rad + hinge.turn_per_torque * (more_n_mm + hinge.curvature_n_mm_per_rad * turned_rad);
         turned_rad += sprung_rad;
-        followed.shape.turn_rad[i] = shape_.turn_rad[i] + (kept_rad + sprung_rad);
+        followed.shape.turn_rad[i] = shape.turn_rad[i] + (kept_rad + sprung_rad);
         if (is_joint) {
             followed.torque_n_mm[k] = hinge.torque_n_mm + more_n_mm + hinge.curvature_n_mm_per_rad * turned_rad;
         }
         most_rad = larger(most_rad, magnitude(turned_rad));
     }
-    followed.shape.force_n = shape_.force_n + change.force_n;
+    followed.shape.force_n = shape.force_n + change.force_n;
     followed.most_rad = most_rad;
 }
 
@@ -201,14 +200,15 @@ void CondensedOf<double>::about(const Structure &structure, const std::array<Joi
 }
 
 template <>
-void CondensedOf<double>::follow(const Change<2> &change, FollowedOf<double, 2, kMostBodies> &followed) const
+void CondensedOf<double>::follow(const Change<2> &change, const Shape &shape, Followed &followed) const
 {
-    go(change, followed);
+    go(change, shape, followed);
 }
 
 // Where the machine has instructions for four numbers they are taken, where not, pairs. Nothing is fused, so the bits
 // are the same.
-#if defined(__x86_64__) && defined(__GLIBC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+#if defined(__x86_64__) && defined(__GLIBC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) \
+    && !defined(__SANITIZE_THREAD__)
 #define BRACE_FOUR_AT_ONCE __attribute__((flatten, target_clones("avx2", "default")))
 #else
 #define BRACE_FOUR_AT_ONCE __attribute__((flatten))
@@ -222,10 +222,10 @@ BRACE_FOUR_AT_ONCE void CondensedOf<Lanes>::about(const StructureOf<Lanes> &stru
 }
 
 template <>
-BRACE_FOUR_AT_ONCE void CondensedOf<Lanes>::follow(const ChangeOf<Lanes, 2> &change,
-                                                   FollowedOf<Lanes, 2, kMostBodies> &followed) const
+BRACE_FOUR_AT_ONCE void CondensedOf<Lanes>::follow(const ChangeOf<Lanes, 2> &change, const Shape &shape,
+                                                   Followed &followed) const
 {
-    go(change, followed);
+    go(change, shape, followed);
 }
 
 } // namespace brace::plant

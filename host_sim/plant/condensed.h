@@ -25,6 +25,7 @@ template <class Number>
 class CondensedOf {
 public:
     using Shape = ShapeOf<Number, 2, kMostBodies>;
+    using Followed = FollowedOf<Number, 2, kMostBodies>;
 
     // Linearises about a shape.
     void about(const StructureOf<Number> &structure, const std::array<JointHingeOf<Number>, 2> &joint,
@@ -32,14 +33,14 @@ public:
 
     const TangentOf<Number, 2> &tangent() const { return tangent_; }
 
-    // Moves the shape that it was linearised about to rest under a change.
-    void follow(const ChangeOf<Number, 2> &change, FollowedOf<Number, 2, kMostBodies> &followed) const;
+    // Where the limb comes to rest under a change. shape: the one that it was linearised about.
+    void follow(const ChangeOf<Number, 2> &change, const Shape &shape, Followed &followed) const;
 
 private:
     struct Hinge {
         int joint;
         Number curvature_n_mm_per_rad;       // W_phiphi before the elimination
-        Eigen::Matrix<Number, 2, 1> lever_mm; // W_phiy
+        Eigen::Matrix<Number, 2, 1> lever_mm;     // W_phiy
         std::array<Number, 2> by_turn_n_mm_per_rad;
         Number torque_n_mm;
         Number turn_per_torque; // c / p
@@ -48,15 +49,24 @@ private:
 
     void linearise(const StructureOf<Number> &structure, const std::array<JointHingeOf<Number>, 2> &joint,
                    const Shape &shape);
-    void go(const ChangeOf<Number, 2> &change, FollowedOf<Number, 2, kMostBodies> &followed) const;
+    void go(const ChangeOf<Number, 2> &change, const Shape &shape, Followed &followed) const;
 
     std::size_t count_ = 0;
     std::array<Hinge, kMostBodies> hinge_;
-    Shape shape_;
     TangentOf<Number, 2> tangent_;
 };
 
+template <>
+void CondensedOf<double>::about(const StructureOf<double> &structure,
+                                const std::array<JointHingeOf<double>, 2> &joint, const Shape &shape);
+template <>
+void CondensedOf<double>::follow(const ChangeOf<double, 2> &change, const Shape &shape, Followed &followed) const;
+template <>
+void CondensedOf<Lanes>::about(const StructureOf<Lanes> &structure, const std::array<JointHingeOf<Lanes>, 2> &joint,
+                               const Shape &shape);
+template <>
+void CondensedOf<Lanes>::follow(const ChangeOf<Lanes, 2> &change, const Shape &shape, Followed &followed) const;
+
 using Condensed = CondensedOf<double>;
-using Shape = Condensed::Shape;
 
 } // namespace brace::plant

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
+#include <type_traits>
 
 namespace brace::plant {
 
@@ -18,7 +20,8 @@ struct Lanes {
     Lanes() = default;
     Lanes(double all) : at{all, all, all, all} {} // not explicit: a constant is the same in each lane
     explicit Lanes(const Four &each) : at(each) {}
-    // The compiler's own copy goes through memory in halves, for which the next load waits.
+    // The compiler's own copy goes through memory in halves, for which the next load waits. With a copy of its own it
+    // is handed over in memory, too: functions for machines with and without wide registers may call each other.
     Lanes(const Lanes &b) : at(b.at) {}
     Lanes &operator=(const Lanes &b) { return at = b.at, *this; }
 
@@ -31,6 +34,9 @@ struct Lanes {
     friend Lanes operator/(const Lanes &a, const Lanes &b) { return Lanes(a.at / b.at); }
     friend Lanes operator-(const Lanes &a) { return Lanes(-a.at); }
 };
+
+static_assert(kLanes == 4, "constants, and is_there, name four lanes");
+static_assert(!std::is_trivially_copyable_v<Lanes>, "it would be handed over in registers");
 
 // What formulas for one limb or four need beside the arithmetic.
 inline double larger(double a, double b) { return std::max(a, b); }
@@ -46,20 +52,20 @@ inline bool is_there(const Lanes &a) // in any lane
     return a.at[0] != 0.0 || a.at[1] != 0.0 || a.at[2] != 0.0 || a.at[3] != 0.0;
 }
 
-// Sine and cosine by their series, of angles of at most kSeries_rad: what is left out is below a hundredth of a
+// Sine and cosine by their series, of angles of at most kSeries_rad: what is left out is below a fiftieth of a
 // rounding.
 constexpr double kSeries_rad = 0.5;
 
 template <class Number>
 void series(const Number &a, Number &sin, Number &cos)
 {
-    constexpr double kSin[] = {-1.0 / 1307674368000.0, 1.0 / 6227020800.0, -1.0 / 39916800.0, 1.0 / 362880.0,
+    static constexpr double kSin[] = {-1.0 / 1307674368000.0, 1.0 / 6227020800.0, -1.0 / 39916800.0, 1.0 / 362880.0,
                                -1.0 / 5040.0,          1.0 / 120.0,        -1.0 / 6.0};
-    constexpr double kCos[] = {-1.0 / 87178291200.0, 1.0 / 479001600.0, -1.0 / 3628800.0, 1.0 / 40320.0,
+    static constexpr double kCos[] = {-1.0 / 87178291200.0, 1.0 / 479001600.0, -1.0 / 3628800.0, 1.0 / 40320.0,
                                -1.0 / 720.0,         1.0 / 24.0,        -0.5};
     const Number square = a * a;
     Number by_sin = kSin[0], by_cos = kCos[0];
-    for (std::size_t i = 1; i < 7; ++i) {
+    for (std::size_t i = 1; i < std::size(kSin); ++i) {
         by_sin = by_sin * square + kSin[i];
         by_cos = by_cos * square + kCos[i];
     }

@@ -8,7 +8,6 @@
 #include "effects/contact_play.h"
 #include "effects/creep.h"
 #include "effects/link_change.h"
-#include "effects/thermal_softening.h"
 
 namespace brace::plant {
 namespace {
@@ -131,7 +130,7 @@ bool LimbState<World>::move_to(double theta1_rad, double theta2_rad, double t_s,
     placed_ = true;
     if (!same_structure) {
         find(model_, displacements_, theta1_rad, theta2_rad, t_s, structure_);
-        unload();
+        find_unloaded();
         weight_n_ = total_weight_n(structure_) * structure_.down;
         ++structures_found_;
         has_earlier_ = false;
@@ -144,10 +143,10 @@ bool LimbState<World>::move_to(double theta1_rad, double theta2_rad, double t_s,
 
 // Without load no hinge's turn changes what the others do: a joint's spring adds its lever's square to the compliance.
 template <class World>
-void LimbState<World>::unload()
+void LimbState<World>::find_unloaded()
 {
     typename World::Condensed unloaded;
-    unloaded.about(without_loads(structure_), std::array<JointHinge, N>{}, typename World::Shape{});
+    unloaded.about(without_loads(structure_), std::array<JointHinge, N>{}, typename World::Condensed::Shape{});
     joints_rigid_mm_per_n_ = unloaded.tangent().compliance_mm_per_n;
     unloaded_lever_mm_ = unloaded.tangent().lever_mm;
 }
@@ -165,8 +164,8 @@ bool LimbState<World>::prepare()
         law_[k] = joint_law(model_, World::kFirstJoint + static_cast<int>(k), temp_degc_);
         const Vec &lever_mm = unloaded_lever_mm_[k];
         const Mat by_joint = law_[k].compliance_rad_per_n_mm * lever_mm * lever_mm.transpose();
-        const bool stops = law_[k].compliance_rad_per_n_mm != 0.0 || law_[k].gap_rad != 0.0;
-        is_unknown_[k] = stops && !is_linear(law_[k]);
+        const bool can_turn = law_[k].compliance_rad_per_n_mm != 0.0 || law_[k].gap_rad != 0.0;
+        is_unknown_[k] = can_turn && !is_linear(law_[k]);
         own += by_joint;
         if (!is_unknown_[k]) {
             stuck += by_joint;
@@ -236,7 +235,7 @@ auto LimbState<World>::joint_hinges() const -> std::array<JointHinge, N>
 }
 
 template <class World>
-auto LimbState<World>::change_under(const Tangent<N> &tangent) -> Change<N>
+auto LimbState<World>::take_change(const Tangent<N> &tangent) -> Change<N>
 {
     const Vec &force_n = rest_.shape.force_n;
     const double series_mm_per_n = contact_mm_per_n_ + stops_mm_per_n_;
@@ -300,7 +299,7 @@ auto LimbState<World>::change_under(const Tangent<N> &tangent) -> Change<N>
 }
 
 template <class World>
-void LimbState<World>::went_to(const typename World::Followed &followed)
+void LimbState<World>::went_to(const typename World::Condensed::Followed &followed)
 {
     rest_.shape = followed.shape;
     rest_.torque_n_mm = followed.torque_n_mm;
@@ -322,22 +321,22 @@ void LimbState<World>::went_to(const typename World::Followed &followed)
 template <class World>
 auto LimbState<World>::outcome(double moved_n) -> Outcome
 {
-    const Outcome last = search_.stable ? Outcome::settled : Outcome::lost;
+    const Outcome ended = search_.stable ? Outcome::settled : Outcome::lost;
     if (displacements_ == Displacements::small) {
-        return last;
+        return ended;
     }
     const int step = search_.steps++;
-    const double last_n = search_.last_n;
-    search_.last_n = moved_n;
+    const double last_moved_n = search_.last_moved_n;
+    search_.last_moved_n = moved_n;
     if (!(moved_n < kLost_n)) {
         return Outcome::lost;
     }
     // Each step squares what is left, so the next one moves less than in proportion.
-    if (moved_n <= kGoodMove_n || (step > 0 && moved_n * moved_n <= kGoodMove_n * last_n)) {
-        return last;
+    if (moved_n <= kGoodMove_n || (step > 0 && moved_n * moved_n <= kGoodMove_n * last_moved_n)) {
+        return ended;
     }
-    if (step > 2 && moved_n > 0.5 * last_n) {
-        return moved_n <= std::max(kPromisedMove_n, search_.rounding_n) ? last : Outcome::lost;
+    if (step > 2 && moved_n > 0.5 * last_moved_n) {
+        return moved_n <= std::max(kPromisedMove_n, search_.rounding_n) ? ended : Outcome::lost;
     }
     return search_.steps < kMostSteps ? Outcome::goes_on : Outcome::lost;
 }
@@ -378,24 +377,21 @@ void LimbState<World>::begin_search(const Vec &target_mm, int free_axis)
     }
     search_.target_mm = target_mm;
     search_.free_axis = free_axis;
-    search_.start_mm = reached_mm_;
-    search_.reached = 0.0;
-    search_.part = 1.0;
-    search_.last = rest_;
+    search_.reached_share = 0.0;
+    search_.part_share = 1.0;
+    search_.part_began = rest_;
     search_.foreseen = free_axis == 0 && foresee(target_mm);
-    search_.goes_on = true;
+    search_.seeks = true;
     begin_part();
 }
 
 template <class World>
 void LimbState<World>::begin_part()
 {
-    search_.to = std::min(1.0, search_.reached + search_.part);
-    search_.part_target_mm = search_.to == 1.0
-                                 ? search_.target_mm
-                                 : Vec(search_.start_mm + search_.to * (search_.target_mm - search_.start_mm));
+    search_.end_share = std::min(1.0, search_.reached_share + search_.part_share);
+    search_.part_target_mm = search_.end_share == 1.0 ? search_.target_mm : on_the_way_mm(search_.end_share);
     search_.steps = 0;
-    search_.last_n = kLost_n;
+    search_.last_moved_n = kLost_n;
     if (displacements_ == Displacements::small) {
         rest_.shape = {};
     }
@@ -405,24 +401,24 @@ void LimbState<World>::begin_part()
 template <class World>
 void LimbState<World>::end_part(bool settled)
 {
-    if (settled && search_.to == 1.0) {
+    if (settled && search_.end_share == 1.0) {
         end_search(search_.target_mm, true);
         return;
     }
     if (settled) {
-        search_.last = rest_;
-        search_.reached = search_.to;
+        search_.part_began = rest_;
+        search_.reached_share = search_.end_share;
     } else if (search_.foreseen) {
-        rest_ = search_.last;
+        rest_ = search_.part_began;
         search_.foreseen = false;
     } else if (displacements_ == Displacements::small) {
         end_search(search_.target_mm, false);
         return;
     } else {
-        rest_ = search_.last;
-        search_.part *= 0.5;
-        if (search_.part < kShortestPart) {
-            end_search(search_.start_mm + search_.reached * (search_.target_mm - search_.start_mm), false);
+        rest_ = search_.part_began;
+        search_.part_share *= 0.5;
+        if (search_.part_share < kShortestPart) {
+            end_search(on_the_way_mm(search_.reached_share), false);
             return;
         }
     }
@@ -430,11 +426,17 @@ void LimbState<World>::end_part(bool settled)
 }
 
 template <class World>
+auto LimbState<World>::on_the_way_mm(double share) const -> Vec
+{
+    return reached_mm_ + share * (search_.target_mm - reached_mm_);
+}
+
+template <class World>
 void LimbState<World>::end_search(const Vec &reached_mm, bool solved)
 {
     reached_mm_ = reached_mm;
     search_.solved = solved;
-    search_.goes_on = false;
+    search_.seeks = false;
 }
 
 // Steps alone to the end.
@@ -446,8 +448,8 @@ void LimbState<World>::seek()
             condensed_.about(structure_, joint_hinges(), rest_.shape);
             is_condensed_ = displacements_ == Displacements::small;
         }
-        typename World::Followed followed;
-        condensed_.follow(change_under(condensed_.tangent()), followed);
+        typename World::Condensed::Followed followed;
+        condensed_.follow(take_change(condensed_.tangent()), rest_.shape, followed);
         went_to(followed);
     }
 }
@@ -500,26 +502,25 @@ void LimbState<World>::begin_hold(const Vec &displacement_mm, int free_axis)
     const Vec target_mm = origin_mm_ + tip_mm_;
     const Known *known = forgets() ? known_at(target_mm, free_axis) : nullptr;
     is_new_ = known == nullptr;
-    goes_on_ = false;
+    leads_on_ = false;
     if (known != nullptr) {
         rest_ = known->rest;
         end_search(target_mm, true);
         return;
     }
-    const bool searched = displacements_ == Displacements::finite || has_unknowns();
-    goes_on_ = searched && free_axis == 0 && target_mm != reached_mm_;
-    if (goes_on_) {
-        before_hold_ = {reached_mm_, free_axis, rest_};
-    }
     begin_search(target_mm, free_axis);
+    const bool searched = displacements_ == Displacements::finite || has_unknowns();
+    leads_on_ = searched && free_axis == 0 && target_mm != reached_mm_;
+    if (leads_on_) {
+        earlier_ = {reached_mm_, free_axis, search_.part_began};
+    }
 }
 
 template <class World>
 auto LimbState<World>::end_hold() -> LimbRest<N>
 {
     const bool solved = search_.solved;
-    if (goes_on_) {
-        earlier_ = before_hold_;
+    if (leads_on_) {
         has_earlier_ = solved;
     }
     if (is_new_ && solved && forgets() && known_count_ < kMostKnown) {
@@ -544,7 +545,7 @@ auto LimbState<World>::torque_per_motor_turn() const -> Mat
     }
     const bool small = displacements_ == Displacements::small;
     typename World::Condensed springs;
-    springs.about(structure_, joint, small ? typename World::Shape{} : rest_.shape);
+    springs.about(structure_, joint, small ? typename World::Condensed::Shape{} : rest_.shape);
     const Tangent<N> &tangent = springs.tangent();
     Mat compliance = tangent.compliance_mm_per_n;
     compliance.diagonal().array() += contact_mm_per_n_ + kSmallestShare * compliance.trace();

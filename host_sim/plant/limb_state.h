@@ -24,8 +24,6 @@ struct InPlane {
     static constexpr int kFirstJoint = effects::kFemur;
     using Structure = plant::Structure;
     using Condensed = plant::Condensed;
-    using Shape = plant::Shape;
-    using Followed = FollowedOf<double, 2, kMostBodies>;
 };
 
 // Axes x, y and z of the commanded limb's plane; coxa joint, femur joint and knee. Displacements are finite there.
@@ -34,8 +32,6 @@ struct InSpace {
     static constexpr int kFirstJoint = effects::kCoxa;
     using Structure = SpaceStructure;
     using Condensed = SpaceCondensed;
-    using Shape = SpaceShape;
-    using Followed = FollowedOf<double, 3, kMostSpaceBodies>;
 };
 
 template <int N>
@@ -69,18 +65,18 @@ public:
     // free_axis: 0 all axes are held; in the plane also 1 x is free, 2 z is free.
     LimbRest<N> hold_tip(const Vec &displacement_mm, int free_axis = 0);
 
-    // The same in pieces: begins; seeks, a step at a time, until it seeks no more; ends.
+    // The same in pieces: begins; seek() takes all steps, or somebody else takes them while it seeks(); ends.
     void begin_hold(const Vec &displacement_mm, int free_axis = 0);
-    bool seeks() const { return search_.goes_on; }
+    bool seeks() const { return search_.seeks; }
     void seek();
     LimbRest<N> end_hold();
 
-    // A step at finite displacements: the limb is linearised with these hinges about this shape, changes as the tangent
-    // says, and is told where it followed to.
+    // One step: somebody linearises the limb with these hinges about this shape. The limb takes its change from the
+    // tangent, and is told where it followed to. Each change is followed before the next is taken.
     std::array<JointHinge, N> joint_hinges() const;
-    const typename World::Shape &shape() const { return rest_.shape; }
-    Change<N> change_under(const Tangent<N> &tangent);
-    void went_to(const typename World::Followed &followed);
+    const typename World::Condensed::Shape &shape() const { return rest_.shape; }
+    Change<N> take_change(const Tangent<N> &tangent);
+    void went_to(const typename World::Condensed::Followed &followed);
     const typename World::Structure &structure() const { return structure_; }
     unsigned structures_found() const { return structures_found_; } // it grows as the structure becomes another
 
@@ -89,12 +85,13 @@ public:
 
 private:
     void let_creep(double t_s);
-    void unload();
+    void find_unloaded();
     bool prepare();
     bool foresee(const Vec &target_mm);
     void begin_search(const Vec &target_mm, int free_axis);
     void begin_part();
     void end_part(bool settled);
+    Vec on_the_way_mm(double share) const;
     void end_search(const Vec &reached_mm, bool solved);
     enum class Outcome { goes_on, settled, lost };
     Outcome outcome(double moved_n);
@@ -116,7 +113,7 @@ private:
 
     // The present rest state, and where it was sought.
     struct Rest {
-        typename World::Shape shape;
+        typename World::Condensed::Shape shape;
         std::array<double, N> instant_rad{}; // joints' deflections without creep
         std::array<double, N> torque_n_mm{};
         Vec tip_mm = Vec::Zero(); // from its weightless place
@@ -124,25 +121,24 @@ private:
     Rest rest_;
     // The tip is led to its target: in one part, or, where no rest is found so far away, in shorter ones.
     struct Search {
-        bool goes_on;
-        bool solved;
-        Vec target_mm;
-        int free_axis;
-        Vec start_mm;
-        double reached; // of the way from start to target, as `to` and `part` are
-        double part, to;
-        Vec part_target_mm;
-        Rest last;     // rest where the part began
-        bool foreseen; // it began where rest was foreseen
-        int steps;     // in this part
-        double last_n; // the last step's force
+        bool seeks = false;
+        bool solved = false;
+        Vec target_mm = Vec::Zero();
+        int free_axis = 0;
+        // Shares of the way from reached_mm_ to the target: where rest was found, how long a part is, where it ends.
+        double reached_share = 0.0, part_share = 1.0, end_share = 1.0;
+        Vec part_target_mm = Vec::Zero();
+        Rest part_began;       // rest where the part began
+        bool foreseen = false; // it began where rest was foreseen
+        int steps = 0;         // in this part
+        double last_moved_n = 0.0;
         // The present step of Newton's method. The forces are such as would move the limb along its softest direction
         // so far.
-        bool stable; // it goes to a minimum of the energy
-        double change_n;
-        double rounding_n; // what rounding may move
+        bool stable = false; // it goes to a minimum of the energy
+        double change_n = 0.0;
+        double rounding_n = 0.0; // what rounding may move
     };
-    Search search_{};
+    Search search_;
     // Without friction and creep a rest state depends on where the tip is held and on nothing before. A run leads the
     // tip to few places, and to most of them twice.
     struct Known {
@@ -162,9 +158,8 @@ private:
     int known_count_ = 0;
     Known earlier_;            // where the tip was held before it came to where rest_ holds it
     bool has_earlier_ = false; // at this posture, in this run
-    Known before_hold_;
-    bool goes_on_ = false; // the hold leads the tip on
-    bool is_new_ = false;  // nothing known was at its target
+    bool leads_on_ = false;    // the hold leads the tip to another place
+    bool is_new_ = false;      // nothing known was at its target
     typename World::Condensed condensed_;
     bool is_condensed_ = false;                            // condensed_ is that of the unloaded limb
     Vec origin_mm_ = Vec::Zero();  // from where displacements count

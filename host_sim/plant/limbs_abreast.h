@@ -1,5 +1,5 @@
-// Copies of one limb that take their steps side by side at finite displacements, each in a lane: a record's runs know
-// nothing of one another, so each copy may play another run. Each rests where it would rest alone, to the last bit.
+// Copies of one limb that take their steps side by side at finite displacements, each in a lane: where a record's runs
+// know nothing of one another, each copy may play another run. It rests where it would rest alone, to the last bit.
 #pragma once
 
 #include <array>

@@ -162,14 +162,15 @@ bool Loading::begin_row(Player &player, const effects::Model &model, LimbState<I
         return false;
     }
     const Vector2d displacement_mm(rows_.dx_mm[i], rows_.dz_mm[i]);
+    player.begins_at_rest = true;
     if (i == player.run->first) {
         limb.start_run(rows_.creep_runs_on == 0);
-        player.hangs = rows_.held_at_rest == 0 || limb.hang();
+        player.begins_at_rest = rows_.held_at_rest == 0 || limb.hang();
         player.aside_mm.setZero();
         if (rows_.preload_x_n != nullptr) {
             const Pressed rest = pressed(limb, {rows_.preload_x_n[i], rows_.preload_z_n[i]});
             player.aside_mm = rest.displacement_mm - displacement_mm;
-            player.hangs = player.hangs && rest.solved;
+            player.begins_at_rest = player.begins_at_rest && rest.solved;
         }
     }
     limb.begin_hold(displacement_mm + player.aside_mm, rows_.free_axis != nullptr ? rows_.free_axis[i] : 0);
@@ -180,7 +181,7 @@ void Loading::end_row(Player &player, LimbState<InPlane> &limb)
 {
     LimbRest<2> &rest = rests_[player.row++];
     rest = limb.end_hold();
-    rest.solved = rest.solved && player.hangs;
+    rest.solved = rest.solved && player.begins_at_rest;
 }
 
 bool Loading::play_in_turn(const effects::Model &model, const std::vector<const Run *> &runs)

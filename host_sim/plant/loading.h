@@ -39,7 +39,7 @@ private:
         const Run *run;
         std::size_t row;
         Eigen::Vector2d aside_mm; // where the tip stands more than the record says, for its preload
-        bool hangs;
+        bool begins_at_rest; // false in a run's first row only
     };
 
     // Plays runs one after the other, or some of them side by side. false: nothing yields in some direction.

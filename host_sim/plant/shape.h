@@ -34,16 +34,14 @@ struct ChangeOf {
 template <int N>
 using Change = ChangeOf<double, N>;
 
-// What the elimination tells of a limb near its shape. With force and kept turns as they are and all springs at rest:
-// displacement of the tip from its unloaded place, and torques of the loads on the joints. How these follow: the tip
-// the force, the tip a turn and so a torque the force, a torque the turns.
+// What the elimination tells of a limb near its shape: with force and kept turns as they are and all springs at rest.
 template <class Number, int N>
 struct TangentOf {
-    Eigen::Matrix<Number, N, 1> tip_mm;
-    std::array<Number, N> torque_n_mm;
-    Eigen::Matrix<Number, N, N> compliance_mm_per_n;
-    std::array<Eigen::Matrix<Number, N, 1>, N> lever_mm;
-    Eigen::Matrix<Number, N, N> torque_n_mm_per_rad;
+    Eigen::Matrix<Number, N, 1> tip_mm;                // from its unloaded place
+    std::array<Number, N> torque_n_mm;            // of the loads on the joints
+    Eigen::Matrix<Number, N, N> compliance_mm_per_n;   // tip by force
+    std::array<Eigen::Matrix<Number, N, 1>, N> lever_mm; // tip by a kept turn, and so that joint's torque by force
+    Eigen::Matrix<Number, N, N> torque_n_mm_per_rad;   // torques by kept turns
     Number negative_pivots; // how many: directions in which the limb would give way if its tip were let go
 };
 template <int N>

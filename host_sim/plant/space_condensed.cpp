@@ -94,7 +94,6 @@ void SpaceCondensed::about(const SpaceStructure &structure, const std::array<Joi
     Matrix3d lever_mm = Matrix3d::Zero(), torque_n_mm_per_rad = Matrix3d::Zero();
     double negative_pivots = 0.0;
     count_ = 0;
-    shape_ = shape;
     for (std::size_t i = static_cast<std::size_t>(structure.body_count); i-- > 0;) {
         const SpaceBody &body = structure.body[i];
         const Matrix3d &turned = placed.turned[i];
@@ -168,9 +167,9 @@ void SpaceCondensed::about(const SpaceStructure &structure, const std::array<Joi
                 negative_pivots};
 }
 
-void SpaceCondensed::follow(const Change<3> &change, FollowedOf<double, 3, kMostSpaceBodies> &followed) const
+void SpaceCondensed::follow(const Change<3> &change, const SpaceShape &shape, Followed &followed) const
 {
-    followed.shape = shape_;
+    followed.shape = shape;
     const Vector3d kept(change.turn_rad[0], change.turn_rad[1], change.turn_rad[2]);
     Vector3d turned_rad = Vector3d::Zero(); // the present body
     double most_rad = 0.0;

@@ -20,13 +20,16 @@ using SpaceShape = ShapeOf<double, 3, kMostSpaceBodies>;
 
 class SpaceCondensed {
 public:
+    using Shape = SpaceShape;
+    using Followed = FollowedOf<double, 3, kMostSpaceBodies>;
+
     // Linearises about a shape.
     void about(const SpaceStructure &structure, const std::array<JointHinge, 3> &joint, const SpaceShape &shape);
 
     const Tangent<3> &tangent() const { return tangent_; }
 
-    // Moves the shape that it was linearised about to rest under a change.
-    void follow(const Change<3> &change, FollowedOf<double, 3, kMostSpaceBodies> &followed) const;
+    // Where the limb comes to rest under a change. shape: the one that it was linearised about.
+    void follow(const Change<3> &change, const SpaceShape &shape, Followed &followed) const;
 
 private:
     struct Hinge {
@@ -44,7 +47,6 @@ private:
     int count_ = 0; // of the hinges
     std::array<Hinge, kMostSpaceBodies> hinge_;
     std::array<int, kMostSpaceBodies> body_of_; // of each hinge
-    SpaceShape shape_;
     Tangent<3> tangent_;
 };
 

@@ -10,15 +10,18 @@ import numpy as np
 import pytest
 from conftest import DATA
 
+from brace.errors import BraceError
 from brace.model import load_limb
 from brace.native.plant_batch import LoadingBatchPlayer, model_numbers, number_index
 
-READINGS = ("fx_n", "fz_n", "enc1_rad", "enc2_rad", "base_x_mm")
+READINGS = ("fx_n", "fz_n", "enc1_rad", "enc2_rad", "base_x_mm", "base_z_mm")
 STEPS = np.array([0, 1, 2, 3, 2, 1, 0, -1, -2, -3, -2, -1, 0])
 BEAMS: dict[str, float | str] = {
     "link.femur.moment_transfer": 1.0,
     "link.tibia.moment_transfer": 0.6,
     "base.rotation_rad_per_n_mm": 1e-6,
+    "base.x_mm_per_n": 0.002,
+    "base.z_mm_per_n": 0.001,
 }
 WEIGHTS: dict[str, float | str] = {"gravity.femur_n": 5.0, "gravity.knee_n": 3.0, "gravity.tibia_n": 8.0}
 LIMBS: dict[str, dict[str, float | str]] = {
@@ -28,6 +31,8 @@ LIMBS: dict[str, dict[str, float | str]] = {
     "creep": {"creep.ratio": 0.1, "creep.time_constant_s": 50.0},
     "warmth": {"thermal.joint_compliance_per_degc": 0.01},
     "clearance": {"contact.play_mm": 0.2},
+    "a rigid knee with play": {"joint.tibia.compliance_rad_per_n_mm": 0.0, "joint.tibia.gap_rad": 0.002},
+    "hardening": {"joint.femur.hardening_n_mm_per_rad3": 1e9},
     "weight": {"gravity.tibia_n": 8.0},
     "a change": {"change.link": "tibia", "change.bending_factor": 1.5, "change.at_s": 333.0},
     "beams": {**BEAMS, **WEIGHTS},
@@ -77,18 +82,71 @@ def test_a_run_with_a_preload_reads_what_it_reads_by_itself(name: str) -> None:
     reads_alike(columns | preload, LIMBS[name])
 
 
-def reads_alike(columns: Mapping[str, np.ndarray], changes: Mapping[str, float | str], **options: bool) -> None:
-    model = limb(changes)[None]
+@pytest.mark.parametrize("runs", [2, 3, 5, 12])
+def test_runs_of_different_lengths_read_what_they_read_by_themselves(runs: int) -> None:
+    columns = record()
+    place = np.concatenate([np.arange(STEPS.size)] * 12)
+    lengths = np.array([13, 2, 1, 7, 4, 13, 1, 1, 9, 13, 3, 5])
+    keep = (columns["run"] <= runs) & (place < lengths[(columns["run"] - 1).astype(int)])
+    reads_alike({key: values[keep] for key, values in columns.items()}, LIMBS["rubbing beams"])
 
-    def played(some: Mapping[str, np.ndarray]) -> np.ndarray:
+
+def test_a_run_that_finds_no_rest_disturbs_no_other() -> None:
+    """Strokes that are far too long in half of the runs: some rows are found in parts, others never."""
+    columns = record()
+    for axis in ("dx_mm", "dz_mm"):
+        columns[axis] = np.where(columns["run"] % 2 == 0, 300.0, 1.0) * columns[axis]
+    assert reads_alike(columns, LIMBS["beams"], all_rest=False) > 0
+
+
+def test_a_run_without_its_preload_counts_one_row() -> None:
+    """Where the tip cannot be pressed as wanted, the run's first row is without rest, and no other row."""
+    columns = record()
+    columns |= {"preload_x_n": np.full(columns["run"].size, 1e5), "preload_z_n": np.zeros(columns["run"].size)}
+    assert reads_alike(columns, LIMBS["beams"], all_rest=False) == np.unique(columns["run"]).size
+
+
+def test_a_limb_that_yields_nowhere_disturbs_no_other() -> None:
+    """In the fifth run it is straight, and only its joints yield: it cannot be played. The limbs beside it can."""
+    rigid = {f"link.{link}.{kind}_mm_per_n": 0.0 for link in ("femur", "tibia") for kind in ("axial", "bending")}
+    columns = record()
+    columns["theta2_rad"][columns["run"] == 5] = 0.0
+    player = LoadingBatchPlayer(columns, READINGS)
+    models = np.array([limb({}), limb(rigid), limb({"sensor.gain": 1.1}), limb(rigid), limb({})])
+    together = player.play_numbers(models)
+    assert np.isnan(together[[1, 3]]).all()
+    assert np.isfinite(together[[0, 2, 4]]).all()
+    for model, reading in zip(models, together, strict=True):
+        alone = LoadingBatchPlayer(columns, READINGS).play_numbers(model[None])[0]
+        assert np.array_equal(reading, alone, equal_nan=True)
+
+
+def reads_alike(
+    columns: Mapping[str, np.ndarray], changes: Mapping[str, float | str], *, all_rest: bool = True, **options: bool
+) -> int:
+    """How many rows have no rest, in the whole record as in its runs by themselves."""
+    believed = load_limb(DATA / "paper-limb.toml").with_values(dict(changes))
+
+    def played(some: Mapping[str, np.ndarray]) -> tuple[np.ndarray, int]:
         player = LoadingBatchPlayer(some, READINGS, **options)
-        return np.asarray(player.play_numbers(model, settled=True)[0])
+        try:
+            player.play(believed)
+            unsolved = 0
+        except BraceError as error:
+            unsolved = int(str(error).split(" rows unsolved")[0].rsplit("(", 1)[-1])
+        return np.asarray(player.play_numbers(model_numbers(believed)[None])[0]), unsolved
 
-    whole = played(columns)
+    whole, unsolved = played(columns)
     assert np.isfinite(whole).all()
+    assert not (all_rest and unsolved)
+    by_themselves = 0
     for run in np.unique(columns["run"]):
         rows = columns["run"] == run
-        assert np.array_equal(whole[:, rows], played({key: values[rows] for key, values in columns.items()})), run
+        alone, more = played({key: values[rows] for key, values in columns.items()})
+        assert np.array_equal(whole[:, rows], alone), run
+        by_themselves += more
+    assert unsolved == by_themselves
+    return unsolved
 
 
 @pytest.mark.parametrize("small", [False, True], ids=["finite", "small"])
