@@ -65,14 +65,15 @@ public:
     // free_axis: 0 all axes are held; in the plane also 1 x is free, 2 z is free.
     LimbRest<N> hold_tip(const Vec &displacement_mm, int free_axis = 0);
 
-    // The same in pieces: begins; seek() takes all steps, or somebody else takes them while it seeks(); ends.
+    // The same in pieces. begin_hold() says where the tip goes. While seeks() is true, the limb needs another step:
+    // seek() takes all of them, or the caller takes them one by one, as below. end_hold() tells the rest state.
     void begin_hold(const Vec &displacement_mm, int free_axis = 0);
     bool seeks() const { return search_.seeks; }
     void seek();
     LimbRest<N> end_hold();
 
-    // One step: somebody linearises the limb with these hinges about this shape. The limb takes its change from the
-    // tangent, and is told where it followed to. Each change is followed before the next is taken.
+    // One step by the caller. It linearises the limb with joint_hinges() about shape(), and gives the tangent to
+    // take_change(), which returns a change. It finds the shape after this change, and gives it to went_to().
     std::array<JointHinge, N> joint_hinges() const;
     const typename World::Condensed::Shape &shape() const { return rest_.shape; }
     Change<N> take_change(const Tangent<N> &tangent);

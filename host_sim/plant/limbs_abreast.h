@@ -1,5 +1,6 @@
-// Copies of one limb that take their steps side by side at finite displacements, each in a lane: where a record's runs
-// know nothing of one another, each copy may play another run. It rests where it would rest alone, to the last bit.
+// Four copies of one limb at finite displacements. They take their steps at the same time, each copy in its own lane.
+// Each copy may play another run of a record if no run depends on the runs before it. A copy finds the same rest states
+// as a limb that is played alone, to the last bit.
 #pragma once
 
 #include <array>

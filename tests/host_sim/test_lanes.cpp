@@ -34,7 +34,8 @@ constexpr double kAngles_rad[] = {0.0, -0.0, 1e-300, 1e-9, 0.01, -0.3, 0.4999, 0
 
 } // namespace
 
-// The last sum rounds by at most half of what is allowed; the roundings within its small second term add a tenth.
+// The test allows an error of one epsilon. The last sum of the series has at most half of it. The roundings in its
+// second term, which is small, add at most a tenth.
 static void test_sine_and_cosine(void)
 {
     brace::rig::Noise draw(11);
