@@ -36,6 +36,18 @@ def test_an_archive_does_not_depend_on_order_time_or_rights(tmp_path: Path) -> N
         assert {entry.mtime for entry in tar} == {EPOCH_S}
 
 
+def test_the_sources_of_the_last_commit_are_exported(tmp_path: Path) -> None:
+    """With the Python that ./dev chooses, which is Debian's: the oldest that is promised."""
+    try:
+        commit = source.run("git", "rev-parse", "HEAD", cwd=PROJECT).strip()
+    except source.ReleaseError as error:
+        pytest.skip(f"git does not read this folder: {error}")
+    exported = source.export(tmp_path)
+    assert (tmp_path / "dev").read_text() == output_of("git", "show", "HEAD:dev", cwd=PROJECT)
+    assert (tmp_path / "dev").stat().st_mode & 0o100
+    assert exported.commit == commit
+
+
 def test_sums_are_what_sha256sum_reads(tmp_path: Path) -> None:
     (tmp_path / "firmware").mkdir()
     for name in ("firmware/b.bin", "a.txt"):

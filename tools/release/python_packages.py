@@ -34,7 +34,7 @@ def source_distribution(source: Source, work: Path, dist: Path) -> Path:
 def wheel(source: Source, sdist: Path, work: Path, dist: Path) -> Path:
     """The wheel, built from the source distribution as anybody would build it."""
     tree = fresh(work / "wheel")
-    shutil.unpack_archive(sdist, tree, filter="data")
+    shutil.unpack_archive(sdist, tree)
     build = (sys.executable, "-m", "build", "--no-isolation", "--wheel", "--outdir", dist)
     run(*build, tree / sdist.name.removesuffix(".tar.gz"), environment=source.environment)
     return next(dist.glob(f"brace-{source.version}-*.whl"))
