@@ -6,12 +6,13 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from brace.model import LIMB_KEYS, LimbModel
 from brace.native import loaded
 from brace.native.loaded import LoadedLimbs
-from engine_chain import Array
 
+Array = NDArray[np.float64]
 LEAST_BUCKLING_FACTOR = 2.0
 MOST_OF_REACH = 0.2  # displacement of the tip
 
@@ -39,6 +40,11 @@ def reference(case: Case, parts: int = 0) -> LoadedLimbs:
         return loaded.space_under_force(model, (theta0, theta1, theta2), case.force_n, case.gravity, parts)
     direction_rad = np.arctan2(case.gravity[2], case.gravity[0])
     return loaded.under_force(model, theta1, theta2, case.force_n, direction_rad, parts)
+
+
+def off(k: Array, wanted: Array) -> float:
+    """Frobenius, relative."""
+    return float(np.linalg.norm(k - wanted) / np.linalg.norm(wanted))
 
 
 def _limb(draw: np.random.Generator, links: tuple[str, ...]) -> dict[str, float]:

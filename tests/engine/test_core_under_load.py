@@ -1,15 +1,17 @@
-"""K under load of the firmware's core against the reference, over random limbs, postures, weights and loads."""
+"""K under load of the firmware's core against the reference, and against the physics engine itself, over random limbs,
+postures, weights and loads."""
 
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 import pytest
 
 from brace.native.c_data import CData
 from brace.native.loader import library
-from cases import Case, random_cases, reference
+from cases import Array, Case, off, random_cases, reference
 
 LINKS = ("coxa", "femur", "tibia")
 
@@ -37,9 +39,19 @@ def core_limb(case: Case) -> tuple[CData, CData, CData]:
     return loaded, load, limb
 
 
-def errors(case: Case, path: str = "float") -> tuple[float, float, float]:
-    """Of K (Frobenius norm, relative), the buckling factor (relative; 0 where the reference says 10 and more) and the
-    displacement [mm]."""
+class Told(NamedTuple):
+    """What the core says."""
+
+    k_n_per_mm: Array  # (2, 2)
+    buckling_factor: float
+    displacement_mm: Array  # (2,)
+
+
+SINGULAR = -6  # BRACE_E_SINGULAR
+
+
+def core_says(case: Case, path: str) -> Told | None:
+    """path: 'float' or 'fixed'. None: in fixed point a word does not hold a number of this limb."""
     native = library()
     loaded, load, _limb = core_limb(case)
     result = native.ffi.new("brace_loaded_stiffness_t *")
@@ -49,36 +61,70 @@ def errors(case: Case, path: str = "float") -> tuple[float, float, float]:
         status = native.lib.brace_loaded_fixed_stiffness(fixed, *case.theta_rad[1:], load, result)
     else:
         status = native.lib.brace_loaded_stiffness(loaded, *case.theta_rad[1:], load, result)
+    if path == "fixed" and status == SINGULAR:
+        return None
     assert status == 0, (status, case)
-    found, k = reference(case), result.stiffness
-    got = np.array([[k.k_xx_n_per_mm, k.k_xz_n_per_mm], [k.k_xz_n_per_mm, k.k_zz_n_per_mm]])
-    true_k, factor = found.k_n_per_mm[0], float(found["buckling_factor"][0])
-    moved = np.array([result.displacement.x_mm, result.displacement.z_mm]) - found.displacement_mm[0]
-    return (
-        float(np.linalg.norm(got - true_k) / np.linalg.norm(true_k)),
-        abs(result.buckling_factor / factor - 1.0) if factor < 10.0 else 0.0,
-        float(np.linalg.norm(moved)),
+    k = result.stiffness
+    return Told(
+        np.array([[k.k_xx_n_per_mm, k.k_xz_n_per_mm], [k.k_xz_n_per_mm, k.k_zz_n_per_mm]]),
+        result.buckling_factor,
+        np.array([result.displacement.x_mm, result.displacement.z_mm]),
     )
+
+
+def errors(case: Case, path: str) -> tuple[float, float, float]:
+    """Of K (Frobenius norm, relative), the buckling factor (relative; 0 where the reference says 10 and more) and the
+    displacement [mm]; NaN where the core refuses the limb."""
+    told, found = core_says(case, path), reference(case)
+    if told is None:
+        return np.nan, np.nan, np.nan
+    factor = float(found["buckling_factor"][0])
+    return (
+        off(told.k_n_per_mm, found.k_n_per_mm[0]),
+        abs(told.buckling_factor / factor - 1.0) if factor < 10.0 else 0.0,
+        float(np.linalg.norm(told.displacement_mm - found.displacement_mm[0])),
+    )
+
+
+def lighter(case: Case) -> Case:
+    """A tenth of its force and of its weights."""
+    keys = {key: value / 10.0 if key.startswith("gravity.") else value for key, value in case.keys.items()}
+    return replace(case, keys=keys, force_n=case.force_n / 10.0)
 
 
 @pytest.mark.parametrize(("path", "worst"), [("float", 6e-3), ("fixed", 1e-2)])
 def test_k_buckling_and_displacement(limbs: int, seed: int, path: str, worst: float) -> None:
     """What brace/loaded.h and brace/loaded_fixed.h promise."""
     found = np.array([errors(case, path) for case in random_cases(seed, 10 * limbs, in_space=False)])
-    k, buckling, moved_mm = found.T
-    print(f"{path}, {len(k)} limbs: K median {np.median(k):.1e}, worst {k.max():.1e}; buckling factor worst "
-          f"{buckling.max():.1e}; displacement worst {moved_mm.max():.3f} mm")
+    refused = np.isnan(found[:, 0])
+    k, buckling, moved_mm = found[~refused].T
+    print(f"{path}, {len(found)} limbs, {np.sum(refused)} refused: K median {np.median(k):.1e}, worst {k.max():.1e}; "
+          f"buckling factor worst {buckling.max():.1e}; displacement worst {moved_mm.max():.3f} mm")
     assert np.median(k) <= 5e-4 and k.max() <= worst
     assert buckling.max() <= 0.02
     assert moved_mm.max() <= 0.5
+    assert np.mean(refused) <= 1e-3
 
 
 @pytest.mark.parametrize("path", ["float", "fixed"])
 def test_a_tenth_of_the_load(limbs: int, seed: int, path: str) -> None:
     """Force and weight both: near no load K is nearly exact."""
-    worst = 0.0
-    for case in random_cases(seed, 10 * limbs, in_space=False):
-        lighter = {key: value / 10.0 if key.startswith("gravity.") else value for key, value in case.keys.items()}
-        worst = max(worst, errors(replace(case, keys=lighter, force_n=case.force_n / 10.0), path)[0])
-    print(f"{path}, a tenth of the load: K worst {worst:.1e}")
-    assert worst <= 5e-4
+    k = np.array([errors(lighter(case), path)[0] for case in random_cases(seed, 10 * limbs, in_space=False)])
+    print(f"{path}, a tenth of the load: K worst {np.nanmax(k):.1e}")
+    assert np.nanmax(k) <= 5e-4
+    assert np.mean(np.isnan(k)) <= 1e-3
+
+
+@pytest.mark.parametrize("path", ["float", "fixed"])
+def test_k_of_the_engine(limbs: int, seed: int, path: str) -> None:
+    """The engine's links have 24 segments, the core's are uniform beams: that alone leaves up to 1e-3 between them."""
+    engine = pytest.importorskip("test_loaded_reference", reason="no physics engine").engine_says
+    for share, most in (("the whole load", 6e-3), ("a tenth of the load", 1e-3)):
+        worst = 0.0
+        for case in random_cases(seed, limbs, in_space=False):
+            pressed = case if share == "the whole load" else lighter(case)
+            told = core_says(pressed, path)
+            if told is not None:
+                worst = max(worst, off(told.k_n_per_mm, engine(pressed, 24)[2]))
+        print(f"{path} against the engine, {limbs} limbs, {share}: K worst {worst:.1e}")
+        assert worst <= most

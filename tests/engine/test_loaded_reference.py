@@ -16,7 +16,7 @@ except ImportError as missing:
     pytest.skip(f"no physics engine ({missing}): .venv/bin/python -m pip install mujoco", allow_module_level=True)
 
 from brace.native.loaded import under_displacement  # noqa: E402
-from cases import Case, limb_model, random_cases, reference  # noqa: E402
+from cases import Case, limb_model, off, random_cases, reference  # noqa: E402
 from engine_chain import Array  # noqa: E402
 from engine_limb import engine_limb  # noqa: E402
 from rest import Engine, Rest  # noqa: E402
@@ -72,11 +72,6 @@ def engine_says(case: Case, segments: int) -> tuple[Rest, Array, Array]:
         turn = yaw(case)
         return rest, turn @ moved, turn @ k @ turn.T
     return rest, moved, k
-
-
-def off(k: Array, wanted: Array) -> float:
-    """Frobenius, relative."""
-    return float(np.linalg.norm(k - wanted) / np.linalg.norm(wanted))
 
 
 @pytest.mark.parametrize("line", CHECK_VALUES, ids=lambda line: f"{line[1]} segments, {line[2:5]}")
