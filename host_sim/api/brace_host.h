@@ -278,8 +278,8 @@ int32_t brace_plant_joint_many(const brace_plant_model_t *models, size_t model_c
  * 0 -> +n -> 0 -> -n -> 0 steps. With cyclic != 0 it is the paper's Fig. 12: 0 -> -n -> 0 -> +n -> 0 -> -n -> 0. */
 typedef struct {
     size_t config_count;
-    const double *theta1_rad; /* commanded, one per configuration */
-    const double *theta2_rad;
+    const double *theta1_rad; /* commanded, one per configuration; any finite angle */
+    const double *theta2_rad; /* the same */
     int32_t axes;           /* 1 x, 2 z, 3 both */
     int32_t repeats;        /* [1, 1000] */
     int32_t steps_per_side; /* [1, 10000] */
@@ -290,18 +290,18 @@ typedef struct {
     int32_t small_displacements; /* as in brace_loading_rows_t */
     int32_t held_at_rest;
     double step_mm;          /* (0, 100] */
-    double preload_x_mm;     /* displacement from which every step of a run counts */
-    double preload_z_mm;
+    double preload_x_mm;     /* [-1000, 1000] displacement from which every step of a run counts */
+    double preload_z_mm;     /* [-1000, 1000] */
     double dwell_s;         /* [0, 1e6] time between readings */
     double pause_s;         /* [0, 1e6] time between runs, in addition to dwell_s */
-    double temp_start_degc; /* temperature = start + rise * (1 - exp(-(t - start_s) / time constant)) */
-    double temp_rise_degc;
+    double temp_start_degc; /* [-273.15, 1e4]; temperature = start + rise * (1 - exp(-(t - start_s) / time constant)) */
+    double temp_rise_degc;  /* [-1e4, 1e4] */
     double temp_time_constant_s; /* (0, inf) */
-    double noise_n;              /* one sigma of each force reading, before rounding */
-    double resolution_n;         /* readings are rounded to multiples of it; 0: not rounded */
+    double noise_n;              /* [0, 1e6] one sigma of each force reading, before rounding */
+    double resolution_n;         /* [0, 1e6] readings are rounded to multiples of it; 0: not rounded */
     double range_n;              /* (0, inf]: readings are clipped to +-this */
-    double encoder_noise_rad;
-    double base_noise_mm;
+    double encoder_noise_rad;    /* [0, 1e6] one sigma */
+    double base_noise_mm;        /* [0, 1e6] one sigma */
     uint64_t seed; /* the same seed gives the same noise on every machine */
     double start_s; /* [0, 1e9] time of the first reading; the temperature's course begins there too */
 } brace_rig_design_t;
@@ -310,7 +310,7 @@ typedef struct {
  * dwell 4 s, pause 20 s, 22 degC, noise 0, resolution 1/16 N, range 145 N, seed 0. */
 void brace_rig_design_default(brace_rig_design_t *design);
 
-/* How many rows the design makes; 0 when the design is not sound. */
+/* How many rows the design makes; 0 when a value is outside its range, or for more than 20 million rows. */
 size_t brace_rig_row_count(const brace_rig_design_t *design);
 
 /* A dataset's columns. Every pointer is optional, with room for brace_rig_row_count entries. */
@@ -335,13 +335,14 @@ typedef struct {
 } brace_rig_record_t;
 
 /* Plays the test on the limb and reads the instruments. With a null model it writes only the sequence, with readings 0.
- * returns as brace_plant_loading. */
+ * returns as brace_plant_loading; E_RANGE where brace_rig_row_count is 0. */
 int32_t brace_rig_play(const brace_rig_design_t *design, const brace_plant_model_t *model,
                        const brace_rig_record_t *record);
 
-/* K by slopes as the paper measures it: one run per axis at each posture (commanded angles), steps_per_side
- * steps of step_mm. least_squares == 0: the paper's mean of ratios; else least squares through the first
- * reading. k: count x 4: k_xx k_xz k_zx k_zz [N/mm], not made symmetric. */
+/* K by slopes as the paper measures it: one run per axis at each posture (commanded angles, finite), steps_per_side
+ * [1, 10000] steps of step_mm (0, 100]. least_squares == 0: the paper's mean of ratios; else least squares through the
+ * first reading. k: count x 4: k_xx k_xz k_zx k_zz [N/mm], not made symmetric; written on success only.
+ * returns as brace_plant_loading; E_RANGE for steps outside their range. */
 int32_t brace_rig_slopes(const brace_plant_model_t *model, size_t count, const double *theta1_rad,
                          const double *theta2_rad, double step_mm, int32_t steps_per_side,
                          int32_t least_squares, double *k);
@@ -349,7 +350,8 @@ int32_t brace_rig_slopes(const brace_plant_model_t *model, size_t count, const d
 /* Fig. 12's number [mm], from the cyclic test along the axis (0 x, 1 z) with the tip free across it: the displacement
  * at which the force comes back to zero after unloading from +n, minus that after -n. Backlash alone gives gap times
  * lever along the axis; friction adds to it. (With the tip held across the axis, backlash without friction shifts
- * nothing and only lowers the slope.) E_RANGE when the force does not come back to zero. */
+ * nothing and only lowers the slope.) Angles, steps_per_side and step_mm as above; shift_mm is written on success only.
+ * returns the same; E_RANGE also when the force does not come back to zero, or for another axis. */
 int32_t brace_rig_zero_force_shift(const brace_plant_model_t *model, double theta1_rad, double theta2_rad,
                                    int32_t axis, double step_mm, int32_t steps_per_side, double *shift_mm);
 
