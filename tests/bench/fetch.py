@@ -104,5 +104,5 @@ def plugin_header() -> Path:
 
 def _unpack(archive: Path, into: Path) -> None:
     with tarfile.open(archive) as contents:
-        contents.extractall(into)  # no filter: Debian 12's Python 3.11.2 knows none, and the file's sum was checked
+        contents.extractall(into)  # no filter: Python 3.11.2 has none; the file's sum was checked
     archive.unlink()

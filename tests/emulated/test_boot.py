@@ -292,15 +292,19 @@ def test_the_real_boards_image_names_what_the_emulated_chip_lacks() -> None:
         assert " setting NO_KEY " in told  # so it refuses motion, until its console says otherwise
         board.ask("K")
         board.until(r"^key: its memory does not answer$")
-        board.ask("B")
-        board.until(r"^bench until the next start$")
-        assert " setting BENCH " in stiffness(board)
-        board.ask("t")
-        text = "\n".join(board.until(r"selftest: \d+ passed"))
+        # The emulated clock follows this machine's. Where this machine is busy, its steps are coarse, and a wrong rate
+        # may seem right by chance; hardly three times.
+        for _ in range(3):
+            board.ask("B")
+            board.until(r"^bench until the next start$")
+            assert " setting BENCH " in stiffness(board)
+            board.ask("t")
+            text = "\n".join(board.until(r"selftest: \d+ passed"))
+            board.banner()  # and it starts again
+            if "FAIL now_us: runs at the wrong rate" in text:
+                break
         for words in ("FAIL joint_read(1): no such joint", "FAIL joint_read(2): no such joint", "FAIL can_setup: ",
                       "FAIL now_us: runs at the wrong rate"):  # fmt: skip
             assert words in text
-        # the emulated clock follows this machine's, so its steps are coarse where this machine is slow
         failed = [line for line in text.splitlines() if "FAIL" in line and "steps are too coarse" not in line]
         assert len(failed) == 4, failed
-        board.banner()  # and it starts again

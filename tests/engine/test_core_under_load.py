@@ -40,14 +40,11 @@ def core_limb(case: Case) -> tuple[CData, CData, CData]:
 
 
 class Told(NamedTuple):
-    """What the core says."""
+    """What the core says of a limb at rest."""
 
     k_n_per_mm: Array  # (2, 2)
     buckling_factor: float
     displacement_mm: Array  # (2,)
-
-
-SINGULAR = -6  # BRACE_E_SINGULAR
 
 
 def core_says(case: Case, path: str) -> Told | None:
@@ -61,9 +58,9 @@ def core_says(case: Case, path: str) -> Told | None:
         status = native.lib.brace_loaded_fixed_stiffness(fixed, *case.theta_rad[1:], load, result)
     else:
         status = native.lib.brace_loaded_stiffness(loaded, *case.theta_rad[1:], load, result)
-    if path == "fixed" and status == SINGULAR:
+    if path == "fixed" and status == native.lib.BRACE_E_SINGULAR:
         return None
-    assert status == 0, (status, case)
+    assert status == native.lib.BRACE_OK, (status, case)
     k = result.stiffness
     return Told(
         np.array([[k.k_xx_n_per_mm, k.k_xz_n_per_mm], [k.k_xz_n_per_mm, k.k_zz_n_per_mm]]),
@@ -116,15 +113,16 @@ def test_a_tenth_of_the_load(limbs: int, seed: int, path: str) -> None:
 
 
 @pytest.mark.parametrize("path", ["float", "fixed"])
-def test_k_of_the_engine(limbs: int, seed: int, path: str) -> None:
-    """The engine's links have 24 segments, the core's are uniform beams: that alone leaves up to 1e-3 between them."""
-    engine = pytest.importorskip("test_loaded_reference", reason="no physics engine").engine_says
-    for share, most in (("the whole load", 6e-3), ("a tenth of the load", 1e-3)):
-        worst = 0.0
-        for case in random_cases(seed, limbs, in_space=False):
-            pressed = case if share == "the whole load" else lighter(case)
-            told = core_says(pressed, path)
-            if told is not None:
-                worst = max(worst, off(told.k_n_per_mm, engine(pressed, 24)[2]))
-        print(f"{path} against the engine, {limbs} limbs, {share}: K worst {worst:.1e}")
-        assert worst <= most
+@pytest.mark.parametrize(("load", "most"), [("the whole load", 6e-3), ("a tenth of the load", 1e-3)])
+def test_k_of_the_engine(limbs: int, seed: int, path: str, load: str, most: float) -> None:
+    """The engine's links have 24 segments, the core's are uniform beams. Under a moment 24 segments turn by
+    1/(4 24^2) = 4e-4 too much, and a straight limb's K changes by as much again, whatever the load."""
+    engine_says = pytest.importorskip("test_loaded_reference", reason="no physics engine").engine_says
+    k = []
+    for case in random_cases(seed, limbs, in_space=False):
+        pressed = lighter(case) if load == "a tenth of the load" else case
+        told = core_says(pressed, path)
+        k.append(np.nan if told is None else off(told.k_n_per_mm, engine_says(pressed, 24)[2]))
+    print(f"{path} against the engine, {limbs} limbs, {load}: K worst {np.nanmax(k):.1e}")
+    assert np.nanmax(k) <= most
+    assert np.mean(np.isnan(k)) <= 2e-3

@@ -37,7 +37,7 @@ def test_an_archive_does_not_depend_on_order_time_or_rights(tmp_path: Path) -> N
 
 
 def test_the_sources_of_the_last_commit_are_exported(tmp_path: Path) -> None:
-    """With the Python that ./dev chooses, which is Debian's: the oldest that is promised."""
+    """./dev chooses Debian's Python, 3.11.2, which lacks what later patches of 3.11 have."""
     try:
         commit = source.run("git", "rev-parse", "HEAD", cwd=PROJECT).strip()
     except source.ReleaseError as error:

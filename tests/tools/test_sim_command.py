@@ -21,6 +21,7 @@ import pytest
 from conftest import Outcome, spawn
 
 from brace.cli import sim_command, sim_values
+from brace.cli.bus_options import ended_by_signal
 from brace.model import load_limb
 
 LOOPBACK = "127.0.0.1"
@@ -116,6 +117,32 @@ def test_sigterm_ends_it_with_0_and_ctrl_c_with_130(paper_limb: Path) -> None:
             assert process.returncode == code, err
             assert json.loads(out.splitlines()[-1])["event"] == "end"
             assert "Traceback" not in err
+
+
+def test_ctrl_c_ends_it_where_an_exception_would_be_lost(
+    brace: Callable[..., Outcome], paper_limb: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As in a module that is just being imported, where Python may drop what a handler raises."""
+
+    def interrupted(_arguments: object, _node: object) -> None:
+        with contextlib.suppress(KeyboardInterrupt):
+            signal.raise_signal(signal.SIGINT)
+
+    monkeypatch.setattr("brace.cli.sim_command._say_ready", interrupted)
+    assert brace("sim", "--model", paper_limb, "--seconds", 1, *FREE).code == 130
+
+
+def test_an_ignored_ctrl_c_stays_ignored() -> None:
+    """A script's shell has its background jobs ignore it, so that Ctrl-C ends what is in the foreground alone."""
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        with ended_by_signal(signal.SIGTERM, signal.SIGINT) as ended:
+            signal.raise_signal(signal.SIGINT)
+            assert not ended.is_set()
+            signal.raise_signal(signal.SIGTERM)
+            assert ended.by == signal.SIGTERM
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 def test_ctrl_c_in_the_middle_of_a_run_waits_for_the_limbs(paper_limb: Path) -> None:

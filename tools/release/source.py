@@ -63,7 +63,7 @@ def export(folder: Path) -> Source:
     epoch_s = int(run("git", "log", "-1", "--format=%ct", cwd=PROJECT))
     archive = subprocess.run(["git", "archive", "HEAD"], cwd=PROJECT, capture_output=True, check=True).stdout
     with tarfile.open(fileobj=io.BytesIO(archive)) as tar:
-        tar.extractall(folder)  # no filter: Debian 12's Python 3.11.2 knows none, and git has just made the archive
+        tar.extractall(folder)  # no filter: Debian 12's Python 3.11.2 has none; git has just made this archive
     return Source(folder, commit, epoch_s, version_of(folder))
 
 

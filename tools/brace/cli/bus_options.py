@@ -126,12 +126,16 @@ class Ended:
 
 @contextlib.contextmanager
 def ended_by_signal(*signals: signal.Signals) -> Iterator[Ended]:
-    """What SIGTERM sets, or the signals given: an orderly end. No exception comes, so nothing is cut in its middle."""
+    """What SIGTERM sets, or the signals given: an orderly end. No exception comes, so nothing is cut in its middle. A
+    signal that is ignored stays so: shells have their scripts' background jobs ignore Ctrl-C."""
     ended = Ended()
     if threading.current_thread() is not threading.main_thread():
         yield ended
         return
-    before = {number: signal.signal(number, ended.take) for number in signals or (signal.SIGTERM,)}
+    before = {}
+    for number in signals or (signal.SIGTERM,):
+        if signal.getsignal(number) != signal.SIG_IGN:
+            before[number] = signal.signal(number, ended.take)
     try:
         yield ended
     finally:

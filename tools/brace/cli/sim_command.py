@@ -6,6 +6,7 @@ import argparse
 import json
 import math
 import re
+import signal
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -173,16 +174,13 @@ def run(arguments: argparse.Namespace) -> int:
             node.add_fault(fault)
         for posture in arguments.posture[1:]:
             node.add_posture(posture)
-        code = EXIT_OK
-        with ended_by_signal() as ended:  # from before anyone can know that we run
-            try:
-                _say_ready(arguments, node)
-                (_run_fast if arguments.fast else _run_in_real_time)(arguments, node, ended)
-            except KeyboardInterrupt:
-                code = EXIT_INTERRUPTED
+        # From before anyone can know that we run. Ctrl-C raises nothing: raised inside an import it may be lost.
+        with ended_by_signal(signal.SIGTERM, signal.SIGINT) as ended:
+            _say_ready(arguments, node)
+            (_run_fast if arguments.fast else _run_in_real_time)(arguments, node, ended)
             node.stop()
             _say_end(arguments, node)
-    return code
+    return EXIT_INTERRUPTED if ended.by == signal.SIGINT else EXIT_OK
 
 
 # ------------------------------------------------------------------------------------------------ making
