@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import itertools
 import json
 import shlex
 import shutil
@@ -39,8 +40,10 @@ def run(arguments: argparse.Namespace) -> int:
     story = Story()
     show = common.say if arguments.json else common.emit
     with common.progress("fitting the table", STEPS) as advance:
-        for line in tell(story, advance):
-            show(line)
+        lines = tell(story, advance)
+        first = next(lines)  # the table is fitted before it comes; what comes later says itself what it does
+    for line in itertools.chain([first], lines):
+        show(line)
     with OutputSet() as outputs:
         for name, content in story.files.items():
             outputs.add(arguments.out / name, content)
