@@ -1,7 +1,7 @@
 """The benchmark's seeds and sizes: development for building and tuning, test for figures that are reported."""
 
 DEVELOPMENT_SEED = 110_001
-TEST_SEED = 565_984
+TEST_SEED = 548_217
 SUBSET_SEED = 330_803
 DEVELOPMENT_CASES = 300
 # Of the development seed, for tuning the baselines: what a trial's worth looks at, enough of each to tell a per cent.
