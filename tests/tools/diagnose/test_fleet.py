@@ -198,22 +198,51 @@ def test_ranking_is_by_noise_floors_and_faulty_records_lead() -> None:
     assert overview.as_json(outcomes)["limbs"][0]["gap_in_noise_floors"] is None
 
 
+def _children(parent: int) -> list[str]:
+    return Path(f"/proc/{parent}/task/{parent}/children").read_text().split()
+
+
 def _worked_s(parent: int) -> float:
     """Processor time of a process' children."""
-    children = Path(f"/proc/{parent}/task/{parent}/children").read_text().split()
-    after_name = [Path(f"/proc/{child}/stat").read_text().rpartition(")")[2].split() for child in children]
+    after_name = [Path(f"/proc/{child}/stat").read_text().rpartition(")")[2].split() for child in _children(parent)]
     return sum(int(words[11]) + int(words[12]) for words in after_name) / os.sysconf("SC_CLK_TCK")
 
 
-def test_ctrl_c_ends_a_fleet(fleet: list[Path], tmp_path: Path) -> None:
-    process = spawn("diagnose", *(fleet[:3] * 6), "--out", tmp_path / "out", "--jobs", 2)
+def _diagnosing(fleet: list[Path], out: Path) -> subprocess.Popen[str]:
+    """A fleet whose two processes are at their records."""
+    process = spawn("diagnose", *(fleet[:3] * 6), "--out", out, "--jobs", 2)
     end = time.monotonic() + 60.0
     while _worked_s(process.pid) < 3.0:  # two processes spend one of these on their imports; then they diagnose
         assert time.monotonic() < end and process.poll() is None
         time.sleep(0.1)
+    return process
+
+
+def test_ctrl_c_ends_a_fleet(fleet: list[Path], tmp_path: Path) -> None:
+    process = _diagnosing(fleet, tmp_path / "out")
     process.send_signal(signal.SIGINT)
     _, err = process.communicate(timeout=120)
     assert process.returncode == 130 and "interrupted" in err and "Traceback" not in err, err
+
+
+@pytest.mark.parametrize("by", [signal.SIGTERM, signal.SIGKILL])
+def test_a_killed_fleet_leaves_no_process_behind(fleet: list[Path], tmp_path: Path, by: signal.Signals) -> None:
+    process = _diagnosing(fleet, tmp_path / "out")
+    workers = _children(process.pid)
+    process.send_signal(by)
+    process.wait(timeout=60)
+    end = time.monotonic() + 20.0  # a record takes a second or two, and 15 more are to come
+    while left := [worker for worker in workers if _runs(worker)]:
+        assert time.monotonic() < end, left
+        time.sleep(0.1)
+
+
+def _runs(process: str) -> bool:
+    """Neither gone nor a zombie that nobody waits for."""
+    stat = Path(f"/proc/{process}/stat")
+    with contextlib.suppress(OSError):
+        return stat.read_text().rpartition(")")[2].split()[0] != "Z"
+    return False
 
 
 # --------------------------------------------------------------------------------------------- cluster

@@ -6,6 +6,7 @@ import contextlib
 import multiprocessing
 import os
 import signal
+import threading
 from collections.abc import Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
@@ -37,7 +38,7 @@ def _run(jobs: Sequence[Job], processes: int) -> Iterator[tuple[Job, Outcome | N
     pool = ProcessPoolExecutor(
         min(processes, len(jobs)),
         mp_context=multiprocessing.get_context("spawn"),
-        initializer=_leave_ctrl_c_to_parent,
+        initializer=_follow_parent,
     )
     futures: dict[Future[Outcome], Job] = {}
     try:
@@ -64,8 +65,18 @@ def _outcome(job: Job, future: Future[Outcome]) -> Outcome:
     return future.result() if error is None else lost(job, f"{type(error).__name__}: {error}")
 
 
-def _leave_ctrl_c_to_parent() -> None:
+def _follow_parent() -> None:
+    """Leaves Ctrl-C to the parent, and ends with the parent: a killed one cannot tell its processes that no record
+    comes any more, and they would wait for ever."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    threading.Thread(target=_end_after_parent, daemon=True).start()
+
+
+def _end_after_parent() -> None:
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        parent.join()
+        os._exit(1)
 
 
 @contextlib.contextmanager
