@@ -292,8 +292,8 @@ def test_the_real_boards_image_names_what_the_emulated_chip_lacks() -> None:
         assert " setting NO_KEY " in told  # so it refuses motion, until its console says otherwise
         board.ask("K")
         board.until(r"^key: its memory does not answer$")
-        # The emulated clock follows this machine's. Where this machine is busy, its steps are coarse, and a wrong rate
-        # may seem right by chance; hardly three times.
+        # The emulated clock follows this machine's. Where this machine is busy, the clock's steps are coarse, and a wrong
+        # rate may seem right by chance, but hardly three times in a row.
         for _ in range(3):
             board.ask("B")
             board.until(r"^bench until the next start$")

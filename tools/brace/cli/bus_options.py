@@ -126,8 +126,9 @@ class Ended:
 
 @contextlib.contextmanager
 def ended_by_signal(*signals: signal.Signals) -> Iterator[Ended]:
-    """What SIGTERM sets, or the signals given: an orderly end. No exception comes, so nothing is cut in its middle. A
-    signal that is ignored stays so: shells have their scripts' background jobs ignore Ctrl-C."""
+    """Yields an event that SIGTERM sets, or each of the signals given, so that a command can end in order. The signal
+    raises no exception, so nothing is cut in its middle. A signal that this process ignores stays ignored: a shell lets
+    the background jobs of a script ignore Ctrl-C."""
     ended = Ended()
     if threading.current_thread() is not threading.main_thread():
         yield ended

@@ -41,7 +41,7 @@ def run(arguments: argparse.Namespace) -> int:
     show = common.say if arguments.json else common.emit
     with common.progress("fitting the table", STEPS) as advance:
         lines = tell(story, advance)
-        first = next(lines)  # the table is fitted before it comes; what comes later says itself what it does
+        first = next(lines)  # tell() fits the table before its first line; later lines say what runs
     for line in itertools.chain([first], lines):
         show(line)
     with OutputSet() as outputs:

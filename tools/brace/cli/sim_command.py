@@ -174,7 +174,8 @@ def run(arguments: argparse.Namespace) -> int:
             node.add_fault(fault)
         for posture in arguments.posture[1:]:
             node.add_posture(posture)
-        # From before anyone can know that we run. Ctrl-C raises nothing: raised inside an import it may be lost.
+        # Signals are caught before anyone can know that this command runs. Ctrl-C sets `ended` and raises nothing, because
+        # Python may lose an exception that a handler raises inside an import.
         with ended_by_signal(signal.SIGTERM, signal.SIGINT) as ended:
             _say_ready(arguments, node)
             (_run_fast if arguments.fast else _run_in_real_time)(arguments, node, ended)

@@ -25,7 +25,7 @@ typedef enum { BRACE_K_AT_POSTURE = 0, BRACE_K_AT_TIP, BRACE_K_IN_SPACE } brace_
  * because an enumeration is a byte on some processors, with bytes behind it that nobody sets. A number outside its
  * range is refused with BRACE_E_RANGE. */
 typedef struct {
-    uint32_t where;                    /* brace_k_where_t; any other number: at a posture */
+    uint32_t where;                    /* brace_k_where_t; any other number means a posture */
     float theta_rad[BRACE_LINK_COUNT]; /* of a posture: true angles before the load turns the joints; of femur and tibia
                                           theta1^2 + theta2^2 <= BRACE_REACH_RAD2; of the coxa +-7.9, in space only */
     brace_point_t tip;                 /* of a tip: where it is before the load moves it [+-1e6 mm] */

@@ -66,8 +66,8 @@ def _outcome(job: Job, future: Future[Outcome]) -> Outcome:
 
 
 def _follow_parent() -> None:
-    """Leaves Ctrl-C to the parent, and ends with the parent: a killed one cannot tell its processes that no record
-    comes any more, and they would wait for ever."""
+    """A process of the pool ignores Ctrl-C, which its parent handles. The process ends when its parent has ended: a
+    parent that was killed sends neither a record nor the end, and the process would wait for ever."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     threading.Thread(target=_end_after_parent, daemon=True).start()
 
