@@ -1,5 +1,5 @@
-"""K in space under a load: what it costs on the Cortex-M4F, and in fixed point on the Cortex-M3, judged by the
-double-precision reference of host_sim (which agrees with a physics engine, tests/engine)."""
+"""K in space under a load: what it costs on the Cortex-M4F, judged by the double-precision reference of host_sim (which
+agrees with a physics engine, tests/engine)."""
 
 from dataclasses import dataclass, fields
 from pathlib import Path
@@ -12,49 +12,42 @@ from limits import Check, at_most
 from loaded import LEAST_FACTOR, MOST_MOVED, WEIGHTS_N
 from measure import object_of
 from postures import COUNT, Limb, Link, beam_limb, coxa_limb, postures, tilted_limb, workspace
-from toolchain import BENCH, BOARDS, BUILD, HARNESS_FLAGS, M3, M4F, Processor, link_image
+from toolchain import BENCH, BOARDS, BUILD, HARNESS_FLAGS, M4F, link_image
 from versions import core_sources
 
 STIFFNESS, TURN, BUCKLING = "rest and K", "turned, eigenvalues", "buckling factor"
 FUNCTIONS = {STIFFNESS: ("settle", "stiffness"), TURN: ("turn",), BUCKLING: ("buckling_factor",)}
 MOST_INSTRUCTIONS = {STIFFNESS: 6000, TURN: 550, BUCKLING: 13000}
-FIXED_FUNCTIONS = {STIFFNESS: ("fixed_settle", "fixed_stiffness"), TURN: ("fixed_turn",)}
-MOST_FIXED_INSTRUCTIONS = {STIFFNESS: 15000, TURN: 1700}
 LIMBS = {"beams": (beam_limb, "BEAM"), "coxa link yields": (coxa_limb, "COXA"), "tilted": (tilted_limb, "TILTED")}
 
 NOTE = """\
 K in space at the limb's rest under a force of up to 13 N on the tip and its own weight \
 ([kernel.md](kernel.md#in-space-under-a-load)), the same 200 postures and as many from the whole workspace: rest, K, \
 displacement of the tip and turns of the joints; then K turned to the robot's frame with eigenvalues and stiff axis; \
-then the buckling factor, on demand. Errors: as for the plane. Without FPU: the same limbs and postures in integers \
-([kernel.md](kernel.md#in-space-without-fpu))."""
+then the buckling factor, on demand. Errors: as for the plane."""
 
 
 @dataclass(frozen=True)
 class _Measured:
     instructions: dict[str, tuple[int, ...]]
-    paths: int  # of the functions of the rest and K, over all postures; of the integers' the turn's too
+    paths: int  # of the functions of the rest and K, over all postures
     k_median: float
     k_worst: float
     moved_worst_mm: float
 
 
-def _measure(constant: str, limb: Limb, plugin: Path, processor: Processor = M4F) -> _Measured:
-    """On the Cortex-M3 in fixed point."""
-    is_fixed = processor is M3
-    objects = [object_of(source, processor, ()) for source in core_sources()]
-    job_flags = (*HARNESS_FLAGS, f"-DBENCH_LIMB=BENCH_{constant}_LIMB", *(("-DBENCH_FIXED",) if is_fixed else ()))
-    objects += [object_of(BENCH / "ours" / "loaded_space_job.c", processor, job_flags)]
-    objects += [object_of(path, processor, HARNESS_FLAGS) for path in
+def _measure(constant: str, limb: Limb, plugin: Path) -> _Measured:
+    objects = [object_of(source, M4F, ()) for source in core_sources()]
+    job_flags = (*HARNESS_FLAGS, f"-DBENCH_LIMB=BENCH_{constant}_LIMB")
+    objects += [object_of(BENCH / "ours" / "loaded_space_job.c", M4F, job_flags)]
+    objects += [object_of(path, M4F, HARNESS_FLAGS) for path in
                 (BENCH / "image" / "harness.c", BOARDS / "common" / "startup.c")]
-    name = f"loaded_space_{constant.lower()}{'_fixed' if is_fixed else ''}.elf"
-    image = link_image(objects, BUILD / "images" / name, processor)
-    counted = {work: [count(image, processor, plugin, f"brace_loaded_space_{function}") for function in functions]
-               for work, functions in (FIXED_FUNCTIONS if is_fixed else FUNCTIONS).items()}
+    image = link_image(objects, BUILD / "images" / f"loaded_space_{constant.lower()}.elf", M4F)
+    counted = {work: [count(image, M4F, plugin, f"brace_loaded_space_{function}") for function in functions]
+               for work, functions in FUNCTIONS.items()}
     instructions = {work: tuple(map(sum, zip(*(c.instructions for c in parts)))) for work, parts in counted.items()}
     rest_and_k = counted[STIFFNESS]
-    one_path = [*rest_and_k, *counted[TURN]] if is_fixed else rest_and_k
-    return _Measured(instructions, max(len(set(c.paths)) for c in one_path), *_errors(limb, rest_and_k[0].results))
+    return _Measured(instructions, max(len(set(c.paths)) for c in rest_and_k), *_errors(limb, rest_and_k[0].results))
 
 
 def _single(value: float) -> float:
@@ -99,10 +92,11 @@ def _rows(measured: dict[str, _Measured]) -> list[list[str]]:
              f"{m.k_worst:.1e}", f"{m.moved_worst_mm:.3f}"] for name, m in measured.items()]
 
 
-def _checks(what: str, measured: dict[str, _Measured], limits: dict[str, int]) -> list[Check]:
-    every = measured.values()
+def _checks(measured: dict[str, _Measured]) -> list[Check]:
+    what, every = "K in space under a load", measured.values()
     checks = [at_most(f"{what}, {work}, instructions at every posture",
-                      max(max(m.instructions[work]) for m in every), limit) for work, limit in limits.items()]
+                      max(max(m.instructions[work]) for m in every), limit)
+              for work, limit in MOST_INSTRUCTIONS.items()]
     paths = max(m.paths for m in every)
     checks.append(Check(f"{what}: paths over all postures", f"{paths}", "one", paths == 1))
     error = f"{what}: error of K, as a fraction of its norm"
@@ -120,11 +114,7 @@ def _data(measured: dict[str, _Measured]) -> list[dict[str, object]]:
 def extra(plugin: Path) -> Extra:
     """All limbs, counted and judged."""
     measured = {name: _measure(constant, limb(), plugin) for name, (limb, constant) in LIMBS.items()}
-    fixed = {name: _measure(constant, limb(), plugin, M3) for name, (limb, constant) in LIMBS.items()}
-    checks = _checks("K in space under a load", measured, MOST_INSTRUCTIONS)
-    checks += _checks("K in space under a load in fixed point, Cortex-M3", fixed, MOST_FIXED_INSTRUCTIONS)
-    errors = ["K error, median", "K error, worst", "displacement [mm], worst"]
-    heads = ["limb", "K: instructions min / max", "turned, eigenvalues"]
-    tables = [("K in space under a load, Cortex-M4F", [*heads, "buckling factor", *errors], _rows(measured)),
-              ("K in space under a load, Cortex-M3 without FPU", [*heads, *errors], _rows(fixed))]
-    return Extra("loaded_space", NOTE, tables, checks, {"limbs": _data(measured), "fixed_limbs": _data(fixed)})
+    heads = ["limb", "K: instructions min / max", "turned, eigenvalues", "buckling factor", "K error, median",
+             "K error, worst", "displacement [mm], worst"]
+    tables = [("K in space under a load, Cortex-M4F", heads, _rows(measured))]
+    return Extra("loaded_space", NOTE, tables, _checks(measured), {"limbs": _data(measured)})

@@ -7,7 +7,7 @@ from stack import worst_stack_bytes
 from toolchain import BUILD, CORE, M3, M4F, Processor, flash_bytes, section_sizes, type_sizes
 from versions import core_sources
 
-NO_FPU_ONLY = ("planar_fixed", "loaded_fixed", "loaded_space_fixed")  # headers for controllers without an FPU
+NO_FPU_ONLY = ("planar_fixed", "loaded_fixed")  # headers for controllers without an FPU
 HOST_ONLY = ("planar_batch", "chain_batch")
 TWICE = ("chain",)  # the general path once more, with its arguments checked, for hosts
 ONCE_FLASH = "flash, Cortex-M4F, every job in the plane and in space, each once"

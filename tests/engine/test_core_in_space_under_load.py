@@ -16,13 +16,8 @@ from cases import Case, off, random_cases, reference
 from engine_chain import Array
 
 LINKS = ("coxa", "femur", "tibia")
-PATHS = ("float", "fixed")
 FACTOR_BELOW = 10.0  # accuracy is promised
 SOFTENED_BELOW = 3.0  # the flag is set
-# Integers see a link as one part; where it bends by large angles, most of all a short coxa link, that is too few.
-MEDIAN_OF_FACTOR = {"float": 1e-3, "fixed": 2e-3}
-NINE_OF_TEN = {"float": 6e-3, "fixed": 1.5e-2}
-BEYOND = {"float": 0.01, "fixed": 0.06}  # share of the limbs whose factor is off by more than 2 %
 
 
 def yaw(case: Case) -> Array:
@@ -37,17 +32,14 @@ def vector(struct: CData) -> Array:
 
 
 class CoreLimb:
-    """A limb, collapsed, and the load on it; theta0 turns the load into the limb's plane and the answers out of it.
-    path: "float", or "fixed" for the integers of controllers without an FPU."""
+    """A limb, collapsed, and the load on it; theta0 turns the load into the limb's plane and the answers out of it."""
 
-    def __init__(self, case: Case, path: str = "float") -> None:
+    def __init__(self, case: Case) -> None:
         ffi, lib = library().ffi, library().lib
-        self.case, self._path, self._yaw = case, path, yaw(case)
+        self.case, self._yaw = case, yaw(case)
         limb, weights = ffi.new("brace_limb_t *"), ffi.new("brace_gravity_t *")
         self._loaded, self._load = ffi.new("brace_loaded_space_t *"), ffi.new("brace_space_load_t *")
         self.rest, self.result = ffi.new("brace_space_rest_t *"), ffi.new("brace_space_result_t *")
-        self._turn, settle = lib.brace_loaded_space_turn, lib.brace_loaded_space_settle
-        stiffness = lib.brace_loaded_space_stiffness
         keys = case.keys
         for name in ("coxa_mm", "femur_mm", "tibia_mm"):
             setattr(limb, name, keys[f"geometry.{name}"])
@@ -65,24 +57,18 @@ class CoreLimb:
         lib.brace_loaded_space_collapse(limb, weights, self._loaded)
         for struct, given in ((self._load.tip_n, case.force_n), (self._load.down, case.gravity)):
             struct.x, struct.y, struct.z = (float(part) for part in self._yaw.T @ given)
-        if path == "fixed":
-            self.rest = ffi.new("brace_space_fixed_rest_t *")
-            self._turn, settle = lib.brace_loaded_space_fixed_turn, lib.brace_loaded_space_fixed_settle
-            stiffness = lib.brace_loaded_space_fixed_stiffness
-            loaded, self._loaded = self._loaded, ffi.new("brace_loaded_space_fixed_t *")
-            lib.brace_loaded_space_fixed_collapse(loaded, self._loaded)
-        status = settle(self._loaded, *case.theta_rad[1:], self._load, self.rest)
+        status = lib.brace_loaded_space_settle(self._loaded, *case.theta_rad[1:], self._load, self.rest)
         if status == lib.BRACE_OK:
-            status = stiffness(self._loaded, self.rest, self.result)
+            status = lib.brace_loaded_space_stiffness(self._loaded, self.rest, self.result)
         assert status in (lib.BRACE_OK, lib.BRACE_E_SINGULAR), (status, case)
         self.is_told = status == lib.BRACE_OK
 
     @property
     def k_n_per_mm(self) -> Array:
         """K in the robot's frame, as the core turns it."""
-        ffi = library().ffi
+        ffi, lib = library().ffi, library().lib
         turned = ffi.new("brace_stiffness_spatial_t *")
-        assert self._turn(self.case.theta_rad[0], ffi.addressof(self.result, "k"), turned) == 0
+        assert lib.brace_loaded_space_turn(self.case.theta_rad[0], ffi.addressof(self.result, "k"), turned) == 0
         names = ("xx", "xy", "xz", "xy", "yy", "yz", "xz", "yz", "zz")
         k = np.array([getattr(turned, f"k_{name}_n_per_mm") for name in names]).reshape(3, 3)
         told = np.array(list(turned.lambda_n_per_mm), dtype=np.float64)
@@ -96,20 +82,13 @@ class CoreLimb:
 
     @property
     def buckling_factor(self) -> float:
-        """Infinity: none; NaN: not told."""
-        ffi, lib = library().ffi, library().lib
-        if self._path == "float":
-            return float(lib.brace_loaded_space_buckling_factor(self._loaded, self.rest))
-        search, factor = ffi.new("brace_buckling_search_t *"), ffi.new("float *")
-        lib.brace_loaded_space_fixed_buckling_begin(search)
-        while not lib.brace_loaded_space_fixed_buckling_step(self._loaded, self.rest, search, factor):
-            pass
-        return float(factor[0])
+        """Infinity: none."""
+        return float(library().lib.brace_loaded_space_buckling_factor(self._loaded, self.rest))
 
 
-def errors(case: Case, path: str = "float") -> tuple[float, float]:
+def errors(case: Case) -> tuple[float, float]:
     """Of K (Frobenius norm, relative) and the displacement [mm]. Both NaN where the core refuses."""
-    core, found = CoreLimb(case, path), reference(case)
+    core, found = CoreLimb(case), reference(case)
     if not core.is_told:
         return np.nan, np.nan
     return (
@@ -144,49 +123,44 @@ def softened_limbs(seed: int, count: int) -> tuple[tuple[Case, float], ...]:
     return tuple(limbs)
 
 
-@pytest.mark.parametrize("path", PATHS)
-def test_buckling_factor(limbs: int, seed: int, path: str) -> None:
-    """What brace/loaded_space.h and brace/loaded_space_fixed.h promise. A limb whose K is not told has no factor."""
-    errors_of_factor, wrong_flags, refused, not_told = [], 0, 0, 0
+def test_buckling_factor(limbs: int, seed: int) -> None:
+    """What brace/loaded_space.h promises. A limb whose K is not told has no factor."""
+    errors_of_factor, wrong_flags, refused = [], 0, 0
     cases = softened_limbs(seed, 10 * limbs)
     for case, factor in cases:
-        core = CoreLimb(case, path)
+        core = CoreLimb(case)
         if not core.is_told:
             refused += 1
             continue
         is_told = core.buckling_factor
-        if np.isnan(is_told):
-            not_told += 1
-            continue
         errors_of_factor.append(abs(is_told / factor - 1.0))
         wrong_flags += (is_told < SOFTENED_BELOW) != (factor < SOFTENED_BELOW)
     error = np.array(errors_of_factor)
     beyond = float(np.mean(error > 0.02))
     print(
-        f"{path}, {len(cases)} limbs with a buckling factor below {FACTOR_BELOW:g}, {refused} refused, "
-        f"{not_told} not told: median {np.median(error):.1e}, nine of ten {np.quantile(error, 0.9):.1e}, "
+        f"{len(cases)} limbs with a buckling factor below {FACTOR_BELOW:g}, {refused} refused: "
+        f"median {np.median(error):.1e}, nine of ten {np.quantile(error, 0.9):.1e}, "
         f"99 of 100 {np.quantile(error, 0.99):.1e}, worst {error.max():.1e}, beyond 2 % {beyond:.1%}; "
         f"SOFTENED wrong {wrong_flags}"
     )
     assert wrong_flags <= 0.002 * len(cases)
-    assert refused <= 0.05 * len(cases) and not_told <= 0.01 * len(cases)
-    assert np.median(error) <= MEDIAN_OF_FACTOR[path]
-    assert np.quantile(error, 0.9) <= NINE_OF_TEN[path]
-    assert beyond <= BEYOND[path]
-    assert np.quantile(error, 0.99) <= (0.03 if path == "float" else 0.1)
+    assert refused <= 0.05 * len(cases)
+    assert np.median(error) <= 1e-3
+    assert np.quantile(error, 0.9) <= 6e-3
+    assert beyond <= 0.01  # share of the limbs whose factor is off by more than 2 %
+    assert np.quantile(error, 0.99) <= 0.03
     assert error.max() <= 0.3
 
 
-@pytest.mark.parametrize("path", PATHS)
-def test_k_and_displacement(limbs: int, seed: int, path: str) -> None:
-    """What brace/loaded_space.h and brace/loaded_space_fixed.h promise."""
-    found = np.array([errors(case, path) for case in limbs_in_space(seed, 10 * limbs)])
+def test_k_and_displacement(limbs: int, seed: int) -> None:
+    """What brace/loaded_space.h promises."""
+    found = np.array([errors(case) for case in limbs_in_space(seed, 10 * limbs)])
     told = ~np.isnan(found[:, 0])
     refused = 1.0 - np.mean(told)
     k, moved_mm = found[told].T
     beyond = np.mean(k > 0.01)
     print(
-        f"{path}, {len(found)} limbs, {refused:.2%} refused: K median {np.median(k):.1e}, worst {k.max():.1e}, "
+        f"{len(found)} limbs, {refused:.2%} refused: K median {np.median(k):.1e}, worst {k.max():.1e}, "
         f"beyond 1 % {beyond:.2%}; displacement median {np.median(moved_mm):.3f} mm, worst {moved_mm.max():.2f} mm"
     )
     assert np.median(k) <= 1e-3
@@ -198,16 +172,15 @@ def test_k_and_displacement(limbs: int, seed: int, path: str) -> None:
     assert np.median(moved_mm) <= 0.05
 
 
-@pytest.mark.parametrize("path", PATHS)
 @pytest.mark.parametrize(("part", "most"), [(0.1, 1e-3), (0.0, 1e-4)])
-def test_less_load(limbs: int, seed: int, path: str, part: float, most: float) -> None:
+def test_less_load(limbs: int, seed: int, part: float, most: float) -> None:
     """Force and weight both: K's error falls with the load. Without it there is only rounding of C's entries, 6e-8 of
     the largest, which counts in K as often as C is slender: up to a thousand times here."""
     worst = 0.0
     for case in limbs_in_space(seed, 10 * limbs):
         lighter = {key: value * part if key.startswith("gravity.") else value for key, value in case.keys.items()}
-        error = errors(replace(case, keys=lighter, force_n=case.force_n * part), path)[0]
+        error = errors(replace(case, keys=lighter, force_n=case.force_n * part))[0]
         assert not np.isnan(error)
         worst = max(worst, error)
-    print(f"{path}, {part} of the load: K worst {worst:.1e}")
+    print(f"{part} of the load: K worst {worst:.1e}")
     assert worst <= most

@@ -41,6 +41,19 @@ def test_a_limb_stiff_across_has_no_k_in_space(brace: Brace, tmp_path: Path, by_
     assert "[joint.coxa] compliance_rad_per_n_mm" in outcome.err and "lateral_mm_per_n" in outcome.err
 
 
+@pytest.mark.parametrize("force", [(), ("--fz", 5)])
+@pytest.mark.parametrize("by_file", [False, True])
+def test_fixed_point_is_refused_in_space(
+    brace: Brace, paper_limb: Path, tmp_path: Path, by_file: bool, force: tuple[object, ...]
+) -> None:
+    source = tmp_path / "in.csv"
+    source.write_text("theta0_rad,theta1_rad,theta2_rad\n0,1,1.4\n")
+    asked = ("--csv", source, "--out", tmp_path / "o.csv") if by_file else ("--theta0", 0, *POSTURE)
+    outcome = brace("k", "--model", paper_limb, *asked, *force, "--arith", "fixed")
+    assert outcome.code == 2 and not (tmp_path / "o.csv").exists()
+    assert "fixed point works in the plane" in outcome.err and "try: --arith f32" in outcome.err
+
+
 def test_streams_that_take_nothing(paper_limb: Path, tmp_path: Path) -> None:
     k = f"BRACE k --model {paper_limb} --theta1 1 --theta2 1"
     for command in (

@@ -1,18 +1,14 @@
-/* The bench's job for K in space under a load, its turning and its buckling factor; with BENCH_FIXED in fixed point. */
+/* The bench's job for K in space under a load, its turning and its buckling factor. */
 #include <stdlib.h>
 
 #include "bench_data.h"
 #include "brace/loaded_space.h"
-#include "brace/loaded_space_fixed.h"
 #include "job.h"
 #include "loaded_case.h"
 
 static const float postures[BENCH_ALL_COUNT][3] = BENCH_ALL;
 static const brace_limb_t limb = BENCH_LIMB;
 static brace_loaded_space_t loaded;
-#ifdef BENCH_FIXED
-static brace_loaded_space_fixed_t fixed;
-#endif
 
 const int job_runs = BENCH_ALL_COUNT;
 const int job_out_count = 10;
@@ -21,9 +17,6 @@ void job_setup(void)
 {
     static const brace_gravity_t weights = {.femur_n = BENCH_FEMUR_N, .knee_n = BENCH_KNEE_N, .tibia_n = BENCH_TIBIA_N};
     brace_loaded_space_collapse(&limb, &weights, &loaded);
-#ifdef BENCH_FIXED
-    brace_loaded_space_fixed_collapse(&loaded, &fixed);
-#endif
 }
 
 static brace_loaded_joint_t joint_of(int index)
@@ -45,21 +38,6 @@ void job_run(int index, float *out)
     brace_space_result_t result;
     brace_stiffness_spatial_t turned;
     const float *angles = postures[index];
-#ifdef BENCH_FIXED
-    brace_space_fixed_rest_t rest;
-    brace_stiffness_t plane;
-    if (brace_loaded_space_fixed_settle(&fixed, angles[1], angles[2], &load, &rest) != BRACE_OK ||
-        brace_loaded_space_fixed_stiffness(&fixed, &rest, &result) != BRACE_OK ||
-        brace_loaded_space_fixed_in_plane(&result.k, &plane) != BRACE_OK ||
-        brace_loaded_space_fixed_turn(angles[0], &result.k, &turned) != BRACE_OK) {
-        exit(1);
-    }
-    brace_buckling_search_t search;
-    float factor = 0.0f;
-    brace_loaded_space_fixed_buckling_begin(&search);
-    while (!brace_loaded_space_fixed_buckling_step(&fixed, &rest, &search, &factor)) {
-    }
-#else
     brace_space_rest_t rest;
     if (brace_loaded_space_settle(&loaded, angles[1], angles[2], &load, &rest) != BRACE_OK ||
         brace_loaded_space_stiffness(&loaded, &rest, &result) != BRACE_OK ||
@@ -67,7 +45,6 @@ void job_run(int index, float *out)
         exit(1);
     }
     const float factor = brace_loaded_space_buckling_factor(&loaded, &rest);
-#endif
     const float numbers[10] = {result.k.xx_n_per_mm,     result.k.xy_n_per_mm,     result.k.xz_n_per_mm,
                                result.k.yy_n_per_mm,     result.k.yz_n_per_mm,     result.k.zz_n_per_mm,
                                result.displacement_mm.x, result.displacement_mm.y, result.displacement_mm.z,

@@ -7,7 +7,6 @@
 
 /* Turns (loaded_turns). */
 #define DIRECTION_MOST ((1LL << 30) + 2)
-#define DIRECTION_PART_MOST ((1LL << 30) - 64)
 #define SMALL_TURN_LEAST PART_OF(30, 0.999)
 #define SMALL_TURN_MOST PART_OF(30, 1.001)
 #define SMALL_SINE_MOST PART_OF(30, 0.87)
@@ -59,10 +58,6 @@
 /* C, with its springs, and what rounding adds off the diagonal: 2^33 for each of six levers. */
 #define C_MOST ((1ull << 62) + (1ull << 58))
 #define C_ROUNDED (1LL << 36)
-
-
-/* C in space, each entry of its diagonal (loaded_space). */
-#define SPACE_C_MOST ((1LL << 61) + (1LL << 59))
 
 /* The search for the buckling factor: its units (loaded_search), and the limb under a multiple of its load
  * (loaded_softened). */

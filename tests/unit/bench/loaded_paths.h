@@ -1,4 +1,4 @@
-/* The four paths under a load (in the plane and in space, floats and integers), asked of one limb alike. */
+/* The three paths under a load (in the plane by floats and by integers, and in space), asked of one limb alike. */
 #ifndef LOADED_PATHS_H
 #define LOADED_PATHS_H
 
@@ -7,12 +7,11 @@
 #include "brace/loaded.h"
 #include "brace/loaded_fixed.h"
 #include "brace/loaded_space.h"
-#include "brace/loaded_space_fixed.h"
 #include "sample_limbs.h"
 #include "times.h"
 #include "unity.h"
 
-typedef enum { FLOATS, INTEGERS, PATHS } path_t;
+typedef enum { FLOATS, INTEGERS, PATHS } path_t; /* in the plane */
 
 static brace_limb_t limb;
 static brace_gravity_t weights;
@@ -61,8 +60,7 @@ static inline brace_loaded_stiffness_t in_plane(path_t path, double x_n, double 
 }
 
 /* In space. factor may be NULL. */
-static inline brace_status_t status_in_space(path_t path, const double force_n[3], brace_space_result_t *result,
-                                             float *factor)
+static inline brace_status_t status_in_space(const double force_n[3], brace_space_result_t *result, float *factor)
 {
     brace_loaded_space_t loaded;
     space_load.tip_n = (brace_vec3_t){(float)force_n[0], (float)force_n[1], (float)force_n[2]};
@@ -70,36 +68,21 @@ static inline brace_status_t status_in_space(path_t path, const double force_n[3
     space_load.hip = spring_of(BRACE_FEMUR);
     space_load.knee = spring_of(BRACE_TIBIA);
     brace_loaded_space_collapse(&limb, &weights, &loaded);
-    if (path == FLOATS) {
-        brace_space_rest_t rest;
-        brace_status_t status =
-            brace_loaded_space_settle(&loaded, (float)theta1_rad, (float)theta2_rad, &space_load, &rest);
-        status = status == BRACE_OK ? brace_loaded_space_stiffness(&loaded, &rest, result) : status;
-        if (status == BRACE_OK && factor != NULL) {
-            *factor = brace_loaded_space_buckling_factor(&loaded, &rest);
-        }
-        return status;
-    }
-    brace_loaded_space_fixed_t fixed;
-    brace_space_fixed_rest_t rest;
-    brace_loaded_space_fixed_collapse(&loaded, &fixed);
+    brace_space_rest_t rest;
     brace_status_t status =
-        brace_loaded_space_fixed_settle(&fixed, (float)theta1_rad, (float)theta2_rad, &space_load, &rest);
-    status = status == BRACE_OK ? brace_loaded_space_fixed_stiffness(&fixed, &rest, result) : status;
+        brace_loaded_space_settle(&loaded, (float)theta1_rad, (float)theta2_rad, &space_load, &rest);
+    status = status == BRACE_OK ? brace_loaded_space_stiffness(&loaded, &rest, result) : status;
     if (status == BRACE_OK && factor != NULL) {
-        brace_buckling_search_t search;
-        brace_loaded_space_fixed_buckling_begin(&search);
-        while (!brace_loaded_space_fixed_buckling_step(&fixed, &rest, &search, factor)) {
-        }
+        *factor = brace_loaded_space_buckling_factor(&loaded, &rest);
     }
     return status;
 }
 
-static inline brace_space_result_t in_space(path_t path, const double force_n[3], float *factor)
+static inline brace_space_result_t in_space(const double force_n[3], float *factor)
 {
     brace_space_result_t result;
     memset(&result, 0, sizeof result);
-    TEST_ASSERT_EQUAL(BRACE_OK, status_in_space(path, force_n, &result, factor));
+    TEST_ASSERT_EQUAL(BRACE_OK, status_in_space(force_n, &result, factor));
     return result;
 }
 

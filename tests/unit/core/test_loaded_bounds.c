@@ -1,17 +1,16 @@
-/* Tests of the bounds of the four paths under a load, each at the bound, just within and just beyond: angles, force,
+/* Tests of the bounds of the three paths under a load, each at the bound, just within and just beyond: angles, force,
  * how far the limb may be from rest after two steps, the least resistance, and the smallest ratio of K's eigenvalues.
- * The four paths refuse the same inputs. */
+ * The three paths refuse the same inputs. */
 #include <math.h>
 #include <string.h>
 
 #include "brace/loaded.h"
 #include "brace/loaded_fixed.h"
 #include "brace/loaded_space.h"
-#include "brace/loaded_space_fixed.h"
 #include "sample_limbs.h"
 #include "unity.h"
 
-typedef enum { PLANE, PLANE_INTEGERS, SPACE, SPACE_INTEGERS, PATHS } path_t;
+typedef enum { PLANE, PLANE_INTEGERS, SPACE, PATHS } path_t;
 
 static brace_limb_t limb;
 static brace_gravity_t weights;
@@ -54,23 +53,17 @@ static brace_status_t status_in_plane(bool is_fixed)
     return status;
 }
 
-static brace_status_t status_in_space(bool is_fixed)
+static brace_status_t status_in_space(void)
 {
     brace_loaded_space_t loaded;
-    brace_loaded_space_fixed_t fixed;
     brace_space_rest_t rest;
-    brace_space_fixed_rest_t fixed_rest;
     brace_space_result_t result;
     const brace_space_load_t load = {.tip_n = tip_n, .down = down, .yaw = spring_of(BRACE_COXA),
                                      .hip = spring_of(BRACE_FEMUR), .knee = spring_of(BRACE_TIBIA)};
     brace_loaded_space_collapse(&limb, &weights, &loaded);
-    brace_loaded_space_fixed_collapse(&loaded, &fixed);
-    brace_status_t status = is_fixed
-                                ? brace_loaded_space_fixed_settle(&fixed, theta1_rad, theta2_rad, &load, &fixed_rest)
-                                : brace_loaded_space_settle(&loaded, theta1_rad, theta2_rad, &load, &rest);
+    brace_status_t status = brace_loaded_space_settle(&loaded, theta1_rad, theta2_rad, &load, &rest);
     if (status == BRACE_OK) {
-        status = is_fixed ? brace_loaded_space_fixed_stiffness(&fixed, &fixed_rest, &result)
-                          : brace_loaded_space_stiffness(&loaded, &rest, &result);
+        status = brace_loaded_space_stiffness(&loaded, &rest, &result);
     }
     if (status == BRACE_OK) {
         hip_turn_rad = result.hip_turn_rad;
@@ -80,8 +73,7 @@ static brace_status_t status_in_space(bool is_fixed)
 
 static brace_status_t status_of(path_t path)
 {
-    return path == PLANE || path == PLANE_INTEGERS ? status_in_plane(path == PLANE_INTEGERS)
-                                                   : status_in_space(path == SPACE_INTEGERS);
+    return path == SPACE ? status_in_space() : status_in_plane(path == PLANE_INTEGERS);
 }
 
 /* So stiff that a force of 10 kN moves it by a tenth of a millimetre. */
@@ -121,7 +113,7 @@ static void test_forces_up_to_their_bound(void)
 {
     be_stiff();
     for (int path = 0; path < PATHS; path++) {
-        const bool is_space = path == SPACE || path == SPACE_INTEGERS;
+        const bool is_space = path == SPACE;
         for (uint32_t sign = 0; sign < 8u; sign++) {
             for (int beyond = 0; beyond < 2; beyond++) {
                 float *const part[] = {&tip_n.x, &tip_n.y, &tip_n.z};
@@ -144,19 +136,14 @@ static void test_directions_up_to_their_bound(void)
 {
     const float most = 1.0f + 0x1p-10f, beyond = 1.0f + 0x1p-10f + 0x1p-23f;
     be_stiff();
-    for (int path = PLANE_INTEGERS; path < PATHS; path += 2) {
-        for (int i = 0; i < 6; i++) {
-            float *const part[] = {&down.x, &down.z, &down.y};
-            const float sign = i % 2 == 0 ? 1.0f : -1.0f;
-            if (i / 2 == 2 && path == PLANE_INTEGERS) {
-                continue;
-            }
-            down = (brace_vec3_t){0.0f, 0.0f, 0.0f};
-            *part[i / 2] = sign * most;
-            TEST_ASSERT_EQUAL(BRACE_OK, status_of((path_t)path));
-            *part[i / 2] = sign * beyond;
-            TEST_ASSERT_EQUAL(BRACE_E_RANGE, status_of((path_t)path));
-        }
+    for (int i = 0; i < 4; i++) {
+        float *const part[] = {&down.x, &down.z};
+        const float sign = i % 2 == 0 ? 1.0f : -1.0f;
+        down = (brace_vec3_t){0.0f, 0.0f, 0.0f};
+        *part[i / 2] = sign * most;
+        TEST_ASSERT_EQUAL(BRACE_OK, status_of(PLANE_INTEGERS));
+        *part[i / 2] = sign * beyond;
+        TEST_ASSERT_EQUAL(BRACE_E_RANGE, status_of(PLANE_INTEGERS));
     }
 }
 
@@ -196,13 +183,13 @@ static void test_in_the_plane_two_steps_settle_up_to_a_bound(void)
 }
 
 /* A hinge is pressed along its link by a share of its buckling force. It keeps the rest, 1 - share, of its stiffness.
- * The float paths refuse a rest below a thousandth. The integer paths refuse where the inverse of the rest does not
- * fit into its word, at the latest below a sixteenth. */
+ * The float paths refuse a rest below a thousandth. The integer path refuses where the inverse of the rest does not fit
+ * into its word, at the latest below a sixteenth. */
 static void test_what_resists_no_more_is_refused(void)
 {
     const float c = 1e-5f, lever = only_the_hip_yields(c), buckles_n = 1.0f / (c * lever);
     for (int path = 0; path < PATHS; path++) {
-        const bool is_fixed = path == PLANE_INTEGERS || path == SPACE_INTEGERS;
+        const bool is_fixed = path == PLANE_INTEGERS;
         tip_n.x = -buckles_n * (1.0f - (is_fixed ? 0.5f : 0.0015f));
         TEST_ASSERT_EQUAL(BRACE_OK, status_of((path_t)path));
         tip_n.x = -buckles_n * (1.0f - (is_fixed ? 0.06f : 0.0005f));
@@ -218,62 +205,52 @@ static brace_k3_t slender_k(int axis, float least)
     return (brace_k3_t){axis == 0 ? least : 1.0f, 0.0f, 0.0f, axis == 1 ? least : 1.0f, 0.0f, axis == 2 ? least : 1.0f};
 }
 
-static brace_status_t turned(bool is_fixed, float theta0_rad, const brace_k3_t *k)
+static brace_status_t turned(float theta0_rad, const brace_k3_t *k)
 {
     brace_stiffness_spatial_t s;
-    const brace_status_t status = is_fixed ? brace_loaded_space_fixed_turn(theta0_rad, k, &s)
-                                           : brace_loaded_space_turn(theta0_rad, k, &s);
+    const brace_status_t status = brace_loaded_space_turn(theta0_rad, k, &s);
     flags = status == BRACE_OK ? s.flags : 0u;
     return status;
 }
 
-static brace_status_t put_in_plane(bool is_fixed, const brace_k3_t *k)
+static brace_status_t put_in_plane(const brace_k3_t *k)
 {
     brace_stiffness_t s;
-    const brace_status_t status =
-        is_fixed ? brace_loaded_space_fixed_in_plane(k, &s) : brace_loaded_space_in_plane(k, &s);
+    const brace_status_t status = brace_loaded_space_in_plane(k, &s);
     flags = status == BRACE_OK ? s.flags : 0u;
     return status;
 }
 
 /* In space the bound is on the least eigenvalue over the largest one, 1e-4. In the plane the bound is on the
- * determinant over the squared mean, 2e-5, which is an eigenvalue of 5e-6 here. The integer path compares the
- * determinant's high word only, which is about twenty at the bound. */
+ * determinant over the squared mean, 2e-5, which is an eigenvalue of 5e-6 here. */
 static void test_slender_K_is_flagged_from_its_bound_on(void)
 {
-    for (int is_fixed = 0; is_fixed < 2; is_fixed++) {
-        for (int axis = 0; axis < 3; axis++) {
-            const brace_k3_t sound = slender_k(axis, 1.003e-4f), slender = slender_k(axis, 0.997e-4f);
-            TEST_ASSERT_EQUAL(BRACE_OK, turned(is_fixed != 0, 0.3f, &sound));
-            TEST_ASSERT_EQUAL_UINT32(0u, flags);
-            TEST_ASSERT_EQUAL(BRACE_OK, turned(is_fixed != 0, 0.3f, &slender));
-            TEST_ASSERT_EQUAL_UINT32(BRACE_FLAG_NEAR_SINGULAR, flags);
-        }
-        for (int axis = 0; axis < 3; axis += 2) {
-            const float near = is_fixed ? 0.5e-6f : 0.02e-6f;
-            const brace_k3_t sound = slender_k(axis, 5e-6f + near), slender = slender_k(axis, 5e-6f - near);
-            TEST_ASSERT_EQUAL(BRACE_OK, put_in_plane(is_fixed != 0, &sound));
-            TEST_ASSERT_EQUAL_UINT32(0u, flags);
-            TEST_ASSERT_EQUAL(BRACE_OK, put_in_plane(is_fixed != 0, &slender));
-            TEST_ASSERT_EQUAL_UINT32(BRACE_FLAG_NEAR_SINGULAR, flags);
-        }
+    for (int axis = 0; axis < 3; axis++) {
+        const brace_k3_t sound = slender_k(axis, 1.003e-4f), slender = slender_k(axis, 0.997e-4f);
+        TEST_ASSERT_EQUAL(BRACE_OK, turned(0.3f, &sound));
+        TEST_ASSERT_EQUAL_UINT32(0u, flags);
+        TEST_ASSERT_EQUAL(BRACE_OK, turned(0.3f, &slender));
+        TEST_ASSERT_EQUAL_UINT32(BRACE_FLAG_NEAR_SINGULAR, flags);
+    }
+    for (int axis = 0; axis < 3; axis += 2) {
+        const float near = 0.02e-6f;
+        const brace_k3_t sound = slender_k(axis, 5e-6f + near), slender = slender_k(axis, 5e-6f - near);
+        TEST_ASSERT_EQUAL(BRACE_OK, put_in_plane(&sound));
+        TEST_ASSERT_EQUAL_UINT32(0u, flags);
+        TEST_ASSERT_EQUAL(BRACE_OK, put_in_plane(&slender));
+        TEST_ASSERT_EQUAL_UINT32(BRACE_FLAG_NEAR_SINGULAR, flags);
     }
 }
 
-/* The integer path tells K in the plane down to the last place that its word keeps. */
-static void test_slender_K_is_told_down_to_the_last_place(void)
+/* K that is nothing in one direction of the plane, or less, has no eigenvalues to tell there. */
+static void test_K_that_is_flat_in_the_plane_is_refused(void)
 {
     for (int axis = 0; axis < 3; axis += 2) {
-        const brace_k3_t told = slender_k(axis, 1.5f * 0x1p-27f), none = slender_k(axis, 0.7f * 0x1p-28f);
-        TEST_ASSERT_EQUAL(BRACE_OK, put_in_plane(true, &told));
+        const brace_k3_t told = slender_k(axis, 1e-8f), flat = slender_k(axis, 0.0f), unstable = slender_k(axis, -0.5f);
+        TEST_ASSERT_EQUAL(BRACE_OK, put_in_plane(&told));
         TEST_ASSERT_EQUAL_UINT32(BRACE_FLAG_NEAR_SINGULAR, flags);
-        TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, put_in_plane(true, &none));
-        TEST_ASSERT_EQUAL(BRACE_OK, put_in_plane(false, &told));
-        const brace_k3_t flat = slender_k(axis, 0.0f), unstable = slender_k(axis, -0.5f);
-        for (int is_fixed = 0; is_fixed < 2; is_fixed++) {
-            TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, put_in_plane(is_fixed != 0, &flat));
-            TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, put_in_plane(is_fixed != 0, &unstable));
-        }
+        TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, put_in_plane(&flat));
+        TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, put_in_plane(&unstable));
     }
 }
 
@@ -287,32 +264,27 @@ static void test_K_in_the_plane_is_what_space_has_there(void)
                               .xz_n_per_mm = (float)((stiff - soft) * c * s),
                               .zz_n_per_mm = (float)(stiff * s * s + soft * c * c),
                               .xy_n_per_mm = 0.3f, .yy_n_per_mm = 7.0f, .yz_n_per_mm = -0.2f};
-        for (int is_fixed = 0; is_fixed < 2; is_fixed++) {
-            brace_stiffness_t plane;
-            TEST_ASSERT_EQUAL(BRACE_OK, is_fixed != 0 ? brace_loaded_space_fixed_in_plane(&k, &plane)
-                                                      : brace_loaded_space_in_plane(&k, &plane));
-            TEST_ASSERT_EQUAL_FLOAT(k.xx_n_per_mm, plane.k_xx_n_per_mm);
-            TEST_ASSERT_EQUAL_FLOAT(k.xz_n_per_mm, plane.k_xz_n_per_mm);
-            TEST_ASSERT_EQUAL_FLOAT(k.zz_n_per_mm, plane.k_zz_n_per_mm);
-            TEST_ASSERT_DOUBLE_WITHIN(1e-6 * stiff, stiff, (double)plane.lambda_max_n_per_mm);
-            TEST_ASSERT_DOUBLE_WITHIN(1e-6 * stiff, soft, (double)plane.lambda_min_n_per_mm);
-            if (soft < 0.9 * stiff) {
-                TEST_ASSERT_DOUBLE_WITHIN(5e-6, 0.0, sin((double)plane.stiff_axis_rad - axis_rad));
-            }
-            TEST_ASSERT_EQUAL_UINT32(0u, plane.flags);
+        brace_stiffness_t plane;
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_loaded_space_in_plane(&k, &plane));
+        TEST_ASSERT_EQUAL_FLOAT(k.xx_n_per_mm, plane.k_xx_n_per_mm);
+        TEST_ASSERT_EQUAL_FLOAT(k.xz_n_per_mm, plane.k_xz_n_per_mm);
+        TEST_ASSERT_EQUAL_FLOAT(k.zz_n_per_mm, plane.k_zz_n_per_mm);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-6 * stiff, stiff, (double)plane.lambda_max_n_per_mm);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-6 * stiff, soft, (double)plane.lambda_min_n_per_mm);
+        if (soft < 0.9 * stiff) {
+            TEST_ASSERT_DOUBLE_WITHIN(5e-6, 0.0, sin((double)plane.stiff_axis_rad - axis_rad));
         }
+        TEST_ASSERT_EQUAL_UINT32(0u, plane.flags);
     }
 }
 
 static void test_turning_up_to_its_bound(void)
 {
     const brace_k3_t k = slender_k(0, 0.5f);
-    for (int is_fixed = 0; is_fixed < 2; is_fixed++) {
-        for (float sign = -1.0f; sign <= 1.0f; sign += 2.0f) {
-            TEST_ASSERT_EQUAL(BRACE_OK, turned(is_fixed != 0, sign * 7.8999f, &k));
-            TEST_ASSERT_EQUAL(BRACE_E_RANGE, turned(is_fixed != 0, sign * 7.9001f, &k));
-            TEST_ASSERT_EQUAL(BRACE_E_NOT_FINITE, turned(is_fixed != 0, sign * INFINITY, &k));
-        }
+    for (float sign = -1.0f; sign <= 1.0f; sign += 2.0f) {
+        TEST_ASSERT_EQUAL(BRACE_OK, turned(sign * 7.8999f, &k));
+        TEST_ASSERT_EQUAL(BRACE_E_RANGE, turned(sign * 7.9001f, &k));
+        TEST_ASSERT_EQUAL(BRACE_E_NOT_FINITE, turned(sign * INFINITY, &k));
     }
 }
 
@@ -325,7 +297,7 @@ int main(void)
     RUN_TEST(test_in_the_plane_two_steps_settle_up_to_a_bound);
     RUN_TEST(test_what_resists_no_more_is_refused);
     RUN_TEST(test_slender_K_is_flagged_from_its_bound_on);
-    RUN_TEST(test_slender_K_is_told_down_to_the_last_place);
+    RUN_TEST(test_K_that_is_flat_in_the_plane_is_refused);
     RUN_TEST(test_K_in_the_plane_is_what_space_has_there);
     RUN_TEST(test_turning_up_to_its_bound);
     return UNITY_END();

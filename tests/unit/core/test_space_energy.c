@@ -8,7 +8,6 @@
 #define in_plane vec_in_plane /* loaded_paths.h has a function of this name, too */
 #include "loaded/space_parts.h"
 #undef in_plane
-#include "fixed_space/eliminate.h"
 
 #include "even_limb.h"
 
@@ -238,22 +237,9 @@ static bool take_any_limb(double turn_rad)
     return true;
 }
 
-/* By integers a link is one part. NaN where a word does not hold what is met. */
-static double by_integers(const brace_loaded_space_fixed_t *fixed, const brace_space_fixed_rest_t *at, double times,
-                          bool *is_stable_)
-{
-    fixed_overload_t overload = {.times_q27 = (int32_t)(times * 0x1p27), .mantissa_q31 = 1 << 30, .exponent = 1};
-    fixed_freedoms_t free;
-    noted_t noted = 0u;
-    fixed_eliminate_limb(fixed, at, &overload, &free, &noted);
-    *is_stable_ = !overload.has_buckled;
-    const double size = ldexp((double)overload.mantissa_q31, overload.exponent - 31);
-    return is_refused(noted) ? (double)NAN : overload.is_negative ? -size : size;
-}
-
 /* --- what is compared ----------------------------------------------------------------------------------------- */
 
-enum { LIMBS = 5 * TIMES, WORD_HOLDS = 15 /* times the load */ };
+enum { LIMBS = 5 * TIMES };
 
 /* A limb turns by so much for its whole length. The core leaves out the third order of that. */
 static double turn_of(int limb_index)
@@ -302,8 +288,7 @@ static void test_the_parts_end_at_the_tip(void)
     TEST_ASSERT_GREATER_OR_EQUAL(LIMBS - 1, told);
 }
 
-/* Both are compared at multiples of the load, up to the one at which the limb folds. The integers hold a determinant to
- * 2^-12 of the largest number from which they make it. */
+/* At multiples of the load, up to the one at which the limb folds. */
 static void test_the_determinant_is_that_of_the_load_s_work(void)
 {
     state = 22u;
@@ -313,34 +298,19 @@ static void test_the_determinant_is_that_of_the_load_s_work(void)
         if (!take_any_limb(turn_rad)) {
             continue;
         }
-        brace_loaded_space_fixed_t fixed;
-        brace_space_fixed_rest_t at;
-        brace_loaded_space_fixed_collapse(&loaded, &fixed);
-        TEST_ASSERT_EQUAL(BRACE_OK, brace_loaded_space_fixed_settle(&fixed, (float)theta1_rad, (float)theta2_rad,
-                                                                    &space_load, &at));
         take_matrix();
         for (double times = 1.0; times < 100.0; times *= 2.0) {
             if (turn_rad * times > 0.4) {
                 continue; /* it is far beyond its load, and the third order is no longer small */
             }
-            bool stands, stands_by_floats, stands_by_integers = true;
-            const double wanted = determinant_at(times, &stands), floats = pivots_at((float)times, &stands_by_floats);
+            bool stands, stands_by_parts;
+            const double wanted = determinant_at(times, &stands), is = pivots_at((float)times, &stands_by_parts);
             const double left = third_order(turn_rad) * times * times;
-            TEST_ASSERT_DOUBLE_WITHIN(2.0 * left + 3e-6 * times, wanted, floats);
+            TEST_ASSERT_DOUBLE_WITHIN(2.0 * left + 3e-6 * times, wanted, is);
             if (fabs(wanted) > 0.1) {
-                TEST_ASSERT_EQUAL(stands, stands_by_floats);
+                TEST_ASSERT_EQUAL(stands, stands_by_parts);
             }
             told++;
-            if (times > WORD_HOLDS) {
-                continue;
-            }
-            const double integers = by_integers(&fixed, &at, times, &stands_by_integers);
-            if (!isnan(integers)) {
-                TEST_ASSERT_DOUBLE_WITHIN(8.0 * left + 1e-3 * times, wanted, integers);
-                if (fabs(wanted) > 0.1) {
-                    TEST_ASSERT_EQUAL(stands, stands_by_integers);
-                }
-            }
         }
     }
     TEST_ASSERT_TRUE(told > 2 * LIMBS);

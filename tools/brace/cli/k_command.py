@@ -103,16 +103,12 @@ def _check_usage(arguments: argparse.Namespace) -> None:
     by_angles = arguments.theta1 is not None
     if by_angles and arguments.knee:
         raise UsageError("--knee with --theta2", why="the angles say it already", next_step="drop --knee")
+    if arguments.theta0 is not None:
+        k_load.refuse_in_space(arguments.arith, "--theta0")
     if arguments.is_loaded:
         k_load.refuse_load_with(arguments.arith)
     if arguments.fy is not None and arguments.theta0 is None:
         k_load.refuse_across_the_plane("--fy")
-    if arguments.theta0 is not None and arguments.arith != "f32":
-        raise UsageError(
-            f"--arith {arguments.arith} with --theta0",
-            why="K in space is computed in float only",
-            next_step="drop --arith or --theta0",
-        )
 
 
 def _check_one_posture(arguments: argparse.Namespace) -> None:

@@ -46,6 +46,17 @@ def refuse_load_with(arithmetic: str) -> None:
         )
 
 
+def refuse_in_space(arithmetic: str, what: str) -> None:
+    """what: the option or column that asks for K in space."""
+    if arithmetic != "f32":
+        path = "fixed point" if arithmetic == "fixed" else f"--arith {arithmetic}"
+        raise UsageError(
+            f"--arith {arithmetic} with {what}",
+            why=f"{path} works in the plane",
+            next_step=f"--arith f32 for K in space, or drop {what} for K in the plane",
+        )
+
+
 def refuse_across_the_plane(what: str) -> None:
     """A force across the plane, and K in the plane."""
     raise UsageError(

@@ -9,7 +9,7 @@ import numpy as np
 from brace import stiffness
 from brace.cli import common
 from brace.cli.k_flags import flags_of_postures
-from brace.cli.k_load import refuse_across_the_plane, refuse_load_with
+from brace.cli.k_load import refuse_across_the_plane, refuse_in_space, refuse_load_with
 from brace.errors import BadFileError, UsageError
 from brace.files import check_file, write_file
 from brace.model import LimbModel
@@ -86,7 +86,9 @@ def _forces(table: PostureTable, given: dict[str, float]) -> list[np.ndarray]:
 
 
 def _check_load(table: PostureTable, arguments: argparse.Namespace) -> None:
-    if "theta0_rad" not in table.angles and (arguments.fy is not None or "fy_n" in table.forces):
+    if "theta0_rad" in table.angles:
+        refuse_in_space(arguments.arith, "the column theta0_rad")
+    elif arguments.fy is not None or "fy_n" in table.forces:
         refuse_across_the_plane("--fy" if arguments.fy is not None else "column fy_n")
     if table.forces and arguments.is_loaded:
         raise UsageError(
@@ -100,12 +102,6 @@ def _check_load(table: PostureTable, arguments: argparse.Namespace) -> None:
 
 
 def _in_space(table: PostureTable, model: LimbModel, arguments: argparse.Namespace) -> tuple[np.ndarray, str]:
-    if arguments.arith != "f32":
-        raise UsageError(
-            f"--arith {arguments.arith} with a theta0_rad column",
-            why="K in space is computed in float only",
-            next_step="drop --arith or the column",
-        )
     angles = [table.angles[name] for name in ("theta0_rad", "theta1_rad", "theta2_rad")]
     return stiffness.spatial_stiffness(model, *angles), "spatial"
 

@@ -29,7 +29,6 @@ FIRMWARE_HEADERS = (
     "loaded_fixed.h",
     "loaded_batch.h",
     "loaded_space.h",
-    "loaded_space_fixed.h",
     "kinematics_batch.h",
     "uncertainty.h",
     "slope.h",

@@ -59,7 +59,7 @@ void model_configure(model_t *model, const brace_parameters_t *parameters, bool 
     }
     if (is_spatial) {
         (void)brace_spatial_collapse(limb, &model->spatial);
-        space_path_collapse(limb, &parameters->gravity, &model->loaded_space);
+        brace_loaded_space_collapse(limb, &parameters->gravity, &model->loaded_space);
     } else {
         model->is_collapsed = !model->springs_change && brace_planar_collapse(limb, &model->planar) == BRACE_OK;
         brace_general_collapse(limb, &model->general);
@@ -194,7 +194,7 @@ static void tell_plane(const brace_limb_t *limb, float hip_yields_rad_per_n_mm, 
 
 static brace_status_t tell_space(const brace_limb_t *limb, const brace_space_result_t *found, model_rest_t *rest)
 {
-    const brace_status_t status = space_path_in_plane(&found->k, &rest->plane);
+    const brace_status_t status = brace_loaded_space_in_plane(&found->k, &rest->plane);
     if (status != BRACE_OK) {
         return status;
     }
@@ -228,13 +228,13 @@ brace_status_t model_loaded(const model_t *model, const brace_limb_t *limb, cons
     }
     const brace_space_load_t load = space_load(springs, tip_n, down);
     brace_space_result_t found;
-    brace_status_t status = space_path_settle(&model->loaded_space, unbent_rad[BRACE_FEMUR], unbent_rad[BRACE_TIBIA],
-                                              &load, &place->at);
+    brace_status_t status = brace_loaded_space_settle(&model->loaded_space, unbent_rad[BRACE_FEMUR],
+                                                      unbent_rad[BRACE_TIBIA], &load, &place->at);
     for (int i = 0; i < BRACE_LINK_COUNT; i++) {
         place->springs[i] = springs[i];
     }
     if (status == BRACE_OK) {
-        status = space_path_stiffness(&model->loaded_space, &place->at, &found);
+        status = brace_loaded_space_stiffness(&model->loaded_space, &place->at, &found);
     }
     return status == BRACE_OK ? tell_space(limb, &found, rest) : status;
 }
@@ -249,8 +249,8 @@ int32_t model_loaded_begin(const model_t *model, const float unbent_rad[BRACE_LI
     work->hip_yields_rad_per_n_mm = springs[BRACE_FEMUR].yields_by_rad_per_n_mm;
     if (model->is_spatial) {
         const brace_space_load_t load = space_load(springs, tip_n, down);
-        status = space_path_begin(&model->loaded_space, unbent_rad[BRACE_FEMUR], unbent_rad[BRACE_TIBIA], &load,
-                                  &work->of.space);
+        status = brace_loaded_space_begin(&model->loaded_space, unbent_rad[BRACE_FEMUR], unbent_rad[BRACE_TIBIA],
+                                          &load, &work->of.space);
     } else {
         const brace_load_t load = plane_load(springs, tip_n, down);
         status = plane_settle(&model->loaded, unbent_rad, &load, &work->of.plane);
@@ -263,7 +263,7 @@ static int32_t go_on_in_space(const model_t *model, const brace_limb_t *limb, mo
 {
     brace_space_result_t found;
     brace_status_t status;
-    if (!space_path_step(&model->loaded_space, &work->of.space, &found, &status)) {
+    if (!brace_loaded_space_step(&model->loaded_space, &work->of.space, &found, &status)) {
         return MODEL_LATER;
     }
     work->is_under_way = false;

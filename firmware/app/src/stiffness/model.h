@@ -3,8 +3,8 @@
  * Three paths of the core lead to K without load in the limb's plane. A limb in space takes the spatial path, because
  * its coxa link yields in the plane too. A planar limb whose springs never change is collapsed into a few constants,
  * the cheapest path. Every other planar limb (hardening, temperature, a base that yields unequally) takes the general
- * path. K under a load is brace/loaded.h for a limb in its plane and brace/loaded_space.h for a limb in space, on a
- * controller without an FPU brace/loaded_fixed.h and brace/loaded_space_fixed.h. docs/kernel.md says more. */
+ * path. K under a load is brace/loaded.h for a limb in its plane, on a controller without an FPU brace/loaded_fixed.h,
+ * and brace/loaded_space.h for a limb in space. docs/kernel.md says more. */
 #ifndef BRACE_STIFFNESS_MODEL_H
 #define BRACE_STIFFNESS_MODEL_H
 
@@ -13,14 +13,14 @@
 #include "brace/general.h"
 #include "brace/loaded.h"
 #include "brace/loaded_fixed.h"
+#include "brace/loaded_space.h"
 #include "brace/parameters.h"
 #include "brace/planar.h"
 #include "brace/spatial.h"
 #include "brace/stiffness.h"
 #include "posture/posture.h"
-#include "stiffness/space_path.h"
 
-/* What K under a load takes of a limb: floats, or integers where floats are computed in software. */
+/* What K under a load takes of a limb in its plane: floats, or integers where floats are computed in software. */
 #ifdef __SOFTFP__
 typedef brace_loaded_fixed_t model_loaded_limb_t;
 typedef brace_loaded_stiffness_t model_plane_rest_t; /* the first of two steps does it all */
@@ -37,7 +37,7 @@ typedef struct {
     brace_general_t general;
     brace_spatial_t spatial;
     model_loaded_limb_t loaded; /* of a limb in its plane */
-    space_path_limb_t loaded_space;
+    brace_loaded_space_t loaded_space;
     float deflection_rad[BRACE_LINK_COUNT]; /* of hardening springs, followed from tick to tick */
 } model_t;
 
@@ -78,7 +78,7 @@ typedef struct {
 
 /* Where a limb in space rests. */
 typedef struct {
-    space_path_rest_t at;
+    brace_space_rest_t at;
     brace_loaded_joint_t springs[BRACE_LINK_COUNT]; /* there */
 } model_place_t;
 
@@ -103,7 +103,7 @@ typedef struct {
     float hip_yields_rad_per_n_mm; /* the joint alone */
     union {
         model_plane_rest_t plane;
-        space_path_work_t space;
+        brace_space_work_t space;
     } of;
 } model_work_t;
 

@@ -67,9 +67,10 @@ void softening_work(softening_t *softening, model_t *model, const brace_limb_t *
         find_unloaded(softening, model, limb, unbent_rad);
     } else if (!softening->runs) {
         softening->runs = true;
-        space_path_buckling_begin(&model->loaded_space, &softening->now.at, &softening->shape, &softening->search);
-    } else if (space_path_buckling_step(&model->loaded_space, &softening->shape, &softening->search,
-                                        &softening->factor)) {
+        brace_loaded_space_buckling_begin(&model->loaded_space, &softening->now.at, &softening->shape,
+                                          &softening->search);
+    } else if (brace_loaded_space_buckling_step(&model->loaded_space, &softening->shape, &softening->search,
+                                                &softening->factor)) {
         softening->runs = false;
         softening->ticks_told = 0;
     }

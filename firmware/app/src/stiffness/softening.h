@@ -12,9 +12,9 @@
 #include "stiffness/model.h"
 
 typedef struct {
-    model_place_t now;       /* where the limb rests in this tick; the tick writes it */
-    space_path_shape_t shape; /* of the equilibrium whose factor is searched */
-    space_path_search_t search;
+    model_place_t now;         /* where the limb rests in this tick; the tick writes it */
+    brace_space_shape_t shape; /* of the equilibrium whose factor is searched */
+    brace_space_search_t search;
     bool runs;
     uint8_t step_of_round;
     bool is_needed;

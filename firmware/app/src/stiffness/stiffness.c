@@ -147,11 +147,11 @@ static brace_status_t take_engaged(model_t *model, const brace_limb_t *limb, con
 }
 
 /* K in space of now, where a gap may be open: an open gap of the coxa joint carries nothing across the plane.
- * returns as space_path_turn and brace_spatial_turn */
+ * returns as brace_loaded_space_turn and brace_spatial_turn */
 static brace_status_t turn(float theta0_rad, const engaged_t *engaged, const brace_gap_stiffness_t *plane,
                            float across_now_n_per_mm, bool is_open, brace_space_stiffness_t *space)
 {
-    brace_status_t status = engaged->is_coupled ? space_path_turn(theta0_rad, &engaged->space, &space->engaged)
+    brace_status_t status = engaged->is_coupled ? brace_loaded_space_turn(theta0_rad, &engaged->space, &space->engaged)
                                                 : brace_spatial_turn(theta0_rad, &engaged->plane,
                                                                      engaged->across_n_per_mm, &space->engaged);
     if (status != BRACE_OK) {

@@ -9,9 +9,4 @@ typedef struct {
     int32_t x, z;
 } brace_fixed_vec_t;
 
-/* A vector in space. */
-typedef struct {
-    int32_t x, y, z;
-} brace_fixed_vec3_t;
-
 #endif

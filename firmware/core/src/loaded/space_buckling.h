@@ -14,7 +14,7 @@
 
 #define ROOT_OF_2 1.41421356f
 #define SPACE_SEARCH_STEPS 4
-#define SHORT_OF_ROOT 0.97f /* at a root itself, numbers of fixed point leave their words */
+#define SHORT_OF_ROOT 0.97f /* where the limb still bears the load: it is looked at on both sides of the root */
 #define BEHIND_ROOT 1.01f
 
 /* Not above low, or no number, where the parabola does not fall beyond low. */

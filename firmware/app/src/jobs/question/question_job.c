@@ -111,7 +111,7 @@ static int32_t begin(question_job_t *job, const brace_k_question_t *asked, const
 static brace_status_t turn(question_job_t *job, const brace_k_question_t *asked)
 {
     const brace_status_t status =
-        space_path_turn(asked->theta_rad[BRACE_COXA], &job->space, &job->answer.in_space);
+        brace_loaded_space_turn(asked->theta_rad[BRACE_COXA], &job->space, &job->answer.in_space);
     job->answer.in_space.flags |= job->answer.k.flags;
     job->is_to_turn = false;
     return status;
