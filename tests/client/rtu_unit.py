@@ -11,6 +11,7 @@ import subprocess
 import threading
 import time
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 
 from pymodbus.framer.rtu import FramerRTU
 
@@ -37,14 +38,22 @@ def answer_to(request: bytes) -> bytes:
     return content + check(content)
 
 
+@dataclass
+class Unit:
+    """Its URL, and how many requests it has answered whole."""
+
+    url: str
+    answered: int = 0
+
+
 @contextlib.contextmanager
-def rtu_unit(late_s: Callable[[int], float], byte_s: float = 0.0) -> Iterator[str]:
-    """late_s: by the number of the request, from 0. byte_s: between bytes of an answer. Requests wait for their turn.
-    Gives the URL."""
+def rtu_unit(late_s: Callable[[int], float], byte_s: Callable[[int], float] = lambda _: 0.0) -> Iterator[Unit]:
+    """By the number of the request, from 0: late_s before its answer, byte_s between the bytes of that. Requests wait for
+    their turn."""
     ours, theirs = pty.openpty()
     subprocess.run(["stty", "-F", os.ttyname(theirs), "raw", "-echo"], check=True)
 
-    ended = threading.Event()
+    unit, ended = Unit(f"modbus:{os.ttyname(theirs)}"), threading.Event()
 
     def serve() -> None:
         rest, number = b"", 0
@@ -59,16 +68,18 @@ def rtu_unit(late_s: Callable[[int], float], byte_s: float = 0.0) -> Iterator[st
                         break
                     request, rest = rest[:length], rest[length:]
                     time.sleep(late_s(number))
-                    number += 1
-                    answer = answer_to(request)
-                    for piece in struct.unpack(f"{len(answer)}c", answer) if byte_s else [answer]:
+                    answer, pause_s = answer_to(request), byte_s(number)
+                    for piece in struct.unpack(f"{len(answer)}c", answer) if pause_s else [answer]:
                         os.write(ours, piece)
-                        time.sleep(byte_s)
+                        if ended.wait(pause_s):
+                            return
+                    number += 1
+                    unit.answered = number
 
     serving = threading.Thread(target=serve, daemon=True)
     serving.start()
     try:
-        yield f"modbus:{os.ttyname(theirs)}"
+        yield unit
     finally:
         ended.set()
         serving.join()  # the next unit may get the same numbers of files

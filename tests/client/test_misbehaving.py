@@ -112,7 +112,7 @@ def test_heard_but_no_answer(probe: Probe) -> None:
 def test_the_other_end_hangs_up(probe: Probe) -> None:
     with SlcanController(hangs_up=True) as controller:
         answer = probe(controller.url, "identity", timeout_ms=8000)
-        assert answer.code == DOWN and answer.seconds < 6.0  # at once, long before it would give up
+        assert answer.code == DOWN and answer.own_s < 6.0  # at once, long before it would give up
 
 
 def test_refusal(probe: Probe) -> None:

@@ -20,7 +20,8 @@ from brace.bus.url import parse
 from brace.errors import NoDeviceError
 from brace.wire.registers import REGISTERS
 
-SILENT, WRITE = 7, 16
+SILENT, BIT_RATE, WRITE = 7, 8, 16
+OPENED = 3  # requests by which a client looks whom it has before it
 SILENCE_S = 0.25  # on a busy machine; where a lost request was waited for, 0.3
 LATE_S = 1.0  # the client tries again after 0.8 s
 INDICES = range(20, 36)
@@ -30,8 +31,8 @@ INDICES = range(20, 36)
 def test_a_late_answer_is_not_the_next_one_s(late: set[int]) -> None:
     """Modbus RTU does not number its requests; an entry's value is its register here. A call of 2 s has time for one
     late answer, not for two of them."""
-    with rtu_unit(lambda number: LATE_S if number in late else 0.0) as url:
-        done, why = acts(url, *(f"entry:{index}" for index in INDICES))
+    with rtu_unit(lambda number: LATE_S if number in late else 0.0) as unit:
+        done, why = acts(unit.url, *(f"entry:{index}" for index in INDICES))
     told = [(index, act.state) for index, act in zip(INDICES, done) if act.status == 0]
     assert all(value == 2 * index for index, value in told), why
     assert len(told) >= len(INDICES) - (len(late) - 1) and done[-1].status == 0, why
@@ -42,8 +43,8 @@ def test_nor_does_brace_query_take_it(late: set[int]) -> None:
     """The same unit and the client in Python, which tries again after 0.6 s, three times in all."""
     holding = [register for register in REGISTERS if register.table == "holding"][:12]
     told: list[tuple[int, int]] = []
-    with rtu_unit(lambda number: 0.75 if number in late else 0.0) as url:
-        controller = ModbusController(parse(url))
+    with rtu_unit(lambda number: 0.75 if number in late else 0.0) as unit:
+        controller = ModbusController(parse(unit.url))
         for register in holding:
             with contextlib.suppress(NoDeviceError):
                 told.append((register.address, controller.read_entry(register.name)))
@@ -53,9 +54,11 @@ def test_nor_does_brace_query_take_it(late: set[int]) -> None:
 
 
 def test_an_answer_that_trickles_ends_with_the_time_out(probe: Callable[..., Answer]) -> None:
-    with rtu_unit(lambda number: 0.0, byte_s=0.19) as url:
-        answer = probe(url, "identity")
-    assert answer.code == SILENT and answer.told_in_time, answer.err
+    """A byte each 0.19 s: a client that waits anew with every byte would wait for all 255 of them, 48 s."""
+    with rtu_unit(lambda number: 0.0, byte_s=lambda number: 0.19 if number >= OPENED else 0.0) as unit:
+        answer = probe(unit.url, "read", 1, 1)
+    assert answer.code in (SILENT, BIT_RATE) and answer.told_in_time, answer.err
+    assert unit.answered == OPENED
 
 
 @pytest.fixture(scope="module")
