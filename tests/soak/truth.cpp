@@ -64,12 +64,13 @@ Agreement agreement(const Limb &limb, const brace_node_truth_t &truth, brace_app
     const brace_snapshot_t &told = *brace_app_snapshot(app);
     found.is_told = told.k_is_valid;
     Entries true_n_per_mm;
-    brace_stiffness_sigma_t sigma, by_parameters;
+    brace_stiffness_sigma_t by_parameters;
+    const brace_stiffness_sigma_t &sigma = told.sigma;
     const auto largest = [](const brace_stiffness_sigma_t &of) {
         return static_cast<double>(std::max({of.k_xx_n_per_mm, of.k_xz_n_per_mm, of.k_zz_n_per_mm}));
     };
     if (!found.is_told || !true_k(limb, truth, told.load.is_counted, true_n_per_mm) ||
-        brace_app_uncertainty(app, &sigma) != BRACE_OK ||
+        !told.sigma_is_known ||
         brace_uncertainty_stiffness(&brace_app_parameters(app)->limb, told.theta_rad[kFemur], told.theta_rad[kTibia],
                                     &told.stiffness.engaged, &by_parameters) != BRACE_OK) {
         return found;

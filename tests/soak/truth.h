@@ -24,7 +24,7 @@ struct Agreement {
     double share_by_parameters = 0.0; // the same, were no more allowed than for what the parameters leave open
 };
 
-// Allowed for an entry of K: three of the sigmas that brace_app_uncertainty tells of it, and 0.6 % of K's norm, which
+// Allowed for an entry of K: three of the sigmas that its snapshot has of it, and 0.6 % of K's norm, which
 // brace/loaded.h promises for a load.
 Agreement agreement(const Limb &limb, const brace_node_truth_t &truth, brace_app_t *app);
 

@@ -3,6 +3,7 @@
 #include <stddef.h>
 
 #include "brace/app_memory.h"
+#include "sigma.h"
 #include "stiffness/stiffness.h"
 #include "tip_load.h"
 
@@ -69,6 +70,7 @@ static bool configure_step(controller_t *controller)
         return false;
     case BRACE_LINK_COUNT + 1:
         question_job_forget(&controller->question);
+        sigma_job_forget(&controller->sigma);
         softening_start(&controller->softening);
         model_configure(&controller->model, parameters, is_spatial);
         return false;
@@ -270,6 +272,9 @@ static void take_stiffness(controller_t *controller, brace_snapshot_t *snapshot)
                        &controller->joints, &controller->flank, &controller->gravity, &controller->softening,
                        &controller->posture, snapshot);
     }
+    if (snapshot->k_is_valid) {
+        sigma_tell(controller, snapshot);
+    }
 }
 
 /* Where the limb stands, once K has found the equilibrium. */
@@ -369,6 +374,7 @@ static void step_jobs(brace_app_t *app, const brace_snapshot_t *snapshot)
     }
     step_parameters(app);
     question_job_age(&controller->question);
+    sigma_job_age(&controller->sigma);
     softening_age(&controller->softening, controller->model.is_spatial && snapshot->load.is_counted);
 }
 
@@ -415,35 +421,56 @@ static void work_on_softening(controller_t *controller)
                    controller->posture.unbent_rad);
 }
 
-/* What costs much and moves nothing comes last, where the wires have left room for it: one step of one job. The first
- * that has something to do takes it; after eight steps, questions leave a tick to the jobs behind them. Where the wires
- * had nothing to do, a question has room for two steps.
+/* returns whether there was work to do */
+static bool work_on_sigma(controller_t *controller)
+{
+    if (!sigma_job_is_under_way(&controller->sigma)) {
+        return sigma_begin(controller);
+    }
+    sigma_job_step(&controller->sigma, &controller->parameters.in_force);
+    return true;
+}
+
+/* One step of one job: the first that has something to do takes it. After eight steps, questions leave a tick to the
+ * jobs behind them. Where the wires had nothing to do, a question has room for two steps.
  *   told: how much the wires have done in this tick
  * returns whether a job has worked */
+static bool work_on_jobs(controller_t *controller, const brace_snapshot_t *now, uint32_t told)
+{
+    return work_on_question(controller, told == 0u ? STEPS_IN_A_QUIET_TICK : 1u) || work_on_drift(controller) ||
+           (!controller->ownership.is_held && work_on_loading(controller, now));
+}
+
+/* What costs much and moves nothing comes last, where the wires have left room for it. Whoever uses K needs to know how
+ * exactly it is known: a step of that job which has waited for too long comes before all others, also in a full tick.
+ * returns whether a job has worked, so that the sensors' watch waits */
 static bool work(controller_t *controller, const brace_snapshot_t *now, uint32_t told)
 {
     softening_t *softening = &controller->softening;
-    if (told > TOLD_MOST || controller->parameters.comes_in_force) { /* then the model may be that of the set before */
+    if (controller->parameters.comes_in_force) { /* then the model may be that of the set before */
+        return false;
+    }
+    if (sigma_job_is_overdue(&controller->sigma) && work_on_sigma(controller)) {
+        return true;
+    }
+    if (told > TOLD_MOST) {
         return false;
     }
     if (softening_is_overdue(softening)) {
         work_on_softening(controller);
         return true;
     }
-    if (work_on_question(controller, told == 0u ? STEPS_IN_A_QUIET_TICK : 1u)) {
+    if (work_on_jobs(controller, now, told)) {
         return true;
     }
-    if (work_on_drift(controller)) {
-        return true;
-    }
-    if (!controller->ownership.is_held && work_on_loading(controller, now)) {
-        return true;
-    }
-    if (told == 0u && softening_is_due(softening)) {
+    const bool softens = told == 0u && softening_is_due(softening);
+    if (softens) {
         work_on_softening(controller);
-        return true;
     }
-    return false;
+    for (uint32_t i = softens ? 1u : 0u; i < (told == 0u ? STEPS_IN_A_QUIET_TICK : 1u); i++) {
+        (void)work_on_sigma(controller);
+    }
+    return softens;
 }
 
 /* Watches sensors and memory. A tick in which a job has worked skips the sensors and looks over less memory. That

@@ -1,4 +1,5 @@
-/* The controller's memory: every part of it but the wires. app.c, requests.c and questions.c know it; no part knows it.
+/* The controller's memory: every part of it but the wires. app.c, requests.c, questions.c and sigma.c know it; no part
+ * knows it.
  *
  * A brace_app_t begins with it (brace/app_memory.h; app.c asserts that), and whoever asks has a pointer to the whole.
  * So what answers finds its memory without knowing the wires, which ask. */
@@ -16,6 +17,7 @@
 #include "jobs/drift/drift_job.h"
 #include "jobs/loading/loading.h"
 #include "jobs/question/question_job.h"
+#include "jobs/uncertainty/sigma_job.h"
 #include "mode/faults.h"
 #include "mode/mode.h"
 #include "posture/gravity.h"
@@ -51,6 +53,7 @@ typedef struct {
     brace_recorder_t recorder;
     drift_job_t drift;
     question_job_t question;
+    sigma_job_t sigma;
     parameter_job_t parameters;
     uint8_t configure_part;  /* of putting parameters in force, the next one */
     guard_t guard;

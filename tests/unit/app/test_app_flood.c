@@ -22,10 +22,12 @@ enum {
     ASKED_THETA1 = 0x400c,   /* docs/modbus.md */
     COLLAPSED = 0, GENERAL, HARDENING, IN_SPACE, LIMB_COUNT,
     FLOOD_CAN = 1, FLOOD_SLCAN = 2, FLOOD_LINE = 4, FLOOD_TCP = 8, FLOOD_PORTS = 4,
-    K_MOST_TICKS = 4 * 2,    /* four ports, two steps each, */
-    SPACE_MOST_TICKS = 4 * 9, /* and nine of a limb in space */
+    K_MOST_TICKS = 4 * 2 + 3,    /* four ports, two steps each, */
+    SPACE_MOST_TICKS = 4 * 9 + 15, /* and nine of a limb in space; K's uncertainty has each fourth tick of all */
     JOBS_TICKS = 1 + 1,      /* other jobs have a step after eight, and a tick that tells much has none, */
     SPACE_JOBS_TICKS = 4 + 4, /* and a step towards the buckling factor is due in each ninth tick */
+    SIGMA_TICKS = 4 * 80, /* a round of K's uncertainty: 2 to 3 steps a K, 23 K, each fourth tick has a step, */
+    SPACE_SIGMA_TICKS = 4 * 300, /* and nine steps, 32 K */
     LINE_TICKS = 4 + 5,      /* on the line: bytes and the silence that ends them, read in every other tick; and a long
                                 answer, which leaves in five */
 };
@@ -336,6 +338,8 @@ static void watch(void)
     share->ticks++;
     share->with_k += is_whole && is_of_these_samples && !is_old(snapshot) &&
                      snapshot->sequence == sequence_before + 1u;
+    TEST_ASSERT_LESS_OR_EQUAL(snapshot->space.is_fitted ? SPACE_SIGMA_TICKS : SIGMA_TICKS,
+                              app.controller.sigma.round.ticks_old); /* no flood keeps K's sigma from being renewed */
     remember(snapshot);
 }
 

@@ -8,7 +8,7 @@ enum { QUESTIONS = ON_BOARD ? 500 : 4000 }; /* waits are counted in ticks */
 /* A K takes three ticks: taken, worked out, answered; up to three requests of the same port stand before it, and each
  * that is a K moves it on by two. Other jobs have a step after eight, and a tick that tells much has none. While a set
  * is put in force, no K is worked out: the model may still be that of the set before. */
-enum { K_MOST_TICKS = K_TICKS + 3 * 2, JOBS_TICKS = 1, IN_FORCE_TICKS = 9 };
+enum { K_MOST_TICKS = K_TICKS + 3 * 2, JOBS_TICKS = 2, IN_FORCE_TICKS = 9 };
 
 static uint64_t dice;
 

@@ -10,7 +10,7 @@
 #include "brace/refusals.h"
 
 /* A K that is asked for: taken in one tick, worked out in the next, answered in the third. */
-enum { NODE = 5, PATIENCE_TICKS = 10, K_TICKS = 3 };
+enum { NODE = 5, PATIENCE_TICKS = 14, K_TICKS = 4 };
 
 /* Whoever asks here has this number: the upper bits of its tokens. */
 static const brace_who_t can_master = {BRACE_ASKER_CAN, 0};

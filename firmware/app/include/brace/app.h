@@ -36,7 +36,7 @@ brace_status_t brace_app_start(brace_app_t *app, const brace_hal_t *hal);
 
 /* One tick; call it every parameters.controller.tick_us.
  *   now_us: the HAL's clock; may wrap
- * Cost on a Cortex-M4F: at most 12,000 instructions for a limb in its plane and 16,000 for a limb in space, in every
+ * Cost on a Cortex-M4F: at most 14,000 instructions for a limb in its plane and 20,000 for a limb in space, in every
  * mode, HAL excluded; ./dev bench measures it. */
 void brace_app_tick(brace_app_t *app, uint32_t now_us);
 

@@ -14,7 +14,6 @@
 #include "brace/recorder.h"
 #include "brace/snapshot.h"
 #include "brace/store.h"
-#include "brace/uncertainty.h"
 #include "brace/who.h"
 
 typedef struct brace_app brace_app_t;
@@ -193,8 +192,9 @@ brace_status_t brace_app_store_status(const brace_app_t *app, brace_store_status
 /* Asks for such a K. It is worked out in the ticks to come: ask the same again in every tick until the answer comes.
  * One question has its answer in the second tick after, of a limb in space in the fifth, or up to the tenth while
  * other ports are asked or process data leave; process data that have waited for long, and a step towards the buckling
- * factor, take one tick more each. That is with an FPU; without one, K in space takes three longer steps instead of
- * nine. Four that ask at once are worked out one after the other. Whoever does not ask for seven ticks loses its place.
+ * factor, take one tick more each, and K's own uncertainty each fourth tick. That is with an FPU; without one, K in
+ * space takes three longer steps instead of nine. Four that ask at once are worked out one after the other. Whoever
+ * does not ask for seven ticks loses its place.
  * returns BRACE_APP_LATER, BRACE_OK, BRACE_E_NULL, what brace_kinematics_inverse and brace_loaded_stiffness return, in
  *   space also BRACE_E_UNSUPPORTED: the limb has no coxa joint. At most 80 instructions. */
 int32_t brace_app_ask_k(brace_app_t *app, brace_asker_t asker, const brace_k_question_t *question,
@@ -211,23 +211,6 @@ brace_status_t brace_app_set_gravity(brace_app_t *app, float direction_rad, floa
 
 /* The direction of down that holds now. */
 void brace_app_gravity(const brace_app_t *app, float *direction_rad, float *lean_rad);
-
-/* One sigma of the present K with every gap closed. It is brace_uncertainty_stiffness by the parameters in force, and
- * counts three things more:
- *   - The joints tell the load where the tip has no sensor, and always across the plane. They tell it as a mean over
- *     20 ms. The true load may be as far from the mean as the newest samples are (flank/flank.h), and the motor's
- *     friction carries a part of it. The function works out K for that other load, too. K may be anywhere between the
- *     two, so this adds a sigma of span / sqrt(3) for each joint. The joints are independent: three sigmas hold K even
- *     where all three loads are the other ones.
- *   - The load of a joint is its torque less the torque that accelerates its motor. Three such values need five
- *     samples in a row; before, the sigmas are infinite. They are infinite, too, where the limb has no equilibrium at
- *     the other load.
- *   - A joint whose flank is not known may stand anywhere in its gap. Half of the gap is added to the sigma of the
- *     angles.
- * To be called between ticks: it uses the newest tick's samples.
- * returns as brace_uncertainty_stiffness; BRACE_E_MODE: there is no valid K
- * About 9,000 instructions in the plane and 22,000 in space: too much for a tick. */
-brace_status_t brace_app_uncertainty(brace_app_t *app, brace_stiffness_sigma_t *sigma);
 
 /* What the K of now makes of a displacement, and of a load.
  * returns as brace_contact_force and brace_contact_sag; BRACE_E_RANGE also while a gap is open: then nothing carries

@@ -12,6 +12,7 @@
 #include "brace/kinematics.h"
 #include "brace/parameters.h"
 #include "brace/stiffness.h"
+#include "brace/uncertainty.h"
 
 /* Faults that make every K invalid and the mode FAULT. */
 #define BRACE_FAULTS_NO_K \
@@ -53,6 +54,10 @@ typedef struct {
     brace_gap_stiffness_t stiffness; /* K in the limb's plane: now (open gaps counted) and engaged (all gaps closed) */
     brace_space_stiffness_t space;
     brace_snapshot_load_t load;
+    bool sigma_is_known;  /* else sigma and sigma_space are NaN, and K may be off by anything */
+    uint32_t sigma_age_us; /* since the samples that sigma was worked out from; 0 while it is not known */
+    brace_stiffness_sigma_t sigma;   /* one sigma of stiffness.engaged */
+    brace_space_sigma_t sigma_space; /* of space.engaged; NaN of a limb in its plane */
     float theta_rad[BRACE_LINK_COUNT];       /* true joint angles, backlash, zero offset and, while it is counted, what
                                                 the load turns counted; NaN: not known */
     float motor_rad[BRACE_LINK_COUNT];

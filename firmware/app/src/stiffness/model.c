@@ -6,14 +6,19 @@
 #define DEFLECTION_MOST_RAD 8.0f  /* no spring is wound further than a joint turns */
 #define LOAD_MOST_N_MM 1e9f
 
-static void collapse_loaded(const brace_parameters_t *parameters, model_loaded_limb_t *limb)
+void model_configure_loaded(model_t *model, const brace_limb_t *limb, const brace_gravity_t *weights, bool is_spatial)
 {
+    model->is_spatial = is_spatial;
+    if (is_spatial) {
+        brace_loaded_space_collapse(limb, weights, &model->loaded_space);
+        return;
+    }
 #ifdef __SOFTFP__
     brace_loaded_t loaded;
-    brace_loaded_collapse(&parameters->limb, &parameters->gravity, &loaded);
-    brace_loaded_fixed_collapse(&loaded, limb);
+    brace_loaded_collapse(limb, weights, &loaded);
+    brace_loaded_fixed_collapse(&loaded, &model->loaded);
 #else
-    brace_loaded_collapse(&parameters->limb, &parameters->gravity, limb);
+    brace_loaded_collapse(limb, weights, &model->loaded);
 #endif
 }
 
@@ -52,18 +57,17 @@ static brace_status_t plane_stiffness(const model_loaded_limb_t *limb, const mod
 void model_configure(model_t *model, const brace_parameters_t *parameters, bool is_spatial)
 {
     const brace_limb_t *limb = &parameters->limb;
-    *model = (model_t){.is_spatial = is_spatial};
+    *model = (model_t){0};
+    model_configure_loaded(model, limb, &parameters->gravity, is_spatial);
     model->springs_change = parameters->slow.joint_compliance_per_degc != 0.0f;
     for (int i = 0; i < BRACE_LINK_COUNT; i++) {
         model->springs_change = model->springs_change || parameters->drive[i].hardening_n_mm_per_rad3 != 0.0f;
     }
     if (is_spatial) {
         (void)brace_spatial_collapse(limb, &model->spatial);
-        brace_loaded_space_collapse(limb, &parameters->gravity, &model->loaded_space);
     } else {
         model->is_collapsed = !model->springs_change && brace_planar_collapse(limb, &model->planar) == BRACE_OK;
         brace_general_collapse(limb, &model->general);
-        collapse_loaded(parameters, &model->loaded);
     }
 }
 

@@ -46,6 +46,9 @@ typedef struct {
  * At most 4,000 instructions. */
 void model_configure(model_t *model, const brace_parameters_t *parameters, bool is_spatial);
 
+/* The same for K under a load alone. At most 800 instructions. */
+void model_configure_loaded(model_t *model, const brace_limb_t *limb, const brace_gravity_t *weights, bool is_spatial);
+
 /* How every joint yields at a load and a temperature.
  *   load_n_mm: NaN: at no load; temp_degc: NaN: at the reference temperature
  * At most 190 instructions; hardly any for a limb whose springs do not change. */

@@ -38,9 +38,20 @@ static void no_load(brace_snapshot_load_t *load)
                                     .unloaded_across_n_per_mm = unknown};
 }
 
+void stiffness_unknown_sigma(brace_snapshot_t *snapshot)
+{
+    const float unknown = __builtin_nanf("");
+    snapshot->sigma_is_known = false;
+    snapshot->sigma_age_us = 0;
+    snapshot->sigma = (brace_stiffness_sigma_t){unknown, unknown, unknown, unknown, unknown, unknown, 0u};
+    snapshot->sigma_space = (brace_space_sigma_t){unknown, unknown, unknown, unknown, unknown, unknown,
+                                                  {unknown, unknown, unknown}, unknown};
+}
+
 void stiffness_unknown(brace_snapshot_t *snapshot, uint32_t flags)
 {
     snapshot->k_is_valid = false;
+    stiffness_unknown_sigma(snapshot);
     no_load(&snapshot->load);
     no_plane_k(&snapshot->stiffness, flags);
     no_space_k(&snapshot->space, flags);

@@ -10,6 +10,9 @@
 #include "stiffness/model.h"
 #include "stiffness/softening.h"
 
+/* Nobody knows how exactly K is known: NaN. */
+void stiffness_unknown_sigma(brace_snapshot_t *snapshot);
+
 /* K that nobody may use: NaN, with these flags. */
 void stiffness_unknown(brace_snapshot_t *snapshot, uint32_t flags);
 

@@ -1,4 +1,5 @@
-/* How exactly K is known, given how exactly the limb's parameters are known.
+/* How exactly K is known, given how exactly the limb's parameters are known: in the limb's plane, at no load. Under a
+ * load and in space: brace/uncertainty_causes.h.
  *
  * The one-sigma figures in brace_limb_t.uncertainty are propagated to first order through C and its inverse,
  * dK = -K dC K. These are taken as independent of each other:
@@ -29,6 +30,14 @@ typedef struct {
     float stiff_axis_rad; /* at most BRACE_UNKNOWN_AXIS_RAD */
     uint32_t flags;       /* the flags of K; BRACE_FLAG_SATURATED when stiff_axis_rad is at its limit */
 } brace_stiffness_sigma_t;
+
+/* One sigma of K in space, its entries in the robot's frame, all >= 0. brace/uncertainty_causes.h works it out. */
+typedef struct {
+    float k_xx_n_per_mm, k_xy_n_per_mm, k_xz_n_per_mm;
+    float k_yy_n_per_mm, k_yz_n_per_mm, k_zz_n_per_mm;
+    float lambda_n_per_mm[3]; /* of the eigenvalues, which ascend */
+    float across_n_per_mm;    /* of K across the limb's plane */
+} brace_space_sigma_t;
 
 /* One sigma of K at a posture.
  *   limb: checked with brace_limb_check

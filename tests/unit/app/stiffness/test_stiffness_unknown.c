@@ -34,7 +34,7 @@ static void stand_at(const brace_parameters_t *p, bool has_coxa, float theta0_ra
     fake.joint[BRACE_COXA].sample.motor_rad = theta0_rad;
     fake.joint[BRACE_TIBIA].sample.motor_rad = theta2_rad;
     TEST_ASSERT_EQUAL(BRACE_OK, brace_app_start(&app, &fake.hal));
-    ticks(50);
+    ticks(400);
 }
 
 static brace_parameters_t space_parameters(void)
@@ -68,13 +68,16 @@ static void test_a_straight_limb_tells_K_without_its_load(void)
             TEST_ASSERT_TRUE(fabsf(lambda[0] - plane_least) < 1e-4f * most || fabsf(lambda[1] - plane_least) < 1e-4f * most);
             TEST_ASSERT_EQUAL_FLOAT(now()->load.unloaded_across_n_per_mm, now()->space.across_n_per_mm);
         }
-        brace_stiffness_sigma_t sigma, by_parameters;
-        TEST_ASSERT_EQUAL(BRACE_OK, brace_app_uncertainty(&app, &sigma));
+        brace_stiffness_sigma_t by_parameters;
+        TEST_ASSERT_TRUE(now()->sigma_is_known);
         TEST_ASSERT_EQUAL(BRACE_OK, brace_uncertainty_stiffness(&p.limb, now()->theta_rad[BRACE_FEMUR],
                                                                 now()->theta_rad[BRACE_TIBIA],
                                                                 &now()->stiffness.engaged, &by_parameters));
-        TEST_ASSERT_EQUAL_FLOAT(by_parameters.k_xx_n_per_mm, sigma.k_xx_n_per_mm);
-        TEST_ASSERT_EQUAL_FLOAT(by_parameters.lambda_min_n_per_mm, sigma.lambda_min_n_per_mm);
+        /* Two ways to one figure: a derivative, and a quarter of a sigma's change, near the straight knee. */
+        ASSERT_CLOSE(by_parameters.k_xx_n_per_mm, now()->sigma.k_xx_n_per_mm,
+                     0.05 * (double)by_parameters.k_xx_n_per_mm);
+        ASSERT_CLOSE(by_parameters.lambda_min_n_per_mm, now()->sigma.lambda_min_n_per_mm,
+                     0.05 * (double)by_parameters.lambda_min_n_per_mm);
     }
 }
 
@@ -105,8 +108,7 @@ static void test_a_straight_limb_that_yields_one_way_only_has_no_K(void)
     stand_at(&p, false, 0.0f, 0.0f);
     TEST_ASSERT_FALSE(now()->k_is_valid);
     TEST_ASSERT_BITS_HIGH(BRACE_FLAG_NEAR_SINGULAR, now()->stiffness.now.flags);
-    brace_stiffness_sigma_t sigma;
-    TEST_ASSERT_EQUAL(BRACE_E_MODE, brace_app_uncertainty(&app, &sigma));
+    TEST_ASSERT_FALSE(now()->sigma_is_known);
     stand_at(&p, false, 0.0f, 1.4f);
     TEST_ASSERT_TRUE(now()->k_is_valid);
 }
@@ -121,11 +123,10 @@ static void test_the_span_of_an_axis_is_the_short_way_round(void)
         fake.joint[BRACE_FEMUR].sample.torque_n_mm = 500.0f;
         brace_fake_without_force(&fake);
         TEST_ASSERT_EQUAL(BRACE_OK, brace_app_start(&app, &fake.hal));
-        ticks(30);
+        ticks(100);
         if (now()->k_is_valid && fabsf(now()->stiffness.engaged.stiff_axis_rad) > 1.5f) {
-            brace_stiffness_sigma_t sigma;
-            TEST_ASSERT_EQUAL(BRACE_OK, brace_app_uncertainty(&app, &sigma));
-            TEST_ASSERT_TRUE(sigma.stiff_axis_rad < 0.2f);
+            TEST_ASSERT_TRUE(now()->sigma_is_known);
+            TEST_ASSERT_TRUE(now()->sigma.stiff_axis_rad < 0.2f);
         }
     }
 }
@@ -138,11 +139,9 @@ static void test_a_round_K_has_no_known_axis(void)
     int unknown = 0;
     for (float theta2_rad = 0.3f; theta2_rad < 2.8f; theta2_rad += 0.05f) {
         stand_at(&p, false, 0.0f, theta2_rad);
-        brace_stiffness_sigma_t sigma;
-        if (now()->k_is_valid && brace_app_uncertainty(&app, &sigma) == BRACE_OK &&
-            sigma.stiff_axis_rad >= BRACE_UNKNOWN_AXIS_RAD) {
-            TEST_ASSERT_EQUAL_FLOAT(BRACE_UNKNOWN_AXIS_RAD, sigma.stiff_axis_rad);
-            TEST_ASSERT_BITS_HIGH(BRACE_FLAG_SATURATED, sigma.flags);
+        if (now()->sigma_is_known && now()->sigma.stiff_axis_rad >= BRACE_UNKNOWN_AXIS_RAD) {
+            TEST_ASSERT_EQUAL_FLOAT(BRACE_UNKNOWN_AXIS_RAD, now()->sigma.stiff_axis_rad);
+            TEST_ASSERT_BITS_HIGH(BRACE_FLAG_SATURATED, now()->sigma.flags);
             unknown++;
         }
     }

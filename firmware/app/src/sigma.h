@@ -1,0 +1,14 @@
+/* What the controller's parts give the job that works out how exactly K is known (jobs/uncertainty). */
+#ifndef BRACE_SIGMA_H
+#define BRACE_SIGMA_H
+
+#include "controller.h"
+
+/* Begins a round with the inputs of the newest snapshot's K, if it is valid. returns whether it has begun one. At most
+ * 1,800 instructions. */
+bool sigma_begin(controller_t *controller);
+
+/* Writes into a snapshot, whose K is there, what is known of K's uncertainty. At most 600 instructions. */
+void sigma_tell(const controller_t *controller, brace_snapshot_t *snapshot);
+
+#endif
