@@ -192,8 +192,8 @@ brace_status_t brace_app_store_status(const brace_app_t *app, brace_store_status
 /* Asks for such a K. It is worked out in the ticks to come: ask the same again in every tick until the answer comes.
  * One question has its answer in the second tick after, of a limb in space in the fifth, or up to the tenth while
  * other ports are asked or process data leave; process data that have waited for long, and a step towards the buckling
- * factor, take one tick more each, and K's own uncertainty each fourth tick. That is with an FPU; without one, K in
- * space takes three longer steps instead of nine. Four that ask at once are worked out one after the other. Whoever
+ * factor, take one tick more each, and K's own uncertainty each fourth tick.
+ * Four that ask at once are worked out one after the other. Whoever
  * does not ask for seven ticks loses its place.
  * returns BRACE_APP_LATER, BRACE_OK, BRACE_E_NULL, what brace_kinematics_inverse and brace_loaded_stiffness return, in
  *   space also BRACE_E_UNSUPPORTED: the limb has no coxa joint. At most 80 instructions. */
