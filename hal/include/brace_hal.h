@@ -59,13 +59,17 @@ typedef struct {
                               disturbs it; can_setup returns E_UNSUPPORTED where the controller cannot do that */
     uint32_t filter_id, filter_mask; /* only frames whose identifier has filter_id's bits under the mask take room in
                               the ring; mask 0: all frames. By the controller's own filters, else in its interrupt */
+    uint32_t urgent_id;    /* frames of this identifier pass whatever filter_id is, take no room in the ring, and
+                              can_receive gives them before all others. At least one is kept until it is taken,
+                              however full the ring is; more of them, which say the same, may be dropped and count as
+                              no frames_lost. 0: there is none */
 } brace_can_setup_t;
 
 typedef struct {
     uint8_t tx_errors, rx_errors;  /* the controller's own counters */
     bool error_passive;
     bool bus_off;                  /* it has left the bus, or has not come onto it since can_setup */
-    uint32_t frames_lost;          /* frames that found no room in the ring; saturates */
+    uint32_t frames_lost;          /* frames but urgent ones that found no room in the ring; saturates */
 } brace_can_health_t;
 
 /* ------------------------------------------------------------------------------------------- serial -- */

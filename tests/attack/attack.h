@@ -27,6 +27,7 @@ static const uint8_t another_key[16] = {1};
 
 static uint64_t challenge;
 static uint32_t counter;
+static bool has_coxa;           /* of the limb that start_limb starts */
 static bool operator_lives;     /* the operator's signs of life go out every 40 ms */
 static uint8_t recorded[600][8]; /* every frame that the operator has sent over CAN */
 static uint32_t recorded_count;
@@ -59,6 +60,7 @@ static inline void start_limb(bool is_guarded, const uint8_t *key)
     p.controller.modbus_address = UNIT;
     bench_start(&p);
     brace_fake_without_force(&fake);
+    fake.joint[BRACE_COXA].absent = !has_coxa;
     brace_fake_with_peers(&fake);
     if (is_guarded) {
         brace_fake_guarded(&fake, key);

@@ -344,8 +344,8 @@ static void test_a_command_does_not_count_twice_or_under_a_stolen_seal(void)
     accepted_command(data);
 }
 
-/* Also what only asks takes the seal away when it comes between seal and command. */
-static void test_a_seal_is_of_the_frame_behind_it(void)
+/* What comes between seal and command takes the seal away from nobody: a flood of it would. It gets nothing by it. */
+static void test_what_comes_between_seal_and_command_changes_nothing(void)
 {
     uint8_t data[8], sealing[8], asking[8];
     begin(WITH_SESSION);
@@ -355,11 +355,13 @@ static void test_a_seal_is_of_the_frame_behind_it(void)
     const state_t before = state_now();
     says(sealing);
     says(asking);
-    says(data);
+    asking[0] = BRACE_REQUEST_LET_GO;
+    says(asking);
     ticks(4);
-    nothing_came_of_it(&before, WITH_SESSION, "a question between a seal and its command", refusals_told());
-    make_take_up(BRACE_FEMUR, data);
-    accepted_command(data);
+    nothing_came_of_it(&before, WITH_SESSION, "a command between a seal and its own", refusals_told());
+    operator_says(data);
+    ticks(4);
+    TEST_ASSERT_EQUAL(BRACE_MODE_TAKING_UP, now()->mode);
 }
 
 /* --------------------------------------------------------------------------------- signs of life -- */
@@ -608,7 +610,7 @@ int main(void)
     RUN_TEST(test_a_broadcast_moves_nothing);
     RUN_TEST(test_a_recorded_block_does_not_replay);
     RUN_TEST(test_a_command_does_not_count_twice_or_under_a_stolen_seal);
-    RUN_TEST(test_a_seal_is_of_the_frame_behind_it);
+    RUN_TEST(test_what_comes_between_seal_and_command_changes_nothing);
     RUN_TEST(test_a_dead_operator_is_not_kept_alive);
     RUN_TEST(test_a_session_is_not_taken_over_after_its_time);
     RUN_TEST(test_two_masters_with_the_key_take_turns);

@@ -198,6 +198,39 @@ void a_full_ring_loses_the_newest_and_counts()
     TEST_ASSERT_EQUAL_INT(0, two.hal.can_receive(two.context(), &got));
 }
 
+void an_urgent_frame_finds_room_in_every_controller_and_goes_first()
+{
+    Bus bus("none");
+    Host one(bus.bus.get()), two(bus.bus.get()), sender(bus.bus.get());
+    brace_can_setup_t setup = at_1m();
+    (void)sender.hal.can_setup(sender.context(), &setup);
+    setup.urgent_id = 1;
+    for (Host *host : {&one, &two}) {
+        setup.filter_id = host == &one ? 0x601 : 0x602;
+        setup.filter_mask = 0x7ff;
+        (void)host->hal.can_setup(host->context(), &setup);
+    }
+    const brace_can_frame_t request = frame(0x601, 8), stop = frame(0x001, 0);
+    for (int i = 0; i < BRACE_POSIX_RING + 3; i++) {
+        (void)sender.hal.can_send(sender.context(), &request);
+    }
+    (void)sender.hal.can_send(sender.context(), &stop);
+    (void)sender.hal.can_send(sender.context(), &stop);
+    brace_can_frame_t got{};
+    brace_can_health_t health{};
+    for (Host *host : {&one, &two}) {
+        TEST_ASSERT_EQUAL_INT(1, host->hal.can_receive(host->context(), &got));
+        TEST_ASSERT_EQUAL_HEX32(1, got.id);
+        for (int i = 0; i < (host == &one ? static_cast<int>(BRACE_POSIX_RING) : 0); i++) {
+            TEST_ASSERT_EQUAL_INT(1, host->hal.can_receive(host->context(), &got));
+            TEST_ASSERT_EQUAL_HEX32(0x601, got.id);
+        }
+        TEST_ASSERT_EQUAL_INT(0, host->hal.can_receive(host->context(), &got));
+        (void)host->hal.can_health(host->context(), &health);
+        TEST_ASSERT_EQUAL_UINT32(host == &one ? 3 : 0, health.frames_lost);
+    }
+}
+
 void slcan_clients_and_controllers_share_the_bus()
 {
     Bus bus("tcp://127.0.0.1:0");
@@ -533,6 +566,7 @@ int main()
     RUN_TEST(frames_that_cannot_be_are_refused);
     RUN_TEST(bus_off_lasts_until_recovered);
     RUN_TEST(a_full_ring_loses_the_newest_and_counts);
+    RUN_TEST(an_urgent_frame_finds_room_in_every_controller_and_goes_first);
     RUN_TEST(slcan_clients_and_controllers_share_the_bus);
     RUN_TEST(a_client_that_does_not_read_loses_frames_and_nothing_else);
     RUN_TEST(more_clients_than_places_are_sent_away);

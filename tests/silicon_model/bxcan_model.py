@@ -1,7 +1,7 @@
 """bxCAN 1 as RM0090 chapter 32 describes it, and the bus it hangs on.
 
 Frame level: a frame takes 47 + 8 n bit times (no stuff bits). What the manual leaves to write-protection is noted in
-`Chip.violations` when it is tried. Not modelled: CAN 2, time triggered mode, sleep on the bus, FIFO 1.
+`Chip.violations` when it is tried. Not modelled: CAN 2, time triggered mode, sleep on the bus, interrupts of FIFO 1.
 """
 
 from __future__ import annotations
@@ -55,6 +55,13 @@ class Mailbox:
         return Frame(identifier >> 3 if extended else identifier >> 21, data, extended, bool(identifier >> 1 & 1))
 
 
+class Fifo:
+    def __init__(self) -> None:
+        self.frames: deque[Frame] = deque()
+        self.full = self.overrun = False
+        self.releasing = 0
+
+
 class Bxcan:
     BASE = 0x40006400
 
@@ -75,9 +82,7 @@ class Bxcan:
         self.init, self.asleep = False, True
         self.mailboxes = [Mailbox() for _ in range(3)]
         self.tsr_done = 0  # RQCP, TXOK, ALST, TERR
-        self.fifo: deque[Frame] = deque()
-        self.full = self.overrun = False
-        self.releasing = 0
+        self.fifos = [Fifo(), Fifo()]
         self.tec = self.rec = 0
         self.bus_off = False
         self.recessive_bits_left = 0.0  # of the way back from bus-off
@@ -214,39 +219,43 @@ class Bxcan:
         self._accept(frame)
 
     def _accept(self, frame: Frame) -> None:
-        if not self._passes(frame):
+        number = self._fifo_of(frame)
+        if number is None:
             return
-        if len(self.fifo) == FIFO_DEPTH:
-            self.overrun = True
+        fifo = self.fifos[number]
+        if len(fifo.frames) == FIFO_DEPTH:
+            fifo.overrun = True
             if not self.mcr >> 3 & 1:  # RFLM 0: the newest takes the place of the last
-                self.fifo[-1] = frame
+                fifo.frames[-1] = frame
             return
-        self.fifo.append(frame)
-        self.full = self.full or len(self.fifo) == FIFO_DEPTH
+        fifo.frames.append(frame)
+        fifo.full = fifo.full or len(fifo.frames) == FIFO_DEPTH
 
     def _identifier_word(self, frame: Frame) -> int:
         number = frame.id << 3 | 4 if frame.extended else frame.id << 21
         return number | (2 if frame.remote else 0)
 
-    def _passes(self, frame: Frame) -> bool:
-        """32-bit filters of FIFO 0 only; anything else in use is beyond this model."""
+    def _fifo_of(self, frame: Frame) -> int | None:
+        """By 32-bit filters; 16-bit ones are beyond this model. A list goes before a mask, then the lower bank."""
         if self.fmr & 1:
-            return False
+            return None
+        fitting = []
         for bank in range(28):
             if not self.filters[0x21C] >> bank & 1:
                 continue
-            assert self.filters[0x20C] >> bank & 1 and not self.filters[0x214] >> bank & 1, "filter kind not modelled"
+            assert self.filters[0x20C] >> bank & 1, "filter kind not modelled"
             word, (first, second) = self._identifier_word(frame), self.banks[bank]
             is_list = self.filters[0x204] >> bank & 1
             if word in (first, second) if is_list else word & second == first & second:
-                return True
-        return False
+                fitting.append((not is_list, bank))
+        return self.filters[0x214] >> min(fitting)[1] & 1 if fitting else None
 
     def rx0_asks(self) -> bool:
+        fifo = self.fifos[0]
         return bool(
-            self.ier >> 1 & 1 and self.fifo and not self.releasing
-            or self.ier >> 2 & 1 and self.full
-            or self.ier >> 3 & 1 and self.overrun
+            self.ier >> 1 & 1 and fifo.frames and not fifo.releasing
+            or self.ier >> 2 & 1 and fifo.full
+            or self.ier >> 3 & 1 and fifo.overrun
         )
 
     # --- registers
@@ -256,14 +265,14 @@ class Bxcan:
             return 0
         if 0x180 <= offset < 0x1B0:
             return self.mailboxes[(offset - 0x180) // 16].words[offset % 16 // 4]
-        if 0x1B0 <= offset < 0x1C0:
-            return self._read_fifo(offset - 0x1B0)
+        if 0x1B0 <= offset < 0x1D0:
+            return self._read_fifo(self.fifos[(offset - 0x1B0) // 16], offset % 16)
         if 0x240 <= offset < 0x320:
             return self.banks[(offset - 0x240) // 8][offset % 8 // 4]
         if offset in self.filters:
             return self.filters[offset]
-        if offset == 0x0C:
-            return self._read_rf0r()
+        if offset in (0x0C, 0x10):
+            return self._read_rfr(self.fifos[offset == 0x10])
         return {
             0x00: self.mcr,
             0x04: 0xC00 | self.asleep << 1 | self.init,
@@ -279,20 +288,21 @@ class Bxcan:
         warning = self.tec >= 96 or self.rec >= 96
         return self.rec << 24 | self.tec << 16 | self.bus_off << 2 | passive << 1 | int(warning)
 
-    def _read_rf0r(self) -> int:
-        value = len(self.fifo) | self.full << 3 | self.overrun << 4 | (self.releasing > 0) << 5
-        if self.releasing:
-            self.releasing -= 1
-            if self.releasing == 0:
-                self.fifo.popleft()
-                self.full = False
+    @staticmethod
+    def _read_rfr(fifo: Fifo) -> int:
+        value = len(fifo.frames) | fifo.full << 3 | fifo.overrun << 4 | (fifo.releasing > 0) << 5
+        if fifo.releasing:
+            fifo.releasing -= 1
+            if fifo.releasing == 0:
+                fifo.frames.popleft()
+                fifo.full = False
         return value
 
-    def _read_fifo(self, offset: int) -> int:
-        if not self.fifo or self.releasing:
+    def _read_fifo(self, fifo: Fifo, offset: int) -> int:
+        if not fifo.frames or fifo.releasing:
             self.chip.violations.append("bxCAN: FIFO read with nothing in it, or while it is released")
             return 0
-        frame = self.fifo[0]
+        frame = fifo.frames[0]
         data = frame.data.ljust(8, b"\xa5")
         dlc = len(frame.data) if frame.dlc is None else frame.dlc
         word = {
@@ -311,8 +321,8 @@ class Bxcan:
             self._write_mcr(value)
         elif offset == 0x08:
             self._write_tsr(value)
-        elif offset == 0x0C:
-            self._write_rf0r(value)
+        elif offset in (0x0C, 0x10):
+            self._write_rfr(self.fifos[offset == 0x10], value)
         elif offset == 0x14:
             self.ier = value
         elif offset == 0x1C:
@@ -357,13 +367,13 @@ class Bxcan:
                 box.pending = False
                 self.tsr_done = self.tsr_done & ~(0xF << 8 * index) | 1 << 8 * index
 
-    def _write_rf0r(self, value: int) -> None:
+    def _write_rfr(self, fifo: Fifo, value: int) -> None:
         if value >> 3 & 1:
-            self.full = False
+            fifo.full = False
         if value >> 4 & 1:
-            self.overrun = False
-        if value >> 5 & 1 and self.fifo and not self.releasing:
-            self.releasing = self.release_reads
+            fifo.overrun = False
+        if value >> 5 & 1 and fifo.frames and not fifo.releasing:
+            fifo.releasing = self.release_reads
 
     def _write_mailbox(self, index: int, word: int, value: int) -> None:
         box = self.mailboxes[index]

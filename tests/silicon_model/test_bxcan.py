@@ -151,6 +151,33 @@ def test_only_frames_that_the_filter_passes_take_room(silicon: Maker, filter_id:
     assert heard == [frame for frame in frames if (frame.id ^ filter_id) & filter_mask == 0]
 
 
+@pytest.mark.parametrize("filter_id, filter_mask", [(0x605, 0x7FF), (0, 0)])
+def test_an_urgent_frame_waits_in_no_ring_and_is_given_first(silicon: Maker, filter_id: int, filter_mask: int) -> None:
+    chip = silicon()
+    chip.start()
+    assert chip.setup_can_urgent(filter_id, filter_mask, 0x001) == OK
+    chip.chip.wait_us(30)
+    requests = [Frame(0x605, bytes([number])) for number in range(70)]
+    chip.can.arriving.extend([*requests, *[Frame(0x001, b"")] * 5, Frame(0x001, b"", remote=True), Frame(0x002, b"")])
+    chip.chip.wait_us(20_000)
+    heard = receive_all(chip)
+    assert heard == [Frame(0x001, b"")] * 3 + requests[:64]
+    assert health(chip)[4] == 70 - 64 + (filter_mask == 0)  # no urgent one is among the lost
+    chip.can.arriving.append(Frame(0x001, b"\x07" * 8))
+    chip.chip.wait_us(1_000)
+    assert receive_all(chip) == [Frame(0x001, b"\x07" * 8)]
+
+
+def test_without_an_urgent_identifier_none_passes(silicon: Maker) -> None:
+    chip = silicon()
+    chip.start()
+    assert chip.setup_can_urgent(0x605, 0x7FF, 0) == OK
+    chip.chip.wait_us(30)
+    chip.can.arriving.extend([Frame(0x000, b""), Frame(0x001, b"")])
+    chip.chip.wait_us(1_000)
+    assert receive_all(chip) == []
+
+
 def test_without_crystal_it_only_listens(silicon: Maker) -> None:
     chip = silicon(crystal_hz=None)
     chip.start()

@@ -20,6 +20,9 @@ controller adds its node number, 1 to 127, to the identifiers below; without a n
 known has a code of its own, never zero: the most negative one of a signed value, all ones of an unsigned one. A value
 beyond its range is limited; where one of K is, it carries the flag SATURATED.
 
+A frame of the identifier 0x001, with or without data, is a stop for every controller of the bus: set-points stay where
+they are. Anybody may send it. `controller.stop_id` can be another number, from 0x001 to 0x07f.
+
 All frames of one snapshot carry the same sequence: put together only what agrees. Two ends that do not have the same
 dictionary hash (heartbeat, `identify`) speak different languages and have to say so.
 """
@@ -60,7 +63,9 @@ def protocol_page(wire: Wire, values: Values, dictionary_hash: int) -> str:
         f"\n## What it answers\n\nAsked on 0x{wire.request_id:03x} + node, answered on 0x{wire.answer_id:03x} + node. "
         "Byte 0 is"
         " the request's code; in an answer plus 32 times its part. Byte 1 is a token that comes back in every part. The"
-        " fields begin at bit 16. A request is answered in the tick that takes it; an answer of part "
+        " fields begin at bit 16. The token's upper four bits say which master of the bus asks: masters are answered"
+        " in turn, and what a master has begun (a force that was told, a download) is that master's. A stop is obeyed"
+        " before anything else, commands go before questions, and each port answers one question a tick; an answer of part "
         f"{wire.refused_part} is a"
         " refusal:\n\n"
     )

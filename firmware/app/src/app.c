@@ -341,9 +341,10 @@ enum {
     PART_COMMANDED = 4,
     PART_TOLD = 5,
     PART_WORKED = 6,
-    PART_GUARDED = 7
+    PART_GUARDED = 7,
+    PART_HEARD = 8
 };
-#define ALL_PARTS 0x1234567u
+#define ALL_PARTS 0x81234567u
 
 static void part_is_done(controller_t *controller, uint32_t part)
 {
@@ -378,7 +379,16 @@ static void step_jobs(brace_app_t *app, const brace_snapshot_t *snapshot)
     softening_age(&controller->softening, controller->model.is_spatial && snapshot->load.is_counted);
 }
 
-/* The wires answer what has come and send what is due. returns how much they have done (wire/wire.h) */
+/* The wires look at all that has come: stops and sessions come before everything. */
+static void hear(brace_app_t *app, uint32_t now_us)
+{
+    controller_t *controller = &app->controller;
+    controller->ownership.is_by_wire = true;
+    wires_hear(&app->wires, controller->hal, app, &controller->counters, now_us);
+    controller->ownership.is_by_wire = false;
+}
+
+/* The wires answer questions and send what is due. returns how much they have done (wire/wire.h) */
 static uint32_t tell(brace_app_t *app, uint32_t now_us)
 {
     controller_t *controller = &app->controller;
@@ -557,6 +567,8 @@ void brace_app_tick(brace_app_t *app, uint32_t now_us)
     const bool late = tick_is_late(controller, now_us);
     controller->parts_done = 0;
 
+    hear(app, now_us);
+    part_is_done(controller, PART_HEARD);
     step_ownership(app);
 
     /* Sense. */

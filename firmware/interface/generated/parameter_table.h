@@ -6,7 +6,7 @@
 
 #include "brace/parameters.h"
 
-enum { BRACE_F32_RANGES = 25, BRACE_U32_RANGES = 9, BRACE_U32_LISTS = 2, BRACE_U32_LIST_MAX = 9 };
+enum { BRACE_F32_RANGES = 25, BRACE_U32_RANGES = 10, BRACE_U32_LISTS = 2, BRACE_U32_LIST_MAX = 9 };
 
 extern const float brace_f32_range[BRACE_F32_RANGES][2];
 extern const uint32_t brace_u32_range[BRACE_U32_RANGES][2];

@@ -97,6 +97,9 @@ struct brace_fake {
     uint32_t can_room;    /* frames that may wait to be sent; a further one gets AGAIN */
     bool can_takes_fd;    /* false: CAN FD is refused */
     brace_fake_frames_t can_sent, can_received; /* the test fills can_received */
+    bool can_has_urgent;  /* a frame of can_setup.urgent_id waits: the newest, and outside can_received */
+    brace_can_frame_t can_urgent;
+    bool can_filters;     /* as a board's filters do, drop arriving frames that can_setup's filter keeps out */
 
     uint32_t baud[BRACE_SERIAL_PORT_COUNT];
     brace_parity_t parity[BRACE_SERIAL_PORT_COUNT];
@@ -142,7 +145,8 @@ bool brace_fake_fail(brace_fake_t *fake, brace_fake_entry_t entry, uint32_t firs
 /* Makes the next `count` calls fail. */
 bool brace_fake_fail_next(brace_fake_t *fake, brace_fake_entry_t entry, uint32_t count, int32_t answer);
 
-/* A frame arrives, or the test takes a frame that was sent. false: no room for the first, or no frame to take. */
+/* A frame arrives, or the test takes a frame that was sent. false: no room for the first, or no frame to take. An
+ * urgent frame always finds room. */
 bool brace_fake_frame_arrives(brace_fake_t *fake, const brace_can_frame_t *frame);
 bool brace_fake_frame_take(brace_fake_t *fake, brace_can_frame_t *frame);
 

@@ -49,6 +49,7 @@ void brace_fake_reset(brace_fake_t *fake, brace_reset_cause_t cause)
     fake->reset_cause = cause;
     fake->now_us = 0;
     fake->can_sent = fake->can_received = (brace_fake_frames_t){.count = 0};
+    fake->can_has_urgent = false;
     for (int port = 0; port < BRACE_SERIAL_PORT_COUNT; port++) {
         fake->serial_sent[port] = fake->serial_received[port] = (brace_fake_bytes_t){.count = 0};
     }

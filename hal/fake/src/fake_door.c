@@ -134,6 +134,11 @@ static int32_t can_send(void *context, const brace_can_frame_t *frame)
 static int32_t can_receive(void *context, brace_can_frame_t *frame)
 {
     CALLED(CAN_RECEIVE)
+    if (fake->can_has_urgent) {
+        *frame = fake->can_urgent;
+        fake->can_has_urgent = false;
+        return 1;
+    }
     return fake_frames_take(&fake->can_received, frame) ? 1 : 0;
 }
 

@@ -45,6 +45,15 @@ uint32_t fake_bytes_take(brace_fake_bytes_t *bytes, uint8_t *to, uint32_t room)
 
 bool brace_fake_frame_arrives(brace_fake_t *fake, const brace_can_frame_t *frame)
 {
+    const brace_can_setup_t *setup = &fake->can_setup;
+    if (setup->urgent_id != 0u && frame->id == setup->urgent_id) {
+        fake->can_urgent = *frame;
+        fake->can_has_urgent = true;
+        return true;
+    }
+    if (fake->can_filters && ((frame->id ^ setup->filter_id) & setup->filter_mask) != 0u) {
+        return true;
+    }
     const bool room = fake_frames_put(&fake->can_received, frame);
     fake->can_health.frames_lost += !room;
     return room;

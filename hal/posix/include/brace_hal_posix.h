@@ -80,6 +80,8 @@ typedef struct {
     bool fault_bus_off;         /* injected: the bus is off and stays off */
     bool bus_off;               /* stays until can_recover */
     uint32_t frames_lost, sent, received;
+    bool has_urgent;            /* a frame of setup.urgent_id waits: the newest, outside the ring */
+    brace_can_frame_t urgent;
     uint32_t start, count;
     brace_can_frame_t ring[BRACE_POSIX_RING];
 } brace_posix_node_t;

@@ -103,6 +103,12 @@ uint32_t bus_bit_rate(const brace_posix_bus_t *bus)
 
 static void node_takes(brace_posix_node_t *node, const brace_can_frame_t *frame)
 {
+    if (node->setup.urgent_id != 0u && frame->id == node->setup.urgent_id) {
+        node->urgent = *frame;
+        node->has_urgent = true;
+        node->received++;
+        return;
+    }
     if (((frame->id ^ node->setup.filter_id) & node->setup.filter_mask) != 0u) {
         return;
     }
@@ -168,6 +174,7 @@ int32_t door_can_setup(void *context, const brace_can_setup_t *setup)
     node->on = true;
     node->bus_off = node->fault_bus_off;
     node->start = node->count = 0u;
+    node->has_urgent = false;
     return BRACE_HAL_OK;
 }
 
@@ -211,6 +218,11 @@ int32_t door_can_send(void *context, const brace_can_frame_t *frame)
 int32_t door_can_receive(void *context, brace_can_frame_t *frame)
 {
     brace_posix_node_t *node = node_of(context);
+    if (node->has_urgent) {
+        *frame = node->urgent;
+        node->has_urgent = false;
+        return 1;
+    }
     if (node->count == 0u) {
         return 0;
     }

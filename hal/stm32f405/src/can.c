@@ -48,18 +48,21 @@ static volatile uint32_t *can(uint32_t offset)
     return &REGISTER(CAN1_BASE, offset);
 }
 
-/* Accepts standard data frames with these bits of their identifier, and only these, into FIFO 0. */
-static void open_filter(const brace_can_setup_t *setup)
+/* Accepts standard data frames with these bits of their identifier, and only these, into FIFO 0; and urgent ones into
+ * FIFO 1. Where both filters fit, the one that lists an identifier wins over the one with a mask. */
+static void open_filters(const brace_can_setup_t *setup)
 {
     *can(CAN_FMR) |= CAN_FMR_FINIT;
     *can(CAN_FA1R) = 0u;
-    *can(CAN_FM1R) &= ~CAN_FM1R_FBM0; /* mask */
-    *can(CAN_FS1R) |= CAN_FS1R_FSC0;  /* of 32 bits */
-    *can(CAN_FFA1R) &= ~CAN_FFA1R_FFA0;
+    *can(CAN_FM1R) = (*can(CAN_FM1R) & ~CAN_FM1R_FBM0) | CAN_FM1R_FBM1; /* 0: mask, 1: list */
+    *can(CAN_FS1R) |= CAN_FS1R_FSC0 | CAN_FS1R_FSC1;                    /* of 32 bits */
+    *can(CAN_FFA1R) = (*can(CAN_FFA1R) & ~CAN_FFA1R_FFA0) | CAN_FFA1R_FFA1;
     /* Filters have the bits of a receive identifier register. IDE and RTR must be 0. */
     *can(CAN_F0R1) = FIELD(CAN_RI0R_STID, setup->filter_id & setup->filter_mask);
     *can(CAN_F0R2) = FIELD(CAN_RI0R_STID, setup->filter_mask) | CAN_RI0R_IDE | CAN_RI0R_RTR;
-    *can(CAN_FA1R) = CAN_FA1R_FACT0;
+    *can(CAN_F1R1) = FIELD(CAN_RI0R_STID, setup->urgent_id);
+    *can(CAN_F1R2) = FIELD(CAN_RI0R_STID, setup->urgent_id);
+    *can(CAN_FA1R) = setup->urgent_id != 0u ? CAN_FA1R_FACT0 | CAN_FA1R_FACT1 : CAN_FA1R_FACT0;
     *can(CAN_FMR) &= ~CAN_FMR_FINIT;
 }
 
@@ -133,7 +136,7 @@ int32_t can_setup(void *context, const brace_can_setup_t *setup)
         return BRACE_HAL_E_DEVICE;
     }
     *can(CAN_BTR) = timing_bits(&timing) | mode_bits(setup);
-    open_filter(setup);
+    open_filters(setup);
     *can(CAN_IER) = CAN_IER_FMPIE0 | CAN_IER_FOVIE0;
     listening_only = setup->listen_only && !setup->loopback;
     running = true;
@@ -221,19 +224,19 @@ int32_t can_send(void *context, const brace_can_frame_t *frame)
     return BRACE_HAL_AGAIN;
 }
 
-int32_t can_receive(void *context, brace_can_frame_t *frame)
+/* The frame that a FIFO holds. at: of FIFO 1 behind the registers of FIFO 0 */
+static stored_frame_t frame_of_fifo(uint32_t at)
 {
-    (void)context;
-    if (!running) {
-        return BRACE_HAL_E_UNSUPPORTED;
-    }
-    finish_recovery();
-    const uint32_t taken = ring_taken;
-    if (ring_written == taken) {
-        return 0;
-    }
-    compiler_barrier();
-    const stored_frame_t *stored = &ring[taken % RING_FRAMES];
+    const uint32_t dlc = *can(CAN_RDT0R + at) & CAN_RDT0R_DLC; /* a sender may write up to 15 for 8 bytes */
+    const uint32_t length = dlc < 8u ? dlc : 8u;
+    return (stored_frame_t){
+        .id_and_length = (*can(CAN_RI0R + at) & CAN_RI0R_STID) / FIELD(CAN_RI0R_STID, 1u) | length << 16,
+        .data_low = *can(CAN_RDL0R + at),
+        .data_high = *can(CAN_RDH0R + at)};
+}
+
+static void give_frame(const stored_frame_t *stored, brace_can_frame_t *frame)
+{
     frame->id = stored->id_and_length & 0xffffu;
     frame->length = (uint8_t)(stored->id_and_length >> 16);
     frame->fd = false;
@@ -241,6 +244,37 @@ int32_t can_receive(void *context, brace_can_frame_t *frame)
         const uint32_t half = i < 4u ? stored->data_low : stored->data_high;
         frame->data[i] = (uint8_t)(half >> (8u * (i % 4u)));
     }
+}
+
+/* Urgent frames wait in FIFO 1, which nothing else fills: it holds three, and drops what is more. */
+static bool take_urgent(brace_can_frame_t *frame)
+{
+    if ((*can(CAN_RF1R) & CAN_RF1R_FMP1) == 0u) {
+        return false;
+    }
+    const stored_frame_t stored = frame_of_fifo(CAN_RI1R - CAN_RI0R);
+    *can(CAN_RF1R) = CAN_RF1R_RFOM1;
+    (void)poll_until(can(CAN_RF1R), CAN_RF1R_RFOM1, 0u, RELEASE_POLLS); /* the count is old until then */
+    give_frame(&stored, frame);
+    return true;
+}
+
+int32_t can_receive(void *context, brace_can_frame_t *frame)
+{
+    (void)context;
+    if (!running) {
+        return BRACE_HAL_E_UNSUPPORTED;
+    }
+    finish_recovery();
+    if (take_urgent(frame)) {
+        return 1;
+    }
+    const uint32_t taken = ring_taken;
+    if (ring_written == taken) {
+        return 0;
+    }
+    compiler_barrier();
+    give_frame(&ring[taken % RING_FRAMES], frame);
     compiler_barrier();
     ring_taken = taken + 1u;
     return 1;
@@ -290,12 +324,7 @@ static void store_frame(void)
         count_lost();
         return;
     }
-    stored_frame_t *place = &ring[written % RING_FRAMES];
-    const uint32_t dlc = *can(CAN_RDT0R) & CAN_RDT0R_DLC; /* a sender may write up to 15 for 8 bytes */
-    const uint32_t length = dlc < 8u ? dlc : 8u;
-    place->id_and_length = (*can(CAN_RI0R) & CAN_RI0R_STID) / FIELD(CAN_RI0R_STID, 1u) | length << 16;
-    place->data_low = *can(CAN_RDL0R);
-    place->data_high = *can(CAN_RDH0R);
+    ring[written % RING_FRAMES] = frame_of_fifo(0);
     compiler_barrier();
     ring_written = written + 1u;
 }

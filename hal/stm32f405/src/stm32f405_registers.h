@@ -244,6 +244,9 @@
 #define CAN_RF0R_FULL0 (1u << 3)
 #define CAN_RF0R_FOVR0 (1u << 4)
 #define CAN_RF0R_RFOM0 (1u << 5)
+#define CAN_RF1R 0x10u
+#define CAN_RF1R_FMP1 (3u << 0)
+#define CAN_RF1R_RFOM1 (1u << 5)
 #define CAN_IER 0x14u
 #define CAN_IER_FMPIE0 (1u << 1)
 #define CAN_IER_FOVIE0 (1u << 3)
@@ -275,18 +278,25 @@
 #define CAN_RDT0R_DLC (0xfu << 0)
 #define CAN_RDL0R 0x1b8u
 #define CAN_RDH0R 0x1bcu
+#define CAN_RI1R 0x1c0u
 #define CAN_FMR 0x200u
 #define CAN_FMR_FINIT (1u << 0)
 #define CAN_FM1R 0x204u
 #define CAN_FM1R_FBM0 (1u << 0)
+#define CAN_FM1R_FBM1 (1u << 1)
 #define CAN_FS1R 0x20cu
 #define CAN_FS1R_FSC0 (1u << 0)
+#define CAN_FS1R_FSC1 (1u << 1)
 #define CAN_FFA1R 0x214u
 #define CAN_FFA1R_FFA0 (1u << 0)
+#define CAN_FFA1R_FFA1 (1u << 1)
 #define CAN_FA1R 0x21cu
 #define CAN_FA1R_FACT0 (1u << 0)
+#define CAN_FA1R_FACT1 (1u << 1)
 #define CAN_F0R1 0x240u
 #define CAN_F0R2 0x244u
+#define CAN_F1R1 0x248u
+#define CAN_F1R2 0x24cu
 #define CAN1_RX0_IRQ 20u
 
 /* Independent watchdog */

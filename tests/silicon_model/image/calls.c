@@ -55,6 +55,13 @@ int32_t setup_can_for(uint32_t bit_rate, uint32_t filter_id, uint32_t filter_mas
     return door->can_setup(door->context, &setup);
 }
 
+int32_t setup_can_urgent(uint32_t filter_id, uint32_t filter_mask, uint32_t urgent_id)
+{
+    const brace_can_setup_t setup = {
+        .bit_rate = 500000, .filter_id = filter_id, .filter_mask = filter_mask, .urgent_id = urgent_id};
+    return door->can_setup(door->context, &setup);
+}
+
 int32_t send_frame(void)
 {
     return door->can_send(door->context, &frame);

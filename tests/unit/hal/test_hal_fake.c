@@ -110,6 +110,33 @@ static void test_frames_and_bytes_queue_in_order(void)
     TEST_ASSERT_EQUAL(0, fake.hal.serial_read(door(), BRACE_SERIAL_MODBUS, text, 2));
 }
 
+/* A full ring keeps no urgent frame out, and one that waits in it does not go first. */
+static void test_an_urgent_frame_finds_room_and_goes_first(void)
+{
+    brace_can_frame_t frame = {.id = 0x605, .length = 8};
+    const brace_can_setup_t setup = {.bit_rate = 500000, .filter_id = 0x605, .filter_mask = 0x7ff, .urgent_id = 1};
+    TEST_ASSERT_EQUAL(BRACE_HAL_OK, fake.hal.can_setup(door(), &setup));
+    for (uint32_t i = 0; i < BRACE_FAKE_FRAMES; i++) {
+        TEST_ASSERT_TRUE(brace_fake_frame_arrives(&fake, &frame));
+    }
+    TEST_ASSERT_FALSE(brace_fake_frame_arrives(&fake, &frame));
+    frame = (brace_can_frame_t){.id = 1};
+    TEST_ASSERT_TRUE(brace_fake_frame_arrives(&fake, &frame));
+    TEST_ASSERT_TRUE(brace_fake_frame_arrives(&fake, &frame));
+    TEST_ASSERT_EQUAL(1, fake.can_health.frames_lost);
+    TEST_ASSERT_EQUAL(1, fake.hal.can_receive(door(), &frame));
+    TEST_ASSERT_EQUAL(1, frame.id);
+    for (uint32_t i = 0; i < BRACE_FAKE_FRAMES; i++) {
+        TEST_ASSERT_EQUAL(1, fake.hal.can_receive(door(), &frame));
+        TEST_ASSERT_EQUAL(0x605, frame.id);
+    }
+    TEST_ASSERT_EQUAL(0, fake.hal.can_receive(door(), &frame));
+    fake.can_filters = true;
+    frame.id = 0x606;
+    TEST_ASSERT_TRUE(brace_fake_frame_arrives(&fake, &frame));
+    TEST_ASSERT_EQUAL(0, fake.hal.can_receive(door(), &frame));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -117,5 +144,6 @@ int main(void)
     RUN_TEST(test_calls_fail_when_they_were_told_to_and_leave_outputs_alone);
     RUN_TEST(test_memory_is_flash);
     RUN_TEST(test_frames_and_bytes_queue_in_order);
+    RUN_TEST(test_an_urgent_frame_finds_room_and_goes_first);
     return UNITY_END();
 }

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping
 
 from brace.bus.entries import index_of
 from brace.bus.frame import NODE_MASK, Bus, EndOfLog, Frame
-from brace.bus.ownership import COMMANDS, EARLY, LIFE_S, MOVING, UNKNOWN, Owner, Reopening, entry_of
+from brace.bus.ownership import COMMANDS, EARLY, LIFE_S, UNKNOWN, Owner, Reopening, entry_of
 from brace.bus.refusal import BUSY, ORDER, error_of
 from brace.bus.snapshot import Heartbeat, Joiner, Snapshot, heartbeat_of
 from brace.errors import DeviceFaultError, NoDeviceError, UsageError
@@ -68,7 +68,7 @@ class Session:
         self.bus = bus
         self.owner = Owner(key)
         self._is_bench = False
-        self._master = secrets.randbelow(16) << 4  # on a bench: the upper bits of tokens tell masters apart
+        self._master = secrets.randbelow(16) << 4  # the upper bits of tokens tell masters apart
         self._lives = False
         self._next_life_s = 0.0
         self.joiner = Joiner()
@@ -261,9 +261,7 @@ class Session:
         raise self._no_answer(name)
 
     def _ask_once(self, name: str, values: Mapping[str, Value], timeout_s: float) -> dict[str, Value] | None:
-        self._token = (self._token + 1) & 0xFF
-        if name in MOVING:
-            self._token = self._master | self._token & 0xF
+        self._token = self._master | (self._token + 1) & 0xF
         request = REQUESTS[name]
         try:
             frames = self._sealed(name, values) if name in COMMANDS else [request.encode(values, self._token)]

@@ -14,6 +14,8 @@ _COUNTERS = {
     "frames_refused": ("CAN frames were not taken by the bus", "look at wires, termination and bit rate"),
     "frames_unknown": ("CAN frames had no known form", "compare the dictionary of whoever sends them: brace query"),
     "frames_lost": ("requests over CAN found no room", "ask less often: a request each millisecond"),
+    "questions_busy": ("questions were refused as busy", "ask again after an answer; eight of one asker may wait"),
+    "requests_lost": ("requests or answers found no room", "look who floods the bus, and whether answers are read"),
     "commands_failed": ("commands were refused by a drive", "look at the drive's own errors"),
     "strangers_refused": (
         "commands came without the key, or from somebody who is not the owner", "look who else is on the bus: docs/security.md"

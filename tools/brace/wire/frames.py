@@ -5,7 +5,7 @@ from __future__ import annotations
 from brace.wire import codes
 from brace.wire.layout import Field, Layout
 
-DICTIONARY_HASH = 0x13040C2F
+DICTIONARY_HASH = 0x3B348FCE
 PROTOCOL = 1
 REQUEST_ID = 0x600
 ANSWER_ID = 0x580

@@ -132,4 +132,6 @@ MEASURED: tuple[MeasuredEntry, ...] = (
     MeasuredEntry(0x107b, "commits_refused", "u32", ""),
     MeasuredEntry(0x107c, "erases", "u32", ""),
     MeasuredEntry(0x107d, "last_refusal", "u32", ""),
+    MeasuredEntry(0x107e, "questions_busy", "u32", ""),
+    MeasuredEntry(0x107f, "requests_lost", "u32", ""),
 )

@@ -6,7 +6,7 @@ from math import inf
 
 from brace.wire.parameter import Parameter
 
-SCHEMA_HASH = 0x5D93352F
+SCHEMA_HASH = 0x8727EBD7
 
 PARAMETERS: tuple[Parameter, ...] = (
     Parameter(
@@ -560,12 +560,17 @@ PARAMETERS: tuple[Parameter, ...] = (
         description="how many milliseconds after its owner has fallen silent the limb lets go by itself; 0 means never: it holds its set-points",
     ),
     Parameter(
-        110, 106, "controller.modbus_address", "controller.modbus_address",
+        110, 112, "controller.stop_id", "controller.stop_id",
+        unit="", low=1, high=127, default=1, safe=1, type="u32",
+        description="the identifier of the CAN frame that stops every limb of the bus, whatever the frame carries; it wins over all other identifiers of a controller, and holds from the next start on",
+    ),
+    Parameter(
+        111, 106, "controller.modbus_address", "controller.modbus_address",
         unit="", low=1, high=247, default=1, safe=1, type="u32",
         description="the controller's address on Modbus",
     ),
     Parameter(
-        111, 107, "controller.modbus_baud", "controller.modbus_baud",
+        112, 107, "controller.modbus_baud", "controller.modbus_baud",
         unit="bit/s", low=1200, high=230400, default=115200, safe=115200, type="u32", numbers=(1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200, 230400,),
         description="the baud rate of Modbus RTU",
     ),

@@ -238,7 +238,7 @@ static brace_client_status_t explain_silence(brace_client_t *client, const char 
 
 /* ------------------------------------------------------------------------------------------- asking -- */
 
-/* How a request is sent. Commands are sealed on a guarded board, and on a bench their tokens tell masters apart. */
+/* How a request is sent. Commands are sealed on a guarded board. All other tokens tell masters apart. */
 typedef enum { ASKS, COMMANDS, COMMANDS_ONCE } manner_t;
 
 /* Has another client asked with this token of late? An answer to that one may still come. */
@@ -253,12 +253,11 @@ static uint8_t next_token(brace_client_t *client, manner_t manner)
     if (manner != ASKS && client->owner.is_open) {
         return (uint8_t)brace_owner_next_counter(&client->owner);
     }
-    client->token++;
-    for (int i = 0; manner == ASKS && i < 255 && is_foreign(client, client->token); i++) {
-        client->token++;
-    }
-    if (manner != ASKS) { /* signs of life have 0 in the lower four bits */
-        client->token = (uint8_t)(client->master << 4 | (1u + client->token % 15u));
+    for (int i = 0; i < 15; i++) { /* signs of life have 0 in the lower four bits */
+        client->token = (uint8_t)(client->master << 4 | (1u + (client->token & 15u) % 15u));
+        if (manner != ASKS || !is_foreign(client, client->token)) {
+            break;
+        }
     }
     return client->token;
 }

@@ -82,6 +82,8 @@ typedef struct {
     uint32_t frames_refused;  /* CAN frames that the bus refused: bus off, or a device that does not answer */
     uint32_t frames_unknown;  /* CAN frames received that are of no known kind, or requests of a wrong length */
     uint32_t frames_lost;     /* CAN frames to this node that found no room in the hardware layer's ring */
+    uint32_t questions_busy;  /* questions that found their asker's queue full, and were refused so */
+    uint32_t requests_lost;   /* requests, or answers to requests, that found no room */
     uint32_t commands_failed; /* joint_command was refused */
     uint32_t modbus_broken;   /* Modbus frames with a wrong CRC or length */
     uint32_t modbus_refused;  /* Modbus requests answered with an exception */

@@ -175,6 +175,8 @@ static void take_counters(const brace_app_counters_t *counters, brace_measured_t
     m->modbus_broken = counters->modbus_broken;
     m->modbus_refused = counters->modbus_refused;
     m->frames_lost = counters->frames_lost;
+    m->questions_busy = counters->questions_busy;
+    m->requests_lost = counters->requests_lost;
     m->commands_failed = counters->commands_failed;
 }
 

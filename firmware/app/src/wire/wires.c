@@ -9,13 +9,24 @@ void wires_start(wires_t *wires, const brace_hal_t *hal, const brace_parameters_
     modbus_start(&wires->modbus, hal, parameters);
 }
 
+void wires_hear(wires_t *wires, const brace_hal_t *hal, brace_app_t *app, brace_app_counters_t *counters,
+                uint32_t now_us)
+{
+    const wire_tick_t tick = {
+        .hal = hal, .app = app, .counters = counters, .measured = &wires->measured, .now_us = now_us};
+    if (can_hear(&wires->can, &tick)) {
+        can_stop(&wires->can);
+    }
+    wires->obeyed = can_obey(&wires->can, &tick);
+}
+
 uint32_t wires_tick(wires_t *wires, const brace_hal_t *hal, brace_app_t *app, brace_app_counters_t *counters,
                     uint32_t now_us)
 {
     const wire_tick_t tick = {
         .hal = hal, .app = app, .counters = counters, .measured = &wires->measured, .now_us = now_us};
     measured_take(app, counters, now_us, &wires->measured);
-    const uint32_t handled = modbus_tick(&wires->modbus, &tick) + can_listen(&wires->can, &tick);
+    const uint32_t handled = wires->obeyed + modbus_tick(&wires->modbus, &tick) + can_answer(&wires->can, &tick);
     return handled + can_speak(&wires->can, &tick, handled > 0u ? 0u : (uint32_t)PROCESS_FRAMES_PER_TICK);
 }
 

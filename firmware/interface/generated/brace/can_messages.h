@@ -14,7 +14,7 @@
 #include <stdint.h>
 
 /* Of every frame, entry and parameter, with types, steps and units: what two ends must agree on. */
-#define BRACE_DICTIONARY_HASH 0x13040c2fu
+#define BRACE_DICTIONARY_HASH 0x3b348fceu
 #define BRACE_PROTOCOL 1u
 
 /* Identifiers of node 0; a controller adds its node number, 1-127. */

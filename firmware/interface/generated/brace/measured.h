@@ -279,9 +279,14 @@ typedef struct {
     /* the status of the last command that was refused over any wire (docs/errors.md), in 8 bits; 0 while there was
      * none */
     uint32_t last_refusal;
+    /* how many questions were refused as busy, because so many of the same asker waited already, counted since
+     * start */
+    uint32_t questions_busy;
+    /* how many requests over CAN and Modbus TCP found no room, or their answers did not, counted since start */
+    uint32_t requests_lost;
 } brace_measured_t;
 
-enum { BRACE_MEASURED_COUNT = 126 };
+enum { BRACE_MEASURED_COUNT = 128 };
 #ifndef __cplusplus
 _Static_assert(sizeof(brace_measured_t) == 4 * BRACE_MEASURED_COUNT, "32 bits each");
 #endif

@@ -110,6 +110,9 @@ typedef struct {
     /* how many milliseconds after its owner has fallen silent the limb lets go by itself; 0 means never: it holds
      * its set-points [0 to 600000] */
     uint32_t let_go_after_ms;
+    /* the identifier of the CAN frame that stops every limb of the bus, whatever the frame carries; it wins over
+     * all other identifiers of a controller, and holds from the next start on [1 to 127] */
+    uint32_t stop_id;
     /* the controller's address on Modbus [1 to 247] */
     uint32_t modbus_address;
     /* the baud rate of Modbus RTU [bit/s, 1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200, 230400] */

@@ -5,7 +5,7 @@
 #include <stdint.h>
 
 /* Of the list below with its types and units; a block of another list is refused. */
-#define BRACE_SCHEMA_HASH 0x5d93352fu
+#define BRACE_SCHEMA_HASH 0x8727ebd7u
 
 /* Members of brace_parameters_t, in its order. */
 enum {
@@ -119,14 +119,15 @@ enum {
     BRACE_PARAMETER_CONTROLLER_BUS_LOAD_RATIO = 107,
     BRACE_PARAMETER_CONTROLLER_CAN_FD_BIT_RATE = 108,
     BRACE_PARAMETER_CONTROLLER_LET_GO_AFTER_MS = 109,
-    BRACE_PARAMETER_CONTROLLER_MODBUS_ADDRESS = 110,
-    BRACE_PARAMETER_CONTROLLER_MODBUS_BAUD = 111,
-    BRACE_PARAMETER_COUNT = 112
+    BRACE_PARAMETER_CONTROLLER_STOP_ID = 110,
+    BRACE_PARAMETER_CONTROLLER_MODBUS_ADDRESS = 111,
+    BRACE_PARAMETER_CONTROLLER_MODBUS_BAUD = 112,
+    BRACE_PARAMETER_COUNT = 113
 };
 
 /* Numbers that parameters have on the wire, from 0 on: half a Modbus register, and what CAN calls them by.
  * brace_parameter_index (brace/parameters.h) finds a number's member. */
-enum { BRACE_PARAMETER_NUMBERS = 112 };
+enum { BRACE_PARAMETER_NUMBERS = 113 };
 
 extern const uint16_t brace_parameter_indices[BRACE_PARAMETER_NUMBERS];
 

@@ -52,7 +52,7 @@ void setUp(void)
     to_count = to_read = from_count = 0;
     refuses_with = 0;
     takes_most = sizeof from_node;
-    slcan_start(&slcan, &hal);
+    slcan_start(&slcan, &hal, 1);
     TEST_ASSERT_TRUE(slcan.is_fitted);
 }
 
@@ -90,19 +90,44 @@ static void test_frames_that_come_together_are_taken_one_by_one(void)
     TEST_ASSERT_FALSE(slcan_receive(&slcan, &hal, &none));
 }
 
-/* So that no tick is long, whatever a host has sent: four lines in a look. */
-static void test_a_look_takes_four_lines_at_most(void)
+/* Whatever stands before it, a frame is found in the look that finds its line; a look ends after 64 lines. */
+static void test_a_look_finds_the_frame_behind_other_lines(void)
 {
-    static const char text[] = "\r\r\r\r\r\r";
-    brace_can_frame_t none;
+    static const char text[] = "O\r\r\r\r\r\rV\rS8\rt1230\r";
+    brace_can_frame_t frame = {.id = 0};
     memcpy(to_node, text, sizeof text - 1u);
     to_count = sizeof text - 1u;
-    TEST_ASSERT_FALSE(slcan_receive(&slcan, &hal, &none));
-    slcan_flush(&slcan, &hal);
-    TEST_ASSERT_EQUAL(4, from_count);
-    TEST_ASSERT_FALSE(slcan_receive(&slcan, &hal, &none));
-    slcan_flush(&slcan, &hal);
-    TEST_ASSERT_EQUAL(6, from_count);
+    TEST_ASSERT_TRUE(slcan_receive(&slcan, &hal, &frame));
+    TEST_ASSERT_EQUAL_HEX32(0x123, frame.id);
+    memset(to_node, '\r', 100);
+    to_count = 100;
+    to_read = 0;
+    TEST_ASSERT_FALSE(slcan_receive(&slcan, &hal, &frame));
+    TEST_ASSERT_GREATER_OR_EQUAL(60, to_read);
+    TEST_ASSERT_LESS_THAN(100, to_read);
+}
+
+/* A stop is taken whatever the channel is, as t0010 from a terminal; every other frame only by an open one. */
+static void test_an_urgent_frame_needs_no_open_channel(void)
+{
+    static const char *const said[][2] = {
+        {"t0010\r", "z\r"}, {"t001255AA\r", "z\r"}, {"t0020\r", "\a"}, {"T000000010\r", "\a"}, {"r0010\r", "\a"}};
+    static const char *const before[] = {"", "L\r"};
+    for (uint32_t i = 0; i < 2u; i++) {
+        for (uint32_t j = 0; j < sizeof said / sizeof *said; j++) {
+            char text[40], heard[40];
+            brace_can_frame_t frame = {.id = 0};
+            setUp();
+            to_count = (uint32_t)snprintf(text, sizeof text, "%s%s", before[i], said[j][0]);
+            memcpy(to_node, text, to_count);
+            TEST_ASSERT_EQUAL(j < 2u, slcan_receive(&slcan, &hal, &frame));
+            TEST_ASSERT_EQUAL(j < 2u ? 1u : 0u, j < 2u ? frame.id : 0u);
+            slcan_flush(&slcan, &hal);
+            (void)snprintf(heard, sizeof heard, "%s%s", i == 1u ? "\r" : "", said[j][1]);
+            TEST_ASSERT_EQUAL(strlen(heard), from_count);
+            TEST_ASSERT_EQUAL_MEMORY(heard, from_node, from_count);
+        }
+    }
 }
 
 static void test_commands_are_answered_as_an_adapter_answers_them(void)
@@ -223,7 +248,7 @@ static void test_without_the_port_nothing_comes(void)
         case 2: none.serial_write = NULL; break;
         default: none.serial_setup = setup_fails; break;
         }
-        slcan_start(&slcan, &none);
+        slcan_start(&slcan, &none, 1);
         TEST_ASSERT_FALSE(slcan.is_fitted);
         TEST_ASSERT_FALSE(slcan_receive(&slcan, &none, &frame));
     }
@@ -298,7 +323,8 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_frames_that_come_together_are_taken_one_by_one);
-    RUN_TEST(test_a_look_takes_four_lines_at_most);
+    RUN_TEST(test_a_look_finds_the_frame_behind_other_lines);
+    RUN_TEST(test_an_urgent_frame_needs_no_open_channel);
     RUN_TEST(test_commands_are_answered_as_an_adapter_answers_them);
     RUN_TEST(test_a_frame_comes_as_it_was_sent);
     RUN_TEST(test_frames_that_are_none_are_refused);

@@ -65,6 +65,7 @@ static uint32_t done(void)
 {
     empty_the_ports();
     fake.now_us += TICK_US;
+    wires_hear(&app.wires, &fake.hal, &app, &app.controller.counters, fake.now_us);
     return wires_tick(&app.wires, &fake.hal, &app, &app.controller.counters, fake.now_us);
 }
 

@@ -3,6 +3,7 @@
 #include <stddef.h>
 
 #define END_TEST (BRACE_ENTRY_COMMANDS + offsetof(brace_commands_t, end_test) / 4u)
+#define STOP (BRACE_ENTRY_COMMANDS + offsetof(brace_commands_t, stop) / 4u)
 
 static brace_command_t writing(uint32_t index)
 {
@@ -28,6 +29,15 @@ static brace_command_t command_of(uint32_t code, const brace_request_t *asked)
     case BRACE_REQUEST_CLEAR:
     case BRACE_REQUEST_SET_GRAVITY: return BRACE_COMMAND_TELLS;
     default: return BRACE_COMMAND_NONE;
+    }
+}
+
+answer_rank_t answer_rank(uint32_t code, const brace_request_t *asked)
+{
+    switch (code) {
+    case BRACE_REQUEST_LOADING_TEST_STOP: return ANSWER_STOPS;
+    case BRACE_REQUEST_WRITE_ENTRY: return asked->write_entry.index == STOP ? ANSWER_STOPS : ANSWER_OF_SESSION;
+    default: return command_of(code, asked) == BRACE_COMMAND_NONE ? ANSWER_QUESTION : ANSWER_OF_SESSION;
     }
 }
 

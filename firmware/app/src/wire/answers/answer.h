@@ -21,20 +21,23 @@
 
 enum { ANSWER_LATER = 1, ANSWER_AGAIN = 2 };
 
-/* A parameter block word by word, as one port has begun it and not ended: an upload, a download. */
+/* A parameter block word by word, as somebody writes it by one port and has not ended. */
 typedef struct {
-    bool upload_is_open;
-    uint32_t upload_next;    /* word that is expected; words before it have come [0, BRACE_BLOCK_BYTES / 4] */
-    uint32_t upload_crc;     /* the CRC that the block will end with, as it was announced */
-    uint32_t upload_sum;     /* CRC of all words but the last one that has come */
-    uint8_t upload[BRACE_BLOCK_BYTES];
+    bool is_open;
+    uint32_t next;    /* word that is expected; words before it have come [0, BRACE_BLOCK_BYTES / 4] */
+    uint32_t crc;     /* the CRC that the block will end with, as it was announced */
+    uint32_t sum;     /* CRC of all words but the last one that has come */
+    uint8_t block[BRACE_BLOCK_BYTES];
+} upload_t;
 
-    uint32_t download_next;  /* word that is expected to be asked for [0, BRACE_BLOCK_BYTES / 4] */
-    uint32_t download_sum;   /* CRC of the words before it */
-    uint32_t download_set;   /* brace_parameters_crc of the set that they are of */
-} transfer_t;
+/* The same as one master reads it. */
+typedef struct {
+    uint32_t next;    /* word that is expected to be asked for [0, BRACE_BLOCK_BYTES / 4] */
+    uint32_t sum;     /* CRC of the words before it */
+    uint32_t set;     /* brace_parameters_crc of the set that they are of */
+} download_t;
 
-/* The force that the next question of K counts. Each kind of question has its own. */
+/* The force that the next question of K by the same master counts. Each kind of question has its own. */
 typedef struct {
     bool is_there; /* of K under a load in the limb's plane */
     brace_force_t force;
@@ -52,8 +55,9 @@ typedef struct {
     uint32_t token;         /* of CAN: the low bits of the counter of a seal */
     const uint8_t *bytes;   /* of the request as it came, over which its seal was made */
     uint32_t count;
-    asked_force_t *asked_force; /* of that port */
-    transfer_t *transfer;   /* of the port that it came through; null: of a wire that transfers no blocks */
+    asked_force_t *asked_force; /* of that master */
+    upload_t *upload;       /* of the port that it came through, null: of a wire that transfers no blocks; */
+    download_t *download;   /* and of that master */
     uint32_t node_id;       /* of this node on CAN */
     uint32_t detail;        /* (out) what a refusal has to add; 0: nothing */
     bool is_of_now;         /* (out) the refusal is about the limb of now, whatever was asked */
@@ -63,6 +67,16 @@ typedef struct {
     int32_t answer_##name(request_t *request, const brace_##name##_request_t *asked, brace_##name##_answer_t *answer);
 BRACE_REQUESTS(ANSWER_FUNCTION)
 #undef ANSWER_FUNCTION
+
+/* How urgent a request is. */
+typedef enum {
+    ANSWER_STOPS,      /* the limb: obeyed as soon as it is seen, before anything else */
+    ANSWER_OF_SESSION, /* a sign of life, a seal, a command: each in its order, before all questions */
+    ANSWER_QUESTION
+} answer_rank_t;
+
+/* asked: looked at where the code alone does not say it. 30 instructions. */
+answer_rank_t answer_rank(uint32_t code, const brace_request_t *asked);
 
 /* May what a request does be done? Uses its seal up.
  * returns BRACE_OK, or why not: brace/refusals.h */
@@ -76,6 +90,6 @@ int32_t answer_request(request_t *request, uint32_t code, const brace_request_t 
 int32_t answer_of_storing(request_t *request, brace_commit_answer_t *answer);
 
 /* Each tick, before requests are answered: closes an upload that CONFIGURATION has ended. */
-void transfer_tick(transfer_t *transfer, const brace_app_t *app);
+void upload_tick(upload_t *upload, const brace_app_t *app);
 
 #endif

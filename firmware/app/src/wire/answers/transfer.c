@@ -27,7 +27,7 @@ static int32_t may_write(request_t *request)
 int32_t answer_upload_begin(request_t *request, const brace_upload_begin_request_t *asked,
                             brace_upload_begin_answer_t *answer)
 {
-    transfer_t *transfer = request->transfer;
+    upload_t *upload = request->upload;
     const int32_t status = may_write(request);
     if (status != BRACE_OK) {
         return status;
@@ -36,9 +36,9 @@ int32_t answer_upload_begin(request_t *request, const brace_upload_begin_request
         request->detail = BRACE_BLOCK_BYTES;
         return BRACE_E_LENGTH;
     }
-    transfer->upload_is_open = true;
-    transfer->upload_next = 0;
-    transfer->upload_crc = asked->crc;
+    upload->is_open = true;
+    upload->next = 0;
+    upload->crc = asked->crc;
     answer->words = BLOCK_WORDS;
     answer->setting = brace_app_setting(request->app);
     return BRACE_OK;
@@ -49,24 +49,24 @@ int32_t answer_upload_begin(request_t *request, const brace_upload_begin_request
 int32_t answer_upload_word(request_t *request, const brace_upload_word_request_t *asked,
                            brace_upload_word_answer_t *answer)
 {
-    transfer_t *transfer = request->transfer;
+    upload_t *upload = request->upload;
     const int32_t status = may_write(request);
     if (status != BRACE_OK) {
         return status;
     }
-    const bool comes_again = asked->word + 1u == transfer->upload_next;
-    request->detail = transfer->upload_is_open ? transfer->upload_next : 0u;
-    if (!transfer->upload_is_open || asked->word >= BLOCK_WORDS ||
-        (asked->word != transfer->upload_next && !comes_again)) {
+    const bool comes_again = asked->word + 1u == upload->next;
+    request->detail = upload->is_open ? upload->next : 0u;
+    if (!upload->is_open || asked->word >= BLOCK_WORDS ||
+        (asked->word != upload->next && !comes_again)) {
         return BRACE_REFUSED_ORDER;
     }
-    uint8_t *place = &transfer->upload[WORD_BYTES * asked->word];
+    uint8_t *place = &upload->block[WORD_BYTES * asked->word];
     if (!comes_again) { /* the word before stays as it is now */
-        transfer->upload_sum =
-            asked->word == 0u ? 0u : brace_crc32(transfer->upload_sum, place - WORD_BYTES, WORD_BYTES);
+        upload->sum =
+            asked->word == 0u ? 0u : brace_crc32(upload->sum, place - WORD_BYTES, WORD_BYTES);
     }
     brace_put_u32(place, asked->data);
-    transfer->upload_next = asked->word + 1u;
+    upload->next = asked->word + 1u;
     *answer = (brace_upload_word_answer_t){asked->word, asked->data};
     return BRACE_OK;
 }
@@ -90,31 +90,31 @@ static int32_t store_upload(request_t *request, uint32_t crc)
 {
     brace_block_header_t header;
     brace_parameters_t set;
-    transfer_t *transfer = request->transfer;
-    request->detail = transfer->upload_is_open ? transfer->upload_next : 0u;
-    if (!transfer->upload_is_open || transfer->upload_next != BLOCK_WORDS) {
+    upload_t *upload = request->upload;
+    request->detail = upload->is_open ? upload->next : 0u;
+    if (!upload->is_open || upload->next != BLOCK_WORDS) {
         return BRACE_REFUSED_ORDER;
     }
-    transfer->upload_is_open = false; /* it was committed, whatever comes of it */
-    request->detail = brace_get_u32(&transfer->upload[BRACE_BLOCK_BYTES - WORD_BYTES]);
-    if (crc != transfer->upload_crc || crc != request->detail) {
+    upload->is_open = false; /* it was committed, whatever comes of it */
+    request->detail = brace_get_u32(&upload->block[BRACE_BLOCK_BYTES - WORD_BYTES]);
+    if (crc != upload->crc || crc != request->detail) {
         return BRACE_E_CHECKSUM;
     }
     request->detail = BRACE_SCHEMA_HASH;
-    const brace_status_t status = brace_block_header(transfer->upload, BRACE_BLOCK_BYTES, &header);
+    const brace_status_t status = brace_block_header(upload->block, BRACE_BLOCK_BYTES, &header);
     if (status != BRACE_OK) {
         return status;
     }
     if (header.block_bytes != BRACE_BLOCK_BYTES) {
         return BRACE_E_LENGTH;
     }
-    if (crc != transfer->upload_sum) {
+    if (crc != upload->sum) {
         return BRACE_E_CHECKSUM;
     }
     if (header.schema_hash != BRACE_SCHEMA_HASH) {
         return BRACE_E_SCHEMA;
     }
-    brace_block_members(transfer->upload, &set);
+    brace_block_members(upload->block, &set);
     const int32_t within = within_board(request, &set);
     return within == BRACE_OK ? (int32_t)brace_app_parameters_commit(request->app, &set) : within;
 }
@@ -159,8 +159,8 @@ int32_t answer_commit(request_t *request, const brace_commit_request_t *asked, b
         request->detail = wait_ms;
         return early;
     }
-    const transfer_t *transfer = request->transfer;
-    const bool is_staged = transfer == NULL || (!transfer->upload_is_open && brace_app_has_staged(request->app));
+    const upload_t *upload = request->upload;
+    const bool is_staged = upload == NULL || (!upload->is_open && brace_app_has_staged(request->app));
     return later(asked->crc == 0u || is_staged ? store_staged(request, asked->crc)
                                                : store_upload(request, asked->crc));
 }
@@ -189,9 +189,9 @@ int32_t answer_of_storing(request_t *request, brace_commit_answer_t *answer)
     return store.refusal;
 }
 
-void transfer_tick(transfer_t *transfer, const brace_app_t *app)
+void upload_tick(upload_t *upload, const brace_app_t *app)
 {
-    transfer->upload_is_open = transfer->upload_is_open && brace_app_mode(app) == BRACE_MODE_CONFIGURATION;
+    upload->is_open = upload->is_open && brace_app_mode(app) == BRACE_MODE_CONFIGURATION;
 }
 
 /* ---------------------------------------------------------------------------------------- download -- */
@@ -206,7 +206,7 @@ static uint32_t block_word(const request_t *request, uint32_t word)
     case 2: return BRACE_SCHEMA_HASH;
     case 3: return WORD_BYTES * BRACE_PARAMETER_COUNT;
     case 4: return brace_app_snapshot(app)->parameter_sequence;
-    case BLOCK_WORDS - 1: return request->transfer->download_sum;
+    case BLOCK_WORDS - 1: return request->download->sum;
     default: return parameter_member(brace_app_parameters(app), word - HEADER_WORDS);
     }
 }
@@ -214,28 +214,28 @@ static uint32_t block_word(const request_t *request, uint32_t word)
 /* Words in order; the last one again if its answer was lost. */
 static int32_t download_next(request_t *request, uint32_t word, uint32_t *data)
 {
-    transfer_t *transfer = request->transfer;
+    download_t *download = request->download;
     const uint32_t set = brace_app_snapshot(request->app)->parameter_crc;
     if (word == 0u) {
-        transfer->download_next = 0;
-        transfer->download_sum = 0;
-        transfer->download_set = set;
+        download->next = 0;
+        download->sum = 0;
+        download->set = set;
     }
-    request->detail = transfer->download_next;
-    if (word >= BLOCK_WORDS || (word != transfer->download_next && word + 1u != transfer->download_next)) {
+    request->detail = download->next;
+    if (word >= BLOCK_WORDS || (word != download->next && word + 1u != download->next)) {
         return BRACE_REFUSED_ORDER;
     }
-    if (transfer->download_set != set) {
-        transfer->download_next = 0;
+    if (download->set != set) {
+        download->next = 0;
         return BRACE_REFUSED_CHANGED;
     }
     *data = block_word(request, word);
-    if (word == transfer->download_next && word < BLOCK_WORDS - 1u) {
+    if (word == download->next && word < BLOCK_WORDS - 1u) {
         uint8_t bytes[WORD_BYTES];
         brace_put_u32(bytes, *data);
-        transfer->download_sum = brace_crc32(transfer->download_sum, bytes, WORD_BYTES);
+        download->sum = brace_crc32(download->sum, bytes, WORD_BYTES);
     }
-    transfer->download_next = word + 1u;
+    download->next = word + 1u;
     return BRACE_OK;
 }
 

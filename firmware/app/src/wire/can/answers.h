@@ -5,12 +5,12 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-enum { CAN_ANSWERS_ROOM = 14 }; /* frames: two answers, and that to a commit, which comes by itself */
+enum { CAN_ANSWERS_ROOM = 32 }; /* frames: answers to two questions and a commit, and what a session is answered */
 
 typedef struct {
     uint8_t frame[CAN_ANSWERS_ROOM][8];
-    uint8_t first; /* the oldest [0, 13] */
-    uint8_t count; /* [0, 14] */
+    uint8_t first; /* the oldest [0, 31] */
+    uint8_t count; /* [0, 32] */
 } can_answers_t;
 
 /* Is there room for so many frames more? */

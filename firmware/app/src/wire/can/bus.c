@@ -27,7 +27,8 @@ void can_bus_start(can_bus_t *bus, const brace_hal_t *hal, const brace_controlle
                                  .fd_bit_rate = parameters->can_fd_bit_rate,
                                  .listen_only = parameters->node_id == 0u,
                                  .filter_id = (uint32_t)BRACE_CAN_ID_REQUEST + parameters->node_id,
-                                 .filter_mask = IDENTIFIER_BITS}};
+                                 .filter_mask = IDENTIFIER_BITS,
+                                 .urgent_id = parameters->stop_id}};
     if (hal->can_setup != NULL && hal->can_send != NULL && hal->can_receive != NULL && hal->can_health != NULL &&
         hal->can_recover != NULL) {
         set_up(bus, hal);

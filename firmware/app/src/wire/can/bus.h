@@ -23,7 +23,7 @@ typedef struct {
     uint32_t frames_lost;     /* received frames that found no room, as the controller counts them */
 } can_bus_t;
 
-/* Sets the CAN controller up to receive the requests to this node: listen only while the node's number is unset, and
+/* Sets the CAN controller up to receive stops and the requests to this node: listen only while the number is unset, and
  * with classic frames where it has no CAN FD. Before the first tick; may block can_setup's 1 ms twice. */
 void can_bus_start(can_bus_t *bus, const brace_hal_t *hal, const brace_controller_t *parameters);
 

@@ -4,11 +4,14 @@
 
 #include "brace/can_frames.h"
 
-#define FRAMES_PER_TICK 4u /* looked at; the hardware layer's filter lets in requests to this node only */
+#define FRAMES_PER_TICK 72u /* looked at: a ring of 64, and what comes while it is emptied */
+#define LINES_PER_TICK 512u /* the same as text: a board's line carries fewer, a host's TCP connection more */
+#define SESSION_PER_MS 10u  /* requests of a session that are obeyed: as many as 1 Mbit/s carries */
 #define NODE_MOST 127u
 #define STORING_PARTS 2u /* of the answer to a commit, which comes by itself */
 #define DATA_WAIT_MOST 16u /* ticks with answers in a row, in which no process data leave */
 #define ANSWERS_PER_TICK ((uint32_t)BRACE_CAN_ANSWER_PARTS_MOST + STORING_PARTS) /* frames that a tick can add */
+#define ROOM_FOR_REFUSALS 8u /* frames of room that refusals of questions leave to other answers */
 #define TEXT_ANSWERS_PER_TICK 4u /* frames as text, which cost twice as much: all of an answer, if it is not about K */
 
 typedef enum { ON_BUS, AS_TEXT } way_t;
@@ -18,7 +21,7 @@ void can_start(can_t *can, const brace_hal_t *hal, const brace_parameters_t *par
     *can = (can_t){.node_id = (uint8_t)parameters->controller.node_id,
                    .bit_rate = parameters->controller.can_bit_rate};
     can_bus_start(&can->bus, hal, &parameters->controller);
-    slcan_start(&can->text, hal);
+    slcan_start(&can->text, hal, parameters->controller.stop_id);
 }
 
 bool can_is_bus_off(const can_t *can)
@@ -66,58 +69,21 @@ static can_port_t *port_of(can_t *can, way_t way)
     return way == ON_BUS ? &can->bus_port : &can->text_port;
 }
 
-/* returns whether the request is done with: else it is put again in the next tick */
-static bool answer(can_t *can, way_t way, const wire_tick_t *tick, const uint8_t *data)
+static brace_asker_t asker_of(way_t way)
 {
-    const brace_asker_t asker = way == ON_BUS ? BRACE_ASKER_CAN : BRACE_ASKER_SLCAN;
-    can_requests_t *requests = &port_of(can, way)->requests;
-    if (!can_requests_answer(requests, tick, asker, can->node_id, data)) {
+    return way == ON_BUS ? BRACE_ASKER_CAN : BRACE_ASKER_SLCAN;
+}
+
+static void answer(can_t *can, way_t way, const wire_tick_t *tick, const uint8_t *data)
+{
+    if (!can_requests_answer(&port_of(can, way)->requests, tick, asker_of(way), can->node_id, data)) {
         brace_count(&tick->counters->frames_unknown);
     }
-    return !requests->waits;
 }
 
 static bool has_number(const can_t *can)
 {
     return can->node_id >= 1u && can->node_id <= NODE_MOST;
-}
-
-/* Looks through what has come over CAN. One request is answered in a tick: one that waits for its answer, or else the
- * first one that has come. One more waits here, and those behind it in the hardware layer. Frames of other nodes are
- * taken in every tick, so that none of them stands before a request.
- * returns how much it has done (wire.h) */
-static uint32_t listen_to_bus(can_t *can, const wire_tick_t *tick)
-{
-    can_requests_t *requests = &can->bus_port.requests;
-    brace_can_frame_t frame;
-    const bool has_room = has_room_for_an_answer(&can->bus_port);
-    bool is_busy = requests->waits || !has_room;
-    const bool is_late = requests->waits && has_room && !brace_app_k_is_coming(tick->app, BRACE_ASKER_CAN) &&
-                         answer(can, ON_BUS, tick, requests->waiting);
-    uint32_t done = is_late ? WIRE_K_ANSWERED : WIRE_NOTHING;
-    if (!is_busy && requests->has_next) {
-        requests->has_next = false;
-        (void)answer(can, ON_BUS, tick, requests->next);
-        done = WIRE_TAKEN;
-        is_busy = true;
-    }
-    for (uint32_t i = 0; i < FRAMES_PER_TICK && !requests->has_next; i++) {
-        if (!can_bus_receive(&can->bus, tick->hal, &frame)) {
-            break;
-        }
-        if (!is_request(can, tick, &frame) || !has_number(can)) {
-            continue;
-        }
-        if (is_busy) {
-            memcpy(requests->next, frame.data, sizeof requests->next);
-            requests->has_next = true;
-        } else {
-            (void)answer(can, ON_BUS, tick, frame.data);
-            done = WIRE_TAKEN;
-            is_busy = true;
-        }
-    }
-    return done;
 }
 
 /* Answers wait for a bus that is off. A channel that has been closed is another's when it opens again, so nothing waits
@@ -126,38 +92,134 @@ static void keep_silent(can_t *can, way_t way, const wire_tick_t *tick)
 {
     can_port_t *port = port_of(can, way);
     process_skip(&port->process);
-    brace_app_gone(tick->app, way == ON_BUS ? BRACE_ASKER_CAN : BRACE_ASKER_SLCAN);
+    brace_app_gone(tick->app, asker_of(way));
     if (way == AS_TEXT) {
         port->requests.answers.count = 0;
-        port->requests.waits = port->requests.asked_force.is_there = false;
-        port->requests.asked_force.is_there_in_space = false;
+        port->requests.waits = false;
+        can_queue_clear(&port->requests.queue);
+        memset(port->requests.asked_force, 0, sizeof port->requests.asked_force);
         announce_skip(&port->announce, tick);
     }
 }
 
-/* The same as text. What comes meanwhile waits on its line: to read a frame from it costs as much as a short answer. */
-static uint32_t listen_to_text(can_t *can, const wire_tick_t *tick)
+/* A question finds its master's queue full. It is refused, or counted where even the refusal finds no room. */
+static void refuse_busy(can_requests_t *requests, const wire_tick_t *tick, const uint8_t *data)
 {
-    const can_requests_t *requests = &can->text_port.requests;
+    brace_count(&tick->counters->questions_busy);
+    if (can_answers_have_room(&requests->answers, 1u + ROOM_FOR_REFUSALS)) {
+        can_answers_refuse(&requests->answers, data[0], data[1], BRACE_REFUSED_CROWDED, CAN_QUESTIONS_EACH);
+    } else {
+        brace_count(&tick->counters->requests_lost);
+    }
+}
+
+void can_stop(can_t *can)
+{
+    can_queue_stop(&can->bus_port.requests.queue);
+    can_queue_stop(&can->text_port.requests.queue);
+}
+
+/* A frame has come: a stop is obeyed at once, everything else waits in its queue. returns whether it was a stop */
+static bool sort_frame(can_t *can, way_t way, const wire_tick_t *tick, const brace_can_frame_t *frame)
+{
+    can_requests_t *requests = &port_of(can, way)->requests;
+    brace_request_t asked;
+    if (frame->id == can->bus.setup.urgent_id) {
+        (void)brace_app_stop(tick->app);
+        return true;
+    }
+    if (!is_request(can, tick, frame) || (way == ON_BUS && !has_number(can))) {
+        return false;
+    }
+    brace_can_unpack_request(frame->data, &asked);
+    const answer_rank_t rank = answer_rank(frame->data[0], &asked);
+    if (rank == ANSWER_QUESTION) {
+        if (!can_queue_put_question(&requests->queue, frame->data)) {
+            refuse_busy(requests, tick, frame->data);
+        }
+        return false;
+    }
+    if (rank == ANSWER_STOPS) {
+        (void)brace_app_stop(tick->app); /* its answer has its turn among the session's */
+    }
+    if (!can_queue_put_session(&requests->queue, frame->data)) {
+        brace_count(&tick->counters->requests_lost);
+    }
+    return rank == ANSWER_STOPS;
+}
+
+/* Both return whether a stop was among what has come. */
+static bool hear_bus(can_t *can, const wire_tick_t *tick)
+{
     brace_can_frame_t frame;
-    if (!has_room_for_an_answer(&can->text_port)) {
+    bool stops = false;
+    for (uint32_t i = 0; i < FRAMES_PER_TICK && can_bus_receive(&can->bus, tick->hal, &frame); i++) {
+        stops = sort_frame(can, ON_BUS, tick, &frame) || stops;
+    }
+    return stops;
+}
+
+/* A channel that has been closed may be open again: what comes behind is the next host's. */
+static bool hear_text(can_t *can, const wire_tick_t *tick)
+{
+    brace_can_frame_t frame;
+    bool stops = false;
+    for (uint32_t i = 0; i < LINES_PER_TICK; i++) {
+        const bool has_come = slcan_receive(&can->text, tick->hal, &frame);
+        if (can->text.was_closed) {
+            can->text.was_closed = false;
+            keep_silent(can, AS_TEXT, tick);
+        }
+        if (!has_come) {
+            break;
+        }
+        stops = sort_frame(can, AS_TEXT, tick, &frame) || stops;
+    }
+    return stops;
+}
+
+/* What belongs to a session is obeyed in its order. What came before a stop begins nothing any more.
+ * returns how much it has done (wire.h) */
+static uint32_t obey_session(can_t *can, way_t way, const wire_tick_t *tick, uint32_t most)
+{
+    can_queue_t *queue = &port_of(can, way)->requests.queue;
+    bool came_before_stop = false;
+    for (uint32_t i = 0; i < most; i++) {
+        const uint8_t *data = can_queue_take_session(queue, &came_before_stop);
+        if (data == NULL) {
+            return i;
+        }
+        answer(can, way, tick, data);
+        if (came_before_stop) {
+            (void)brace_app_stop(tick->app);
+        }
+    }
+    return most;
+}
+
+/* One question, of the next master. returns how much it has done (wire.h) */
+static uint32_t answer_question(can_t *can, way_t way, const wire_tick_t *tick)
+{
+    can_requests_t *requests = &port_of(can, way)->requests;
+    if (!has_room_for_an_answer(port_of(can, way))) {
         return WIRE_NOTHING;
     }
+    const bool waited = requests->waits;
+    if (waited && brace_app_k_is_coming(tick->app, asker_of(way))) {
+        return WIRE_NOTHING;
+    }
+    const uint8_t *data =
+        waited ? can_queue_question(&requests->queue) : can_queue_next_question(&requests->queue);
+    if (data == NULL) {
+        return WIRE_NOTHING;
+    }
+    requests->waits = false;
+    answer(can, way, tick, data);
     if (requests->waits) {
-        const bool is_late = !brace_app_k_is_coming(tick->app, BRACE_ASKER_SLCAN) &&
-                             answer(can, AS_TEXT, tick, requests->waiting);
-        return is_late ? WIRE_K_ANSWERED : WIRE_NOTHING;
+        return waited ? WIRE_NOTHING : WIRE_TAKEN;
     }
-    const bool has_come = slcan_receive(&can->text, tick->hal, &frame);
-    if (can->text.was_closed) { /* and may be open again: then the frame is the next host's */
-        can->text.was_closed = false;
-        keep_silent(can, AS_TEXT, tick);
-    }
-    if (!has_come || !is_request(can, tick, &frame)) {
-        return WIRE_NOTHING;
-    }
-    (void)answer(can, AS_TEXT, tick, frame.data);
-    return WIRE_TAKEN;
+    can_queue_question_done(&requests->queue);
+    return waited ? WIRE_K_ANSWERED : WIRE_TAKEN;
 }
 
 /* ----------------------------------------------------------------------------------------------- out -- */
@@ -245,13 +307,25 @@ static uint32_t speak(can_t *can, way_t way, const wire_tick_t *tick, uint32_t m
     return data_wait ? 0u : send_process_data(can, way, tick, most);
 }
 
-uint32_t can_listen(can_t *can, const wire_tick_t *tick)
+bool can_hear(can_t *can, const wire_tick_t *tick)
+{
+    const bool stops_on_bus = hear_bus(can, tick);
+    return hear_text(can, tick) || stops_on_bus;
+}
+
+uint32_t can_obey(can_t *can, const wire_tick_t *tick)
+{
+    const uint32_t most = SESSION_PER_MS * brace_app_parameters(tick->app)->controller.tick_us / 1000u;
+    return obey_session(can, ON_BUS, tick, most) + obey_session(can, AS_TEXT, tick, most);
+}
+
+uint32_t can_answer(can_t *can, const wire_tick_t *tick)
 {
     can_bus_watch(&can->bus, tick->hal, brace_app_parameters(tick->app)->controller.tick_us);
     tick->counters->frames_lost = can->bus.frames_lost;
     can_requests_tick(&can->bus_port.requests, tick);
     can_requests_tick(&can->text_port.requests, tick);
-    return listen_to_bus(can, tick) + listen_to_text(can, tick);
+    return answer_question(can, ON_BUS, tick) + answer_question(can, AS_TEXT, tick);
 }
 
 uint32_t can_speak(can_t *can, const wire_tick_t *tick, uint32_t most)

@@ -1,10 +1,15 @@
 /* The node on CAN: over the board's CAN controller, and as text over a serial port (SLCAN).
  *
- * These are two ports that carry the same frames, and neither waits for the other: each takes at most one request in a
- * tick and answers it in that tick, and each has its own process data, heartbeats and emergencies. One tick makes two
- * frames of process data at most, and the ports have the first choice in turns. Process data wait in a tick in which a
- * request is answered, on whatever wire, at most 16 ticks in a row. A port without room for an answer leaves what comes
- * where it is until there is room again.
+ * These are two ports that carry the same frames, and neither waits for the other. All that has come is looked at in
+ * every tick, before anything else: a stop is obeyed at once, and what belongs to a session goes before questions. Of
+ * the questions each port answers one in a tick, of its masters in turn. Each port has its own process data, heartbeats
+ * and emergencies. One tick makes two frames of process data at most, and the ports have the first choice in turns.
+ * Process data wait in a tick in which a request is answered, on whatever wire, at most 16 ticks in a row. A port
+ * without room for an answer lets questions wait in their queues until there is room again. A question whose master's
+ * queue is full is refused as BRACE_REFUSED_CROWDED, or counted where even that finds no room.
+ *
+ * A frame of the identifier controller.stop_id, whatever is in it, stops every limb of the bus, also one whose number
+ * is not set. As text it stops the limb also while the channel is closed.
  *
  * A node whose number is not set (0) only listens on CAN and says nothing by itself. It answers requests to node 0 that
  * come as text, since the serial port has one other end; so a board is given its number.
@@ -46,11 +51,24 @@ typedef struct {
  * can_bus_start. */
 void can_start(can_t *can, const brace_hal_t *hal, const brace_parameters_t *parameters);
 
-/* One tick of both ports, first half: takes and answers requests.
- * returns how much both have done (wire/wire.h) */
-uint32_t can_listen(can_t *can, const wire_tick_t *tick);
+/* Before anything else in a tick: looks at all that has come over both ports. A stop is obeyed at once, every other
+ * request waits in its queue. At most 72 frames and 512 lines: 100 instructions a frame, 350 a line.
+ * returns whether there was a stop */
+bool can_hear(can_t *can, const wire_tick_t *tick);
 
-/* Second half: sends what is due.
+/* A stop has come by whatever port. What waits in the queues counts as older, since a stop overtakes, and begins
+ * nothing any more. */
+void can_stop(can_t *can);
+
+/* Behind it: obeys what belongs to a session, at most ten requests of each port for each millisecond of a tick.
+ * returns how much both have done (wire/wire.h) */
+uint32_t can_obey(can_t *can, const wire_tick_t *tick);
+
+/* At the end of the tick: answers a question of each port.
+ * returns how much both have done (wire/wire.h) */
+uint32_t can_answer(can_t *can, const wire_tick_t *tick);
+
+/* Then: sends what is due.
  *   most: frames of process data that may leave, at most PROCESS_FRAMES_PER_TICK; 0: they wait, but not for more than
  *     16 ticks in a row; then one leaves
  * Both halves take about 300 instructions when nothing happens. A request adds what its answer costs, each frame sent

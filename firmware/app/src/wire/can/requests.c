@@ -1,12 +1,15 @@
 #include "wire/can/requests.h"
 
-#include <string.h>
+#include <stddef.h>
 
-enum { CAN_REQUEST_BYTES = 8, MASTER_SHIFT = 4 };
-
-static void tell(can_answers_t *answers, uint32_t code, uint32_t token, int32_t status, const brace_answer_t *answer,
-                 uint32_t detail)
+/* An answer that finds no room is counted: its request was answered, but nobody hears. */
+static void tell(can_answers_t *answers, const wire_tick_t *tick, uint32_t code, uint32_t token, int32_t status,
+                 const brace_answer_t *answer, uint32_t detail)
 {
+    if (!can_answers_have_room(answers, status == BRACE_OK ? brace_can_answer_parts[code] : 1u)) {
+        brace_count(&tick->counters->requests_lost);
+        return;
+    }
     uint8_t parts[BRACE_CAN_ANSWER_PARTS_MOST][8];
     if (status == BRACE_OK) {
         brace_can_pack_answer(code, answer, token, parts);
@@ -16,16 +19,38 @@ static void tell(can_answers_t *answers, uint32_t code, uint32_t token, int32_t 
     }
 }
 
+/* The seal that has come for the command with this token; what else has come between the two takes nothing away. null:
+ * none has come */
+static brace_seal_t *seal_for(can_requests_t *requests, uint32_t token)
+{
+    for (uint32_t i = 0; i < (uint32_t)CAN_SEALS; i++) {
+        if (requests->seal[i].is_there && requests->seal[i].counter == token) {
+            return &requests->seal[i];
+        }
+    }
+    return NULL;
+}
+
+/* Another seal has come: the oldest one gives its place. */
+static void keep_seal(can_requests_t *requests, const brace_seal_t *seal)
+{
+    requests->seal[requests->oldest_seal] = *seal;
+    requests->oldest_seal = (uint8_t)((requests->oldest_seal + 1u) % (uint32_t)CAN_SEALS);
+}
+
 bool can_requests_answer(can_requests_t *requests, const wire_tick_t *tick, brace_asker_t asker, uint32_t node_id,
                          const uint8_t *data)
 {
+    const uint32_t master = can_master_of(data[1]);
+    brace_seal_t *seal = seal_for(requests, data[1]), new_seal = {.is_there = false};
     request_t request = {.app = tick->app,
                          .measured = tick->measured,
                          .asker = asker,
-                         .asked_force = &requests->asked_force,
-                         .transfer = &requests->transfer,
-                         .who = {asker, data[1] >> MASTER_SHIFT},
-                         .seal = &requests->seal,
+                         .asked_force = &requests->asked_force[master],
+                         .upload = &requests->upload,
+                         .download = &requests->download[master],
+                         .who = {asker, master},
+                         .seal = seal != NULL ? seal : &new_seal,
                          .token = data[1],
                          .bytes = data,
                          .count = CAN_REQUEST_BYTES,
@@ -33,32 +58,32 @@ bool can_requests_answer(can_requests_t *requests, const wire_tick_t *tick, brac
                          .detail = 0,
                          .is_of_now = false};
     const uint8_t code = data[0], token = data[1];
-    requests->seal.is_there = requests->seal.is_there && requests->seal.counter == token;
     brace_request_t asked;
     brace_answer_t answer;
     brace_can_unpack_request(data, &asked);
     const int32_t status = answer_request(&request, code, &asked, &answer);
-    requests->waits = false;
+    if (new_seal.is_there) {
+        keep_seal(requests, &new_seal);
+    }
     if (status == ANSWER_AGAIN) {
-        memmove(requests->waiting, data, sizeof requests->waiting);
         requests->waits = true;
     } else if (status == ANSWER_LATER) {
         requests->storing = code;
         requests->storing_token = token;
     } else {
-        tell(&requests->answers, code, token, status, &answer, request.detail);
+        tell(&requests->answers, tick, code, token, status, &answer, request.detail);
     }
     return status != BRACE_REFUSED_UNKNOWN;
 }
 
 void can_requests_tick(can_requests_t *requests, const wire_tick_t *tick)
 {
-    transfer_tick(&requests->transfer, tick->app);
+    upload_tick(&requests->upload, tick->app);
     if (requests->storing != 0u && !brace_app_is_storing(tick->app)) {
         request_t request = {.app = tick->app};
         brace_answer_t answer; /* a commit and a roll-back have the same */
         const int32_t status = answer_of_storing(&request, &answer.commit);
-        tell(&requests->answers, requests->storing, requests->storing_token, status, &answer, request.detail);
+        tell(&requests->answers, tick, requests->storing, requests->storing_token, status, &answer, request.detail);
         requests->storing = 0;
     }
 }

@@ -5,22 +5,25 @@
 
 #include "wire/answers/answer.h"
 #include "wire/can/answers.h"
+#include "wire/can/queue.h"
 #include "wire/wire.h"
 
+enum { CAN_SEALS = 4 };
+
 typedef struct {
+    can_queue_t queue;      /* that have come and wait */
     can_answers_t answers;  /* on their way out */
-    transfer_t transfer;
+    upload_t upload;
+    download_t download[CAN_MASTERS];
+    asked_force_t asked_force[CAN_MASTERS];
     uint8_t storing;        /* code of the commit or roll-back that is answered once the store has ended; 0: none */
     uint8_t storing_token;
-    asked_force_t asked_force;
-    brace_seal_t seal;      /* of the request that comes next */
-    bool waits;             /* a request is being worked out: it is asked again in each tick */
-    uint8_t waiting[8];
-    bool has_next;          /* one more has come meanwhile */
-    uint8_t next[8];
+    brace_seal_t seal[CAN_SEALS]; /* that have come, each for the command with its token */
+    uint8_t oldest_seal;    /* the next one to be given up */
+    bool waits;             /* the queue's question is being worked out: it is asked again in each tick */
 } can_requests_t;
 
-/* Answers or refuses a request, or lets it wait. There must be room for BRACE_CAN_ANSWER_PARTS_MOST frames.
+/* Answers or refuses a request, or lets it wait. An answer that finds no room is counted.
  *   asker: this port
  *   node_id: of this node
  *   data: its eight bytes

@@ -51,7 +51,8 @@ request_t modbus_request(const modbus_server_t *server, const wire_tick_t *tick)
                        .bytes = server->pdu,
                        .count = server->length,
                        .asked_force = NULL,
-                       .transfer = NULL,
+                       .upload = NULL,
+                       .download = NULL,
                        .node_id = 0,
                        .detail = 0,
                        .is_of_now = false};

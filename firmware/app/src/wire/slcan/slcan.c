@@ -4,13 +4,13 @@
 
 #define CR '\r'
 #define BEL '\a'
-#define LINES_MOST 4u    /* in a tick */
+#define LINES_MOST 64u   /* that are no frame for the node, one after another */
 #define DATA_MOST 8u     /* bytes of a classic frame */
 #define NOT_A_DIGIT 16u
 
-void slcan_start(slcan_t *slcan, const brace_hal_t *hal)
+void slcan_start(slcan_t *slcan, const brace_hal_t *hal, uint32_t urgent_id)
 {
-    *slcan = (slcan_t){0};
+    *slcan = (slcan_t){.urgent_id = urgent_id};
     slcan->is_fitted =
         hal->serial_setup != NULL && hal->serial_read != NULL && hal->serial_write != NULL &&
         hal->serial_setup(hal->context, BRACE_SERIAL_SLCAN, SLCAN_BAUD, BRACE_PARITY_NONE) == BRACE_HAL_OK;
@@ -188,6 +188,13 @@ static bool obey_channel(slcan_t *slcan, const line_t *line)
     }
 }
 
+/* A frame comes by an open channel only, but an urgent one always does. */
+static bool takes_frame(const slcan_t *slcan, const line_t *line, brace_can_frame_t *frame)
+{
+    return parse(line, frame) &&
+           ((slcan->is_open && !slcan->is_listen_only) || (line->text[0] == 't' && frame->id == slcan->urgent_id));
+}
+
 /* A line has come to its end. returns whether it is a frame for the node */
 static bool obey(slcan_t *slcan, const line_t *line, brace_can_frame_t *frame)
 {
@@ -205,7 +212,7 @@ static bool obey(slcan_t *slcan, const line_t *line, brace_can_frame_t *frame)
     case 'T':
     case 'r':
     case 'R':
-        if (!slcan->is_open || slcan->is_listen_only || !parse(line, frame)) {
+        if (!takes_frame(slcan, line, frame)) {
             reply_yes_or_no(slcan, false);
             return false;
         }
@@ -215,11 +222,14 @@ static bool obey(slcan_t *slcan, const line_t *line, brace_can_frame_t *frame)
     }
 }
 
-static void read_port(slcan_t *slcan, const brace_hal_t *hal)
+/* returns whether bytes have come */
+static bool read_port(slcan_t *slcan, const brace_hal_t *hal)
 {
     const uint32_t room = (uint32_t)SLCAN_IN_BYTES - slcan->in_count;
     const int32_t read = hal->serial_read(hal->context, BRACE_SERIAL_SLCAN, &slcan->in[slcan->in_count], room);
-    slcan->in_count = (uint8_t)(slcan->in_count + (read > 0 && read <= (int32_t)room ? read : 0));
+    const bool has_come = read > 0 && read <= (int32_t)room;
+    slcan->in_count = (uint8_t)(slcan->in_count + (has_come ? read : 0));
+    return has_come;
 }
 
 /* Where the first CR stands; slcan->in_count: there is none. */
@@ -265,8 +275,10 @@ bool slcan_receive(slcan_t *slcan, const brace_hal_t *hal, brace_can_frame_t *fr
     if (!slcan->is_fitted) {
         return false;
     }
-    read_port(slcan, hal);
-    for (uint32_t i = 0; i < LINES_MOST && !is_frame && take_line(slcan, frame, &is_frame); i++) {
+    for (uint32_t i = 0; i < LINES_MOST && !is_frame; i++) {
+        if (!take_line(slcan, frame, &is_frame) && !read_port(slcan, hal)) {
+            break;
+        }
     }
     return is_frame;
 }

@@ -24,6 +24,7 @@ typedef struct {
     bool is_open;        /* the channel, as the other end wants it */
     bool was_closed;     /* by the other end, since the caller last looked: it may be open again, for another host */
     bool is_listen_only; /* opened with L: the other end hears, and its frames are refused */
+    uint32_t urgent_id;  /* frames of this identifier are taken also while the channel is closed or listens only */
     bool skips;          /* the line that is coming is too long; its rest is passed over */
     uint8_t in_count;    /* [0, 32] */
     uint16_t out_first, out_count; /* the bytes of out that wait to be written */
@@ -32,11 +33,11 @@ typedef struct {
 } slcan_t;
 
 /* Opens the serial port. Before the first tick. */
-void slcan_start(slcan_t *slcan, const brace_hal_t *hal);
+void slcan_start(slcan_t *slcan, const brace_hal_t *hal, uint32_t urgent_id);
 
-/* Reads what has come and obeys it, at most four lines, until one is a frame for the node.
- * returns whether there is one, in frame
- * At most 900 instructions. */
+/* Reads what has come and obeys it, until a line is a frame for the node or nothing more has come.
+ * returns whether there is a frame
+ * 350 instructions for a line. */
 bool slcan_receive(slcan_t *slcan, const brace_hal_t *hal, brace_can_frame_t *frame);
 
 /* Puts a frame into the buffer, as a line. The channel is open.

@@ -6,7 +6,8 @@
 #include "loading_bench.h"
 
 static const brace_who_t who = {BRACE_ASKER_CAN, 3};
-static transfer_t transfer;
+static upload_t uploaded;
+static download_t downloaded;
 static asked_force_t asked_force;
 static brace_seal_t seal;
 static request_t request;
@@ -18,7 +19,8 @@ void setUp(void)
     const brace_parameters_t p = bench_parameters();
     stand(&p);
     living_master = NULL;
-    memset(&transfer, 0, sizeof transfer);
+    memset(&uploaded, 0, sizeof uploaded);
+    memset(&downloaded, 0, sizeof downloaded);
     memset(&asked_force, 0, sizeof asked_force);
     memset(&seal, 0, sizeof seal);
     memset(&asked, 0, sizeof asked);
@@ -32,7 +34,7 @@ static int32_t put(uint32_t code)
     static const uint8_t bytes[8];
     request = (request_t){.app = &app, .measured = &app.wires.measured, .asker = BRACE_ASKER_CAN, .who = who,
                           .seal = &seal, .token = 0x31, .bytes = bytes, .count = sizeof bytes,
-                          .asked_force = &asked_force, .transfer = &transfer, .node_id = 5};
+                          .asked_force = &asked_force, .upload = &uploaded, .download = &downloaded, .node_id = 5};
     memset(&answer, 0x5a, sizeof answer);
     untouched = answer;
     app.controller.ownership.is_by_wire = true; /* as while the wires are served */

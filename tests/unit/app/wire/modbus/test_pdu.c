@@ -388,7 +388,8 @@ static void test_what_a_request_carries(void)
     TEST_ASSERT_EQUAL_PTR(pdu, request.bytes);
     TEST_ASSERT_EQUAL(sizeof pdu, request.count);
     TEST_ASSERT_NULL(request.asked_force); /* these are of CAN */
-    TEST_ASSERT_NULL(request.transfer);
+    TEST_ASSERT_NULL(request.upload);
+    TEST_ASSERT_NULL(request.download);
 }
 
 int main(void)
