@@ -6,9 +6,13 @@ foreach(name IN ITEMS blank dynamixel fake selftest)
     endif()
 endforeach()
 
-# The parts of an image's console that are judged without a board.
+# The console of an image, judged without a board: tests/unit/bench/console_board.h stands in for the rest of it.
 set(console ${PROJECT_SOURCE_DIR}/firmware/boards/common)
-add_library(brace_test_console STATIC ${console}/key_entry.c ${console}/text.c)
+add_library(brace_test_console STATIC)
+foreach(name IN ITEMS banner console crash_words key_entry port_test question stiffness_words text typed)
+    target_sources(brace_test_console PRIVATE ${console}/${name}.c)
+endforeach()
 target_include_directories(brace_test_console PUBLIC ${console})
-target_link_libraries(brace_test_console PUBLIC brace_hal PRIVATE brace_warnings)
-list(APPEND BRACE_TEST_HALS brace_test_console)
+target_link_libraries(brace_test_console PUBLIC brace_hal brace_app brace_interface brace_hal_selftest
+    PRIVATE brace_warnings)
+list(PREPEND BRACE_TEST_HALS brace_test_console)

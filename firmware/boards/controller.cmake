@@ -14,7 +14,8 @@ add_custom_target(brace_build_info
     COMMENT "source hash")
 
 set(BRACE_CONTROLLER_SOURCES main.c banner.c board_servos.c console.c crash_words.c fault.c image_info.c kept.c
-    kept_nvm.c key_entry.c stack.c stand_in_joints.c start.c text.c)
+    kept_nvm.c key_entry.c port_test.c question.c second_clock.c stack.c stand_in_joints.c start.c stiffness_words.c
+    text.c typed.c)
 list(TRANSFORM BRACE_CONTROLLER_SOURCES PREPEND ${CMAKE_CURRENT_LIST_DIR}/common/)
 
 function(brace_controller_image target)

@@ -21,7 +21,8 @@ enum {
     BRACE_HAL_E_UNSUPPORTED = -2, /* this board cannot do that (CAN FD on bxCAN) */
     BRACE_HAL_E_RANGE = -3,       /* an argument is outside its range: a programming error */
     BRACE_HAL_E_DEVICE = -4,      /* the device refused or does not answer */
-    BRACE_HAL_E_BUS_OFF = -5      /* the CAN controller has left the bus; can_recover brings it back */
+    BRACE_HAL_E_BUS_OFF = -5,     /* the CAN controller has left the bus; can_recover brings it back */
+    BRACE_HAL_E_DAMAGED = -6      /* what the memory holds is neither blank nor whole */
 };
 
 /* ------------------------------------------------------------------------------------------- joints -- */
@@ -120,6 +121,13 @@ typedef struct {
 
 enum { BRACE_HAL_KEY_BYTES = 16 };
 
+/* What key_read finds. */
+enum {
+    BRACE_HAL_KEY_NONE = 0,   /* the board has none yet */
+    BRACE_HAL_KEY_LOCKED = 1, /* one that nothing takes away or replaces */
+    BRACE_HAL_KEY_OPEN = 2    /* one that another program on this board can replace */
+};
+
 /* What a joint may be told at most, whatever its parameters say; of the board's own file. INFINITY: no bound. */
 typedef struct {
     float torque_most_n_mm;
@@ -186,8 +194,10 @@ typedef struct {
     bool (*serial_peer_is_open)(void *context, brace_serial_port_t port, uint32_t peer);
 
     /* Optional: null where everybody on the board's buses may move the limb, on a bench. The key of this board, from
-     * memory of its own: 1 and its bytes, 0 (the board has none yet), E_DEVICE. key_write keeps a key, once: OK, E_RANGE
-     * (there is one already), E_DEVICE; it may block for 1 ms, and is called by the console alone. random_read gives a word
+     * memory of its own: KEY_LOCKED or KEY_OPEN and its bytes, KEY_NONE, E_DAMAGED (a piece of a key, a key that has
+     * lost bits, or memory that was locked without one), E_DEVICE (it does not answer). key_write keeps a key, once, and
+     * locks it: OK, AGAIN (kept, but not locked; the next start tries again), E_RANGE (there is one already), E_DEVICE;
+     * it may block for 2 ms, and is called by the console alone. random_read gives a word
      * that nobody can tell in advance: OK, AGAIN, E_DEVICE; without it a board with a key refuses motion. */
     int32_t (*key_read)(void *context, uint8_t key[BRACE_HAL_KEY_BYTES]);
     int32_t (*key_write)(void *context, const uint8_t key[BRACE_HAL_KEY_BYTES]);

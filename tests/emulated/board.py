@@ -15,6 +15,7 @@ PROJECT = Path(__file__).resolve().parents[2]
 IMAGES = Path(os.environ.get("BRACE_IMAGES", PROJECT / "build" / "m4f" / "images"))
 BOARDS = ("mps2-an386", "netduinoplus2")
 COUNTED = ("-icount", "shift=0")  # the board's clock counts its instructions, 1 ns each, and stands while it is paused
+DIGITS = ("zero", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine")
 PATIENCE_S = 60.0  # a loaded machine; nothing here takes more than a second on an idle one
 
 
@@ -50,12 +51,17 @@ class Board:
     def _read(self) -> None:
         assert self._process.stdout is not None
         for line in iter(self._process.stdout.readline, b""):
-            self._lines.put(line.decode(errors="replace").rstrip("\r\n"))
+            self._lines.put(line.decode(errors="replace").rstrip("\r\n").removeprefix("# "))
 
-    def ask(self, request: str) -> None:
-        """Types one character."""
+    def ask(self, word: str) -> None:
+        """Types a word, and Enter."""
         assert self._process.stdin is not None
-        self._process.stdin.write(request.encode())
+        self._process.stdin.write(f"{word}\r".encode())
+
+    def do(self, word: str) -> None:
+        """Types a word that changes something, and the digits that the console then spells."""
+        self.ask(word)
+        self.ask(digits_of(self.until(r"^sure\? ")[-1]))
 
     def until(self, pattern: str, patience_s: float = PATIENCE_S) -> list[str]:
         """The lines up to the first that matches, which is the last."""
@@ -83,6 +89,11 @@ class Board:
         lines = self.until(r"^stack: ")
         start = max(index for index, line in enumerate(lines) if line.startswith("brace "))
         return {"brace": lines[start], **dict(line.split(": ", 1) for line in lines[start + 1 :])}
+
+
+def digits_of(question: str) -> str:
+    """The digits that the console's question spells."""
+    return "".join(str(DIGITS.index(word)) for word in question.rpartition(": ")[2].split())
 
 
 def registers(banner: dict[str, str]) -> dict[str, int]:

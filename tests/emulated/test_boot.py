@@ -40,7 +40,7 @@ def test_banner_says_what_runs(name: str) -> None:
         assert of // 4 < unused < of
         board.ask("k")  # by now it has run: some stack more is used, and the rest is the same
         board.until("^k: ")
-        board.ask("b")
+        board.ask("banner")
         again = board.banner()
         assert int(again["stack"].split()[0]) <= unused
         assert {**again, "stack": ""} == {**banner, "stack": ""}
@@ -154,11 +154,11 @@ def test_parameters_in_memory_come_into_force(name: str, tmp_path: Path) -> None
 
 
 @pytest.mark.parametrize("name", BOARDS)
-@pytest.mark.parametrize(("request_", "slot_is_tried"), [("t", False), ("T", True)])
-def test_self_test(name: str, request_: str, slot_is_tried: bool) -> None:
+@pytest.mark.parametrize(("word", "slot_is_tried"), [("test", False), ("test slot", True)])
+def test_self_test(name: str, word: str, slot_is_tried: bool) -> None:
     with Board(name, image(f"brace-{name}"), *COUNTED) as board:  # two clocks are compared: the host's pauses stop both
         board.banner()
-        board.ask(request_)
+        board.do(word)
         lines = [line for line in board.until(r"selftest: \d+ passed") if line.startswith("selftest: ")]
         assert [line for line in lines if "FAIL" in line] == []
         passed, noted, failed = map(int, re.findall(r"\d+", lines[-1]))
@@ -186,13 +186,14 @@ def tick(board: Board) -> int:
     return int(stiffness(board).split()[-1])
 
 
+CALLERS = ("provoke", "act", "take_line", "take_answer", "console_serve", "main")
 CRASHES = {
-    "u": ("usage fault, undefined instruction", "provoke_undefined"),
-    "m": ("bus fault, no memory or device at the address in bfar", "provoke_missing_memory"),
-    "z": ("usage fault, division by zero", "provoke"),
-    "o": ("memory fault, the stack overflowed", None),
-    "j": ("bus fault, jump to where no memory is", None),
-    "i": ("interrupt without a handler", "provoke_interrupt"),
+    "crash undefined": ("usage fault, undefined instruction", "provoke_undefined"),
+    "crash memory": ("bus fault, no memory or device at the address in bfar", "provoke_missing_memory"),
+    "crash divide": ("usage fault, division by zero", "provoke"),
+    "crash overflow": ("memory fault, the stack overflowed", None),
+    "crash jump": ("bus fault, jump to where no memory is", None),
+    "crash interrupt": ("interrupt without a handler", "provoke_interrupt"),
 }
 
 
@@ -201,30 +202,30 @@ def test_a_crash_is_told_by_the_next_start(name: str) -> None:
     elf = image(f"brace-{name}-crash-test")
     with Board(name, elf) as board:
         board.banner()
-        for number, (request_, (words, function)) in enumerate(CRASHES.items(), start=1):
-            board.ask(request_)
+        for number, (word, (words, function)) in enumerate(CRASHES.items(), start=1):
+            board.do(word)
             banner = board.banner()
-            assert banner["start"] == "fault" and banner["crash"] == words, request_
+            assert banner["start"] == "fault" and banner["crash"] == words, word
             time_us, count = map(int, re.findall(r"\d+", banner["crash-time"]))
             assert count == number and 0 < time_us < 60e6
             crash = registers(banner)
             if function:
-                assert function_at(elf, crash["pc"]).startswith(function), request_
-                assert function_at(elf, crash["lr"] & ~1) in ("provoke", "console_serve", "main")
-            if request_ == "m":
+                assert function_at(elf, crash["pc"]).startswith(function), word
+                assert function_at(elf, crash["lr"] & ~1) in CALLERS
+            if word == "crash memory":
                 assert crash["bfar"] == 0x60000000 and crash["cfsr"] & 1 << 15
-            if request_ == "o":
+            if word == "crash overflow":
                 assert crash["sp"] < 0x20000000
             else:
                 assert 0x20000000 < crash["sp"] < 0x20002000
-            if request_ == "j":
+            if word == "crash jump":
                 assert crash["pc"] == 0x60000000
-        board.ask("r")
+        board.do("restart")
         banner = board.banner()
         assert banner["start"] == "requested" and banner["crash"] == words  # kept until it is forgotten
         assert "CRASHED" not in names(stiffness(board), "faults")
-        board.ask("c")
-        board.ask("r")
+        board.do("forget")
+        board.do("restart")
         assert "crash" not in board.banner()
     with Board(name, elf) as board:
         assert board.banner()["start"] == "power"  # nothing is kept without power
@@ -233,7 +234,7 @@ def test_a_crash_is_told_by_the_next_start(name: str) -> None:
 def test_the_application_knows_that_it_crashed() -> None:
     with Board("mps2-an386", image("brace-mps2-an386-crash-test")) as board:
         board.banner()
-        board.ask("u")
+        board.do("crash undefined")
         board.banner()
         stiffness(board)
         assert "CRASHED" in names(stiffness(board), "faults")
@@ -243,7 +244,7 @@ def test_the_watchdog_says_where_it_hung() -> None:
     elf = image("brace-mps2-an386-crash-test")
     with Board("mps2-an386", elf) as board:
         board.banner()
-        board.ask("h")
+        board.do("crash hang")
         banner = board.banner()
         assert banner["start"] == "watchdog" and banner["crash"].startswith(
             "watchdog: the main loop stood still"
@@ -263,7 +264,7 @@ def stiffness_asked_again(board: Board) -> str:
 
 
 def test_a_flood_on_the_console_does_not_stop_the_ticks() -> None:
-    """The board has no room for a question that comes right behind the flood, so the test asks again."""
+    """The first question ends the flood's line, which is too long, so the test asks again."""
     with Board("mps2-an386", image("brace-mps2-an386")) as board:
         board.banner()
         before = number(stiffness(board), "tick")
@@ -276,7 +277,7 @@ def test_an_emulated_board_is_a_bench_and_keeps_no_key(name: str) -> None:
     with Board(name, image(f"brace-{name}")) as board:
         board.banner()
         assert " setting BENCH " in stiffness(board)
-        board.ask("K")
+        board.ask("key")
         board.until(r"^key: this board keeps none; it is a bench$")
 
 
@@ -290,15 +291,17 @@ def test_the_real_boards_image_names_what_the_emulated_chip_lacks() -> None:
         told = stiffness(board)
         assert told.startswith("k: not valid flags") and "k_xx" not in told
         assert " setting NO_KEY " in told  # so it refuses motion, until its console says otherwise
-        board.ask("K")
+        board.ask("key")
         board.until(r"^key: its memory does not answer$")
         # The emulated clock follows this machine's. Where this machine is busy, the clock's steps are coarse, and a wrong
         # rate may seem right by chance, but hardly three times in a row.
         for _ in range(3):
-            board.ask("B")
+            board.do("bench")
             board.until(r"^bench until the next start$")
             assert " setting BENCH " in stiffness(board)
-            board.ask("t")
+            board.ask("bench")
+            board.until(r"^not now: this board is a bench already$")
+            board.do("test")
             text = "\n".join(board.until(r"selftest: \d+ passed"))
             board.banner()  # and it starts again
             if "FAIL now_us: runs at the wrong rate" in text:

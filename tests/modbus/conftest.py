@@ -56,7 +56,7 @@ def wait_for_banner(console: str) -> None:
             if select.select([descriptor], [], [], 0.5)[0]:
                 said += os.read(descriptor, 4096)
             else:
-                os.write(descriptor, b"b")
+                os.write(descriptor, b"banner\r")
     finally:
         os.close(descriptor)
 

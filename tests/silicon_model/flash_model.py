@@ -14,6 +14,7 @@ OPTION_US = 0.5e6
 ERRORS = 0xF2  # OPERR, WRPERR, PGAERR, PGPERR, PGSERR
 START = 0x08000000
 OTP_PAGE, OTP_OFFSET, OTP_BYTES = 0x1FFF7000, 0x800, 528  # 3.8: 16 blocks of 32 bytes, and their locks
+OTP_BLOCK, OTP_LOCKS = 32, 512
 SECTORS = [16384] * 4 + [65536] + [131072] * 7
 PROGRAM_US = 16.0
 
@@ -43,6 +44,7 @@ class Flash:
         chip.waiting.append(self.advance)
         chip.cpu.mmio_map(START, len(self.memory), self._load, None, self._store, None)
         self.otp = bytearray(b"\xff" * OTP_BYTES)
+        self.otp_steps: list[bytes] = []  # its content after each write that changed it
         chip.cpu.mmio_map(OTP_PAGE, 0x1000, self._load_otp, None, self._store_otp, None)
 
     @staticmethod
@@ -71,7 +73,14 @@ class Flash:
         if not 0 <= place <= OTP_BYTES - size:
             self.chip.violations.append(f"flash: write to 0x{OTP_PAGE + offset:x}")
             return
-        self.chip._guarded(lambda: self._program(self.otp, place, size, value, is_protected=False))
+        before = bytes(self.otp)
+        self.chip._guarded(lambda: self._program(self.otp, place, size, value, self._is_locked(place)))
+        if bytes(self.otp) != before:
+            self.otp_steps.append(bytes(self.otp))
+
+    def _is_locked(self, place: int) -> bool:
+        """3.8: a block can be programmed until its lock byte is 0x00; 3.6.5: a write to a locked one sets WRPERR."""
+        return place < OTP_LOCKS and self.otp[OTP_LOCKS + place // OTP_BLOCK] == 0
 
     def _read_memory(self, offset: int, size: int) -> int:
         if self.busy():

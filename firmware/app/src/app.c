@@ -130,7 +130,7 @@ static void start_ownership(controller_t *controller)
     const brace_hal_t *hal = controller->hal;
     uint8_t key[SIPHASH_KEY_BYTES];
     const bool has_key =
-        hal->key_read != NULL && hal->random_read != NULL && hal->key_read(hal->context, key) == 1;
+        hal->key_read != NULL && hal->random_read != NULL && hal->key_read(hal->context, key) > 0;
     session_t *session = &controller->ownership.session;
     session_start(session, hal->key_read == NULL, has_key ? key : NULL);
     session->life_us = hal->silence_us != 0u ? hal->silence_us : session->life_us;

@@ -92,13 +92,19 @@ void brace_app_become_bench(brace_app_t *app)
     session_become_bench(&controller_of(app)->ownership.session);
 }
 
+bool brace_app_moves(const brace_app_t *app)
+{
+    const controller_t *controller = controller_in(app);
+    return controller_takes_up(controller) || loading_runs(&controller->loading);
+}
+
 brace_status_t brace_app_stop(brace_app_t *app)
 {
     if (app == NULL) {
         return BRACE_E_NULL;
     }
     controller_t *controller = controller_of(app);
-    if (!controller_takes_up(controller) && !loading_runs(&controller->loading)) {
+    if (!brace_app_moves(app)) {
         return BRACE_E_MODE;
     }
     if (ownership_stop(&controller->ownership)) {

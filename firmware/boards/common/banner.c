@@ -3,9 +3,8 @@
 #include "board.h"
 #include "crash_words.h"
 #include "image_info.h"
+#include "key_entry.h"
 #include "stack.h"
-
-extern uint32_t _stack_limit[];
 
 static void pair(text_t *text, const char *key, const char *value)
 {
@@ -31,7 +30,7 @@ static const char *cause_name(brace_reset_cause_t cause)
 
 static void crash(text_t *text, const brace_crash_record_t *record)
 {
-    const char *const reason = crash_reason(record, (uint32_t)(uintptr_t)_stack_limit);
+    const char *const reason = crash_reason(record, stack_limit_address());
     text_string(text, "crash: ");
     text_string(text, crash_exception(record));
     if (reason[0] != '\0') {
@@ -103,6 +102,9 @@ void banner_application(text_t *text, const brace_app_t *app, brace_status_t sta
     text_string(text, ", crc ");
     text_hex(text, now->parameter_crc);
     text_line(text);
+    if (key_entry_words(hal)[0] != '\0') {
+        pair(text, "key", key_entry_words(hal));
+    }
     text_string(text, "stack: ");
     text_unsigned(text, hal->stack_unused_bytes(hal->context));
     text_string(text, " of ");

@@ -17,11 +17,10 @@ static void forget(key_entry_t *entry)
     for (uint32_t i = 0u; i < (uint32_t)sizeof entry->key; i++) {
         bytes[i] = 0u;
     }
-    entry->digits = 0u;
+    entry->lines = 0u;
     entry->is_open = false;
 }
 
-/* returns 1: there is a key; 0: none yet; negative: its memory does not answer */
 static int32_t look_for_key(const brace_hal_t *hal)
 {
     key_entry_t kept = {0};
@@ -30,64 +29,132 @@ static int32_t look_for_key(const brace_hal_t *hal)
     return found;
 }
 
-void key_entry_begin(key_entry_t *entry, text_t *text)
+const char *key_entry_words(const brace_hal_t *hal)
 {
-    const brace_hal_t *const hal = text->hal;
-    forget(entry);
-    if (hal->key_read == NULL || hal->key_write == NULL) {
-        say(text, "this board keeps none; it is a bench");
-        return;
+    if (hal->key_read == NULL) {
+        return "";
     }
-    const int32_t found = look_for_key(hal);
-    entry->is_open = found == 0;
-    say(text, found == 0  ? "type its 32 hexadecimal digits, twice; this board keeps them for ever"
-              : found > 0 ? "this board has one, and keeps it"
-                          : "its memory does not answer");
+    switch (look_for_key(hal)) {
+    case BRACE_HAL_KEY_NONE: return "none yet; motion is refused until the board has one (word: key)";
+    case BRACE_HAL_KEY_LOCKED: return "kept, and its memory is locked";
+    case BRACE_HAL_KEY_OPEN:
+        return "kept, but its memory is not locked: another image can replace it; a restart tries again";
+    case BRACE_HAL_E_DAMAGED:
+        return "none: its memory holds a piece of one, or is locked without one; motion is refused";
+    default: return "its memory does not answer";
+    }
 }
 
-static int32_t digit_value(uint8_t typed)
+bool key_entry_is_possible(text_t *text)
 {
-    if (typed >= (uint8_t)'0' && typed <= (uint8_t)'9') {
+    const brace_hal_t *const hal = text->hal;
+    if (hal->key_read == NULL || hal->key_write == NULL) {
+        say(text, "this board keeps none; it is a bench");
+        return false;
+    }
+    const int32_t found = look_for_key(hal);
+    if (found == BRACE_HAL_KEY_LOCKED || found == BRACE_HAL_KEY_OPEN) {
+        say(text, "this board has one, and keeps it");
+    } else if (found != BRACE_HAL_KEY_NONE && found != BRACE_HAL_E_DAMAGED) {
+        say(text, "its memory does not answer");
+    }
+    return found == BRACE_HAL_KEY_NONE || found == BRACE_HAL_E_DAMAGED;
+}
+
+static void await_line(key_entry_t *entry, text_t *text, const char *words)
+{
+    entry->asked_us = text->hal->now_us(text->hal->context);
+    say(text, words);
+}
+
+void key_entry_begin(key_entry_t *entry, text_t *text)
+{
+    forget(entry);
+    entry->is_open = true;
+    await_line(entry, text, "type its 32 hexadecimal digits and Enter; they are not shown");
+}
+
+static int32_t digit_value(char typed)
+{
+    if (typed >= '0' && typed <= '9') {
         return typed - '0';
     }
-    const uint8_t lower = typed | 0x20u;
-    return lower >= (uint8_t)'a' && lower <= (uint8_t)'f' ? lower - 'a' + 10 : NO_DIGIT;
+    const char lower = (char)(typed | 0x20);
+    return lower >= 'a' && lower <= 'f' ? lower - 'a' + 10 : NO_DIGIT;
+}
+
+/* Reads a line of digits; false: it is no key. */
+static bool read_key(const char *line, uint8_t key[BRACE_HAL_KEY_BYTES])
+{
+    uint32_t digits = 0u;
+    for (; *line != '\0'; line++) { /* at most a typed line */
+        if (*line == ' ') {
+            continue;
+        }
+        const int32_t value = digit_value(*line);
+        if (value == NO_DIGIT || digits == (uint32_t)DIGITS) {
+            return false;
+        }
+        key[digits / 2u] = (uint8_t)((uint32_t)key[digits / 2u] << 4 | (uint32_t)value);
+        digits++;
+    }
+    return digits == (uint32_t)DIGITS;
+}
+
+static bool is_same(const key_entry_t *entry)
+{
+    bool same = true;
+    for (uint32_t i = 0u; i < (uint32_t)BRACE_HAL_KEY_BYTES; i++) {
+        same = same && entry->key[0][i] == entry->key[1][i];
+    }
+    return same;
 }
 
 static void keep(key_entry_t *entry, text_t *text)
 {
-    bool is_same = true;
-    for (uint32_t i = 0u; i < (uint32_t)BRACE_HAL_KEY_BYTES; i++) {
-        is_same = is_same && entry->key[0][i] == entry->key[1][i];
+    if (!is_same(entry)) {
+        say(text, "the two lines differ; nothing was kept. The word key begins again");
+        return;
     }
-    if (!is_same) {
-        say(text, "the two differ; nothing was kept. K begins again");
-    } else if (text->hal->key_write(text->hal->context, entry->key[0]) == BRACE_HAL_OK) {
-        say(text, "kept. The board is guarded from its next start on: r restarts it");
-    } else {
-        say(text, "the memory did not take it. K tries again");
+    switch (text->hal->key_write(text->hal->context, entry->key[0])) {
+    case BRACE_HAL_OK: say(text, "kept, and its memory is locked. The board is guarded from its next start on"); break;
+    case BRACE_HAL_AGAIN:
+        say(text,
+            "kept, but its memory is not locked yet; the next start tries again. The board is guarded from then on");
+        break;
+    default: say(text, "the memory did not take it. The word key tries again"); break;
     }
+}
+
+void key_entry_take(key_entry_t *entry, text_t *text, const char *line)
+{
+    if (!read_key(line, entry->key[entry->lines])) {
+        forget(entry);
+        say(text, "those are not 32 hexadecimal digits; nothing was kept. The word key begins again");
+        return;
+    }
+    entry->lines++;
+    if (entry->lines == 1u) {
+        await_line(entry, text, "and the same once more");
+        return;
+    }
+    keep(entry, text);
     forget(entry);
 }
 
-void key_entry_take(key_entry_t *entry, text_t *text, uint8_t typed)
+void key_entry_refuse_echo(key_entry_t *entry, text_t *text)
 {
-    if (typed == (uint8_t)' ' || typed == (uint8_t)'\r' || typed == (uint8_t)'\n') {
-        return;
-    }
-    const int32_t value = digit_value(typed);
-    if (value == NO_DIGIT) {
+    if (entry->is_open) {
         forget(entry);
-        say(text, "that is no hexadecimal digit; nothing was kept. K begins again");
-        return;
+        say(text, "this terminal echoes, so a key is not taken from it; nothing was kept");
     }
-    uint8_t *const byte = &entry->key[entry->digits / (uint32_t)DIGITS][entry->digits % (uint32_t)DIGITS / 2u];
-    *byte = (uint8_t)((uint32_t)*byte << 4 | (uint32_t)value);
-    entry->digits++;
-    if (entry->digits == (uint32_t)DIGITS) {
-        say(text, "and again");
-    }
-    if (entry->digits == 2u * (uint32_t)DIGITS) {
-        keep(entry, text);
+}
+
+void key_entry_serve(key_entry_t *entry, text_t *text)
+{
+    const uint32_t now_us = text->hal->now_us(text->hal->context);
+    if (entry->is_open && now_us - entry->asked_us >= (uint32_t)KEY_ENTRY_PATIENCE_US) {
+        forget(entry);
+        say(text, "nobody typed it for 120 s; nothing was kept");
     }
 }

@@ -6,13 +6,13 @@
 #include "console.h"
 
 static brace_app_t app;
-static text_t console;
+static console_t console;
 
 static void open_console(const brace_hal_t *hal)
 {
     const int32_t answer = hal->serial_setup(hal->context, BRACE_SERIAL_CONSOLE, BOARD_CONSOLE_BAUD, BRACE_PARITY_NONE);
-    console.hal = hal;
-    console.gone = answer != BRACE_HAL_OK;
+    console.text.hal = hal;
+    console.text.gone = answer != BRACE_HAL_OK;
 }
 
 /* A controller that cannot start prints why, again and again for whoever connects later. It does not reset in a
@@ -20,15 +20,15 @@ static void open_console(const brace_hal_t *hal)
 static _Noreturn void explain(brace_status_t started)
 {
     enum { REPEAT_US = 1000000 };
-    const brace_hal_t *const hal = console.hal;
+    const brace_hal_t *const hal = console.text.hal;
     uint32_t last_us = hal->now_us(hal->context);
     for (;;) { /* for ever: there is nothing to control */
         hal->watchdog_feed(hal->context);
         if (hal->now_us(hal->context) - last_us >= REPEAT_US) {
             last_us += REPEAT_US;
-            console.gone = false;
-            banner_image(&console);
-            banner_application(&console, &app, started);
+            text_again(&console.text);
+            banner_image(&console.text);
+            banner_application(&console.text, &app, started);
         }
     }
 }
@@ -37,13 +37,13 @@ int main(void)
 {
     const brace_hal_t *const hal = board_start();
     open_console(hal);
-    banner_image(&console);
+    banner_image(&console.text);
     const brace_status_t started = brace_app_start(&app, hal);
-    banner_application(&console, &app, started);
+    banner_application(&console.text, &app, started);
     if (started != BRACE_OK) {
         explain(started);
     }
-    text_keep(&console);
+    text_keep(&console.text);
     uint32_t due_us = hal->now_us(hal->context);
     for (;;) { /* for ever: the controller */
         const uint32_t now_us = hal->now_us(hal->context);

@@ -1,9 +1,27 @@
 #include "provoke.h"
 
+typedef enum { UNDEFINED, MEMORY, DIVIDE, OVERFLOW, JUMP, HANG, INTERRUPT, CRASHES } crash_t;
+
+static const char *const names[CRASHES] = {"crash undefined", "crash memory", "crash divide",   "crash overflow",
+                                           "crash jump",      "crash hang",   "crash interrupt"};
+
+uint32_t provoke_count(void)
+{
+    return CRASHES;
+}
+
+uint32_t provoke_find(const typed_t *typed)
+{
+    uint32_t at = 0u;
+    while (at < (uint32_t)CRASHES && !typed_is(typed, names[at])) {
+        at++;
+    }
+    return at;
+}
+
 void provoke_help(text_t *text)
 {
-    text_string(text, "crash test: u undefined instruction  m missing memory  z division by zero  o stack overflow  ");
-    text_string(text, "j jump to data  h hang  i interrupt nobody expects");
+    text_string(text, "crash undefined, memory, divide, overflow, jump, hang, interrupt: crashes on purpose");
     text_line(text);
 }
 
@@ -55,17 +73,17 @@ __attribute__((noinline)) static void provoke_interrupt(void)
     __asm__ volatile("dsb\n\tisb" ::: "memory");
 }
 
-void provoke(uint8_t request)
+void provoke(uint32_t crash)
 {
     volatile uint32_t zero = 0u;
-    switch (request) {
-    case 'u': provoke_undefined(); break;
-    case 'm': provoke_missing_memory(); break;
-    case 'z': (void)provoke_division(&zero); break;
-    case 'o': (void)provoke_overflow(0u); break;
-    case 'j': provoke_jump(); break;
-    case 'h': provoke_hang(); break;
-    case 'i': provoke_interrupt(); break;
+    switch (crash) {
+    case UNDEFINED: provoke_undefined(); break;
+    case MEMORY: provoke_missing_memory(); break;
+    case DIVIDE: (void)provoke_division(&zero); break;
+    case OVERFLOW: (void)provoke_overflow(0u); break;
+    case JUMP: provoke_jump(); break;
+    case HANG: provoke_hang(); break;
+    case INTERRUPT: provoke_interrupt(); break;
     default: break;
     }
 }

@@ -7,6 +7,11 @@ uint32_t stack_bytes(void)
     return (uint32_t)((uintptr_t)_stack_top - (uintptr_t)_stack_limit);
 }
 
+uint32_t stack_limit_address(void)
+{
+    return (uint32_t)(uintptr_t)_stack_limit;
+}
+
 uint32_t stack_unused_bytes(void *context)
 {
     (void)context;

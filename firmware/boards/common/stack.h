@@ -12,4 +12,7 @@ uint32_t stack_unused_bytes(void *context);
 
 uint32_t stack_bytes(void);
 
+/* The lowest address of the stack. */
+uint32_t stack_limit_address(void);
+
 #endif

@@ -21,7 +21,7 @@ static void write_out(text_t *text, const uint8_t *bytes, uint32_t count)
     }
 }
 
-static void put(text_t *text, const char *characters, uint32_t count)
+static void keep_or_write(text_t *text, const char *characters, uint32_t count)
 {
     const uint8_t *const bytes = (const uint8_t *)characters;
     if (!text->keeps) {
@@ -32,6 +32,23 @@ static void put(text_t *text, const char *characters, uint32_t count)
     for (uint32_t i = 0u; i < count && !text->gone; i++) {
         text->bytes[text->count] = bytes[i];
         text->count++;
+    }
+}
+
+static void put(text_t *text, const char *characters, uint32_t count)
+{
+    if (!text->is_within_line) {
+        text->is_within_line = true;
+        keep_or_write(text, TEXT_PREFIX, (uint32_t)sizeof TEXT_PREFIX - 1u);
+    }
+    keep_or_write(text, characters, count);
+}
+
+void text_again(text_t *text)
+{
+    if (text->gone) {
+        text->gone = false;
+        text_line(text); /* behind the line that was cut */
     }
 }
 
@@ -104,5 +121,6 @@ void text_hex(text_t *text, uint32_t value)
 
 void text_line(text_t *text)
 {
-    put(text, "\r\n", 2u);
+    text->is_within_line = false;
+    keep_or_write(text, "\r\n", 2u);
 }

@@ -208,7 +208,7 @@ static int32_t key_read(void *context, uint8_t key[BRACE_HAL_KEY_BYTES])
     for (uint32_t i = 0; i < (uint32_t)BRACE_HAL_KEY_BYTES && fake->has_key; i++) {
         key[i] = fake->key[i];
     }
-    return fake->has_key ? 1 : 0;
+    return fake->has_key ? BRACE_HAL_KEY_LOCKED : BRACE_HAL_KEY_NONE;
 }
 
 static int32_t key_write(void *context, const uint8_t key[BRACE_HAL_KEY_BYTES])

@@ -95,7 +95,7 @@ static int32_t door_key_read(void *context, uint8_t key[BRACE_HAL_KEY_BYTES])
     if (posix->has_key) {
         memcpy(key, posix->key, BRACE_HAL_KEY_BYTES);
     }
-    return posix->has_key ? 1 : 0;
+    return posix->has_key ? BRACE_HAL_KEY_OPEN : BRACE_HAL_KEY_NONE; /* whoever writes the file has another */
 }
 
 static int32_t door_random_read(void *context, uint32_t *word)

@@ -5,8 +5,9 @@
  * It cannot find out whether an angle's sign and zero are right, whether a torque is true, whether memory keeps without
  * power, whether the watchdog bites (the crash-test image shows that), or whether a bus has wires.
  *
- * Do not run it during operation: it takes samples away from the application, sets CAN up anew and, if allowed, erases
- * a slot. Restart the board afterwards. No heap, no recursion.
+ * It commands no joint, but where `limb_is_free` says so. Do not run it during operation: it takes samples away from
+ * the application, which does not command its joints meanwhile, sets CAN up anew and, if allowed, erases a slot.
+ * Restart the board afterwards. No heap, no recursion.
  */
 #ifndef BRACE_HAL_SELFTEST_H
 #define BRACE_HAL_SELFTEST_H
@@ -35,6 +36,9 @@ typedef struct {
 
     /* Slot that may be erased and written; it ends erased. BRACE_SELFTEST_KEEP_NVM: memory is only read. */
     int32_t scratch_slot;
+
+    /* The limb hangs free, on a bench: joint_command is called, for no offset. Else no joint is commanded. */
+    bool limb_is_free;
 
     /* Somebody moves the joints during the test. Then an angle that does not change is a failure, otherwise a note. */
     bool joints_are_moved;

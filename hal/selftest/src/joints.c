@@ -111,18 +111,41 @@ static void refusals(selftest_t *test)
     }
 }
 
+/* Every call of joint_command is a command: also one for no offset moves a joint that had another, and a port that
+ * does not check the index may command another joint. So it is called only where the limb hangs free. */
 static void commands(selftest_t *test)
 {
     const brace_hal_t *const hal = test->hal;
-    const brace_hal_joint_command_t nothing = {0.0f, INFINITY}; /* no offset and no limit, so nothing changes */
+    const brace_hal_joint_command_t nothing = {0.0f, INFINITY}; /* no offset and no limit */
     if (hal->joint_command == 0) {
         selftest_tell(test, BRACE_SELFTEST_NOTE, "joint_command", "not there: the firmware can not move this limb");
+        return;
+    }
+    if (!test->setup->limb_is_free) {
+        selftest_tell(test, BRACE_SELFTEST_NOTE, "joint_command", "not tried: the limb was not said to hang free");
         return;
     }
     selftest_expect(test, hal->joint_command(hal->context, 1, &nothing) == BRACE_HAL_OK, "joint_command",
         "no offset is accepted", "joint 1 refuses an offset of 0; null is right when the limb can not be moved");
     selftest_expect(test, hal->joint_command(hal->context, JOINT_COUNT, &nothing) < 0, "joint_command",
         "a joint that can not be is refused", "joint 3 is accepted: check the index first");
+}
+
+/* What the board's own file allows: numbers in an order in which they can hold. */
+static void ceilings(selftest_t *test)
+{
+    const brace_hal_ceiling_t *const ceiling = test->hal->ceiling;
+    if (ceiling == 0) {
+        return;
+    }
+    bool is_right = true;
+    for (int32_t index = 0; index < JOINT_COUNT; index++) {
+        const brace_hal_ceiling_t *const one = &ceiling[index];
+        is_right = is_right && one->torque_most_n_mm > 0.0f && one->speed_most_rad_per_s > 0.0f &&
+            one->angle_least_rad < one->angle_most_rad;
+    }
+    selftest_expect(test, is_right, "ceiling", "torque, travel and speed are possible",
+        "a torque or speed is not above 0, or a travel ends before it begins");
 }
 
 static void tip_force(selftest_t *test)
@@ -153,5 +176,6 @@ void selftest_joints(selftest_t *test)
     }
     refusals(test);
     commands(test);
+    ceilings(test);
     tip_force(test);
 }

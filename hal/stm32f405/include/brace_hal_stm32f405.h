@@ -140,9 +140,12 @@ uint32_t stm32f405_sector_bytes(uint8_t sector);
  *   nvm_erase    16 KiB: 0.25 s, at most 0.5 s; 128 KiB: 1 s, at most 2 s; before, up to 0.6 s until what is being sent
  *                has left. The processor stands still; the watchdog is fed before. E_DEVICE: the supply, as above;
  *                protected, or not finished in twice that time
- *   key_read     from the first block of one-time programmable memory (0x1fff7800) that holds a key; not the image, not a
- *                set, nothing erases it
- *   key_write    once; 0.2 ms. A write that the power cut costs one of 16 blocks
+ *   key_read     from the first block of one-time programmable memory (0x1fff7800) that holds a key. Nothing erases it.
+ *                KEY_OPEN: its block is not locked; each start tries to lock it. E_DAMAGED: no key, and a block that is
+ *                neither blank nor open
+ *   key_write    once; 0.3 ms. It locks the block (0x1fff7a00), so that no image that is flashed later replaces the
+ *                key. A write that the power cut costs one of 16 blocks. Others' blocks are left alone, but for bytes
+ *                15 and 31 of a block before the key's that a key could be made of
  *   random_read  2 us, at most 20; E_DEVICE: without the PLL, whose clock the generator needs
  *   watchdog     3.5 s by the LSI as measured at the start, 2.8 s with the fastest LSI; where it cannot be measured, by
  *                its nominal 32 kHz

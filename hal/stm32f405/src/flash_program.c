@@ -8,6 +8,7 @@
 #include "watchdog.h"
 
 enum {
+    PARALLEL_8 = 0,   /* PSIZE: a byte at a time */
     PARALLEL_32 = 2,  /* PSIZE: 32 bits at a time */
     PROGRAM_US = 200, /* a word takes 16 us, at most 100 */
     REST_US = 4000000 /* an erase that still runs takes at most 2 s */
@@ -93,6 +94,18 @@ int32_t flash_program(uintptr_t address, const uint8_t *bytes, uint32_t count)
         sound = finishes_within(PROGRAM_US) && (*flash(FLASH_SR) & ERRORS) == 0u;
     }
     return close_up(sound);
+}
+
+int32_t flash_program_byte(uintptr_t address, uint8_t byte)
+{
+    if (!unlock()) {
+        lock();
+        return BRACE_HAL_E_DEVICE;
+    }
+    *flash(FLASH_CR) = FLASH_CR_PG | FIELD(FLASH_CR_PSIZE, PARALLEL_8);
+    *(volatile uint8_t *)address = byte;
+    processor_barrier();
+    return close_up(finishes_within(PROGRAM_US));
 }
 
 int32_t flash_erase_sector(uint8_t sector, uint32_t timeout_us)

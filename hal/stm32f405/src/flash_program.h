@@ -16,6 +16,9 @@ bool flash_answers(void);
  * returns OK; E_DEVICE: the supply is low, the interface stays locked, or a word was not programmed */
 int32_t flash_program(uintptr_t address, const uint8_t *bytes, uint32_t count);
 
+/* The same for one byte at any address, as the lock bytes of the one-time programmable memory need it. */
+int32_t flash_program_byte(uintptr_t address, uint8_t byte);
+
 /* Erases a sector; the processor stands still until it is done. timeout_us: at least twice what the sector takes
  * returns OK or E_DEVICE */
 int32_t flash_erase_sector(uint8_t sector, uint32_t timeout_us);

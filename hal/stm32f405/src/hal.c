@@ -107,6 +107,7 @@ const brace_hal_t *brace_hal_stm32f405(const stm32f405_board_t *board)
     }
     if (board->keeps_key) {
         random_start();
+        board_key_start();
     }
     if (board->watchdog) {
         watchdog_start(clock_report()->clocks.timer_hz);

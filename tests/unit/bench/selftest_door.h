@@ -14,12 +14,12 @@ enum { SLOT_BYTES = 4096, UNIT = 4, FRAMES_MAX = 8, FINDINGS_MAX = 80, JOINTS = 
 
 typedef struct {
     int lie; /* 0: none; else of the test's own list */
-    uint32_t us, fed;
+    uint32_t us, fed, commands;
     uint32_t count_eighths; /* of the second clock, per us: 8 in truth */
     uint8_t nvm[BRACE_NVM_SLOT_COUNT][SLOT_BYTES];
     brace_can_frame_t frames[FRAMES_MAX];
     uint32_t queued, taken;
-    bool loopback, moves;
+    bool loopback, moves, limb_is_free;
     uint32_t filter_id, filter_mask;
 } world_t;
 
@@ -60,6 +60,7 @@ static inline int32_t joint_command(void *context, int32_t index, const brace_ha
 {
     (void)context;
     (void)command;
+    world.commands++;
     return index < JOINTS ? BRACE_HAL_OK : BRACE_HAL_E_UNSUPPORTED;
 }
 
@@ -267,6 +268,7 @@ static inline brace_selftest_setup_t setup_of(int32_t scratch_slot)
         .report = keep,
         .report_context = &world,
         .scratch_slot = scratch_slot,
+        .limb_is_free = world.limb_is_free,
         .joints_are_moved = world.moves,
         .reference_count = falling_count,
         .reference_hz = 1000000u,

@@ -23,12 +23,10 @@ void setUp(void)
 
 void tearDown(void) {}
 
-static void type(const char *characters)
+static void type(const char *line)
 {
-    for (; *characters != '\0'; characters++) {
-        TEST_ASSERT_TRUE(entry.is_open);
-        key_entry_take(&entry, &text, (uint8_t)*characters);
-    }
+    TEST_ASSERT_TRUE(entry.is_open);
+    key_entry_take(&entry, &text, line);
 }
 
 static void assert_said(const char *words)
@@ -44,17 +42,19 @@ static void assert_forgotten(void)
     static const key_entry_t nothing;
     TEST_ASSERT_FALSE(entry.is_open);
     TEST_ASSERT_EQUAL_MEMORY(nothing.key, entry.key, sizeof entry.key);
-    TEST_ASSERT_EQUAL(0, entry.digits);
+    TEST_ASSERT_EQUAL(0, entry.lines);
 }
 
 static void test_a_key_typed_twice_is_kept(void)
 {
+    TEST_ASSERT_TRUE(key_entry_is_possible(&text));
     key_entry_begin(&entry, &text);
-    assert_said("twice");
-    type(KEY "\r\n");
+    assert_said("not shown");
+    type(KEY);
+    assert_said("once more");
     TEST_ASSERT_FALSE(fake.has_key);
     type("00 01 02 03 04 05 06 07 08 09 0A 0B 0C 0D 0E 0F");
-    assert_said("kept. The board is guarded");
+    assert_said("kept, and its memory is locked. The board is guarded");
     TEST_ASSERT_TRUE(fake.has_key);
     for (uint8_t i = 0; i < BRACE_HAL_KEY_BYTES; i++) {
         TEST_ASSERT_EQUAL_HEX8(i, fake.key[i]);
@@ -65,7 +65,8 @@ static void test_a_key_typed_twice_is_kept(void)
 static void test_two_that_differ_are_not_kept(void)
 {
     key_entry_begin(&entry, &text);
-    type(KEY OTHER);
+    type(KEY);
+    type(OTHER);
     assert_said("differ");
     TEST_ASSERT_FALSE(fake.has_key);
     assert_forgotten();
@@ -73,16 +74,24 @@ static void test_two_that_differ_are_not_kept(void)
 
 static void test_a_slip_ends_the_entry(void)
 {
-    static const char slips[] = {'g', 'G', '/', ':', '@', '`', 'x', '\x1b', '\x7f', '\0'};
-    for (uint32_t i = 0; i < sizeof slips; i++) {
+    static const char *const slips[] = {"", KEY "0", "00010203", "g00102030405060708090a0b0c0d0e0f", KEY "g",
+                                        "/00102030405060708090a0b0c0d0e0f", ":00102030405060708090a0b0c0d0e0f",
+                                        "@00102030405060708090a0b0c0d0e0f", "`00102030405060708090a0b0c0d0e0f"};
+    for (uint32_t i = 0; i < sizeof slips / sizeof slips[0]; i++) {
         key_entry_begin(&entry, &text);
-        type("0102");
-        key_entry_take(&entry, &text, (uint8_t)slips[i]);
-        assert_said("no hexadecimal digit");
+        type(slips[i]);
+        assert_said("not 32 hexadecimal digits");
+        assert_forgotten();
+        key_entry_begin(&entry, &text);
+        type(KEY);
+        type(slips[i]);
+        assert_said("not 32 hexadecimal digits");
         assert_forgotten();
     }
+    TEST_ASSERT_FALSE(fake.has_key);
     key_entry_begin(&entry, &text);
-    type(KEY KEY);
+    type(KEY);
+    type(KEY);
     TEST_ASSERT_EQUAL_HEX8(1, fake.key[1]); /* what was typed before the slip does not count */
 }
 
@@ -90,55 +99,104 @@ static void test_a_board_with_a_key_keeps_it(void)
 {
     static const uint8_t key[BRACE_HAL_KEY_BYTES] = {9};
     brace_fake_guarded(&fake, key);
-    key_entry_begin(&entry, &text);
+    TEST_ASSERT_FALSE(key_entry_is_possible(&text));
     assert_said("has one");
-    assert_forgotten();
     TEST_ASSERT_EQUAL_HEX8(9, fake.key[0]);
 }
 
 static void test_a_board_that_keeps_none_says_so(void)
 {
     fake.hal.key_read = NULL;
-    key_entry_begin(&entry, &text);
+    TEST_ASSERT_FALSE(key_entry_is_possible(&text));
     assert_said("a bench");
-    assert_forgotten();
+    TEST_ASSERT_EQUAL_STRING("", key_entry_words(&fake.hal));
 }
 
-static int32_t no_answer(void *context, uint8_t key[BRACE_HAL_KEY_BYTES])
+static int32_t found; /* by key_read, and what key_write answers */
+
+static int32_t find(void *context, uint8_t key[BRACE_HAL_KEY_BYTES])
 {
     (void)context;
     (void)key;
-    return BRACE_HAL_E_DEVICE;
+    return found;
 }
 
-static void test_memory_that_does_not_answer_is_told(void)
-{
-    fake.hal.key_read = no_answer;
-    key_entry_begin(&entry, &text);
-    assert_said("does not answer");
-    assert_forgotten();
-}
-
-static int32_t refuse(void *context, const uint8_t key[BRACE_HAL_KEY_BYTES])
+static int32_t answer(void *context, const uint8_t key[BRACE_HAL_KEY_BYTES])
 {
     (void)context;
     (void)key;
-    return BRACE_HAL_E_DEVICE;
+    return found;
+}
+
+static void test_what_the_memory_holds_is_told(void)
+{
+    static const struct {
+        int32_t found;
+        bool takes_key;
+        const char *words;
+    } all[] = {
+        {BRACE_HAL_KEY_NONE, true, "none yet"},
+        {BRACE_HAL_KEY_LOCKED, false, "kept, and its memory is locked"},
+        {BRACE_HAL_KEY_OPEN, false, "another image can replace it"},
+        {BRACE_HAL_E_DAMAGED, true, "holds a piece of one"},
+        {BRACE_HAL_E_DEVICE, false, "does not answer"},
+    };
+    fake.hal.key_read = find;
+    for (uint32_t i = 0; i < sizeof all / sizeof all[0]; i++) {
+        found = all[i].found;
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(key_entry_words(&fake.hal), all[i].words), all[i].words);
+        TEST_ASSERT_EQUAL_MESSAGE(all[i].takes_key, key_entry_is_possible(&text), all[i].words);
+    }
 }
 
 static void test_memory_that_refuses_is_told(void)
 {
-    fake.hal.key_write = refuse;
+    fake.hal.key_write = answer;
+    found = BRACE_HAL_E_DEVICE;
     key_entry_begin(&entry, &text);
-    type(KEY KEY);
+    type(KEY);
+    type(KEY);
     assert_said("did not take it");
+    assert_forgotten();
+    found = BRACE_HAL_AGAIN;
+    key_entry_begin(&entry, &text);
+    type(KEY);
+    type(KEY);
+    assert_said("kept, but its memory is not locked yet");
+    assert_forgotten();
+}
+
+static void test_an_echo_ends_the_entry(void)
+{
+    key_entry_refuse_echo(&entry, &text);
+    assert_said("");
+    TEST_ASSERT_EQUAL_STRING("", said);
+    key_entry_begin(&entry, &text);
+    type(KEY);
+    key_entry_refuse_echo(&entry, &text);
+    assert_said("a key is not taken from it");
+    assert_forgotten();
+}
+
+static void test_an_entry_that_nobody_goes_on_with_ends(void)
+{
+    key_entry_begin(&entry, &text);
+    fake.now_us += (uint32_t)KEY_ENTRY_PATIENCE_US - 1u;
+    type(KEY);
+    fake.now_us += (uint32_t)KEY_ENTRY_PATIENCE_US - 1u;
+    key_entry_serve(&entry, &text);
+    TEST_ASSERT_TRUE(entry.is_open);
+    fake.now_us++;
+    key_entry_serve(&entry, &text);
+    assert_said("nobody typed it");
     assert_forgotten();
 }
 
 static void test_the_key_is_not_shown(void)
 {
     key_entry_begin(&entry, &text);
-    type(KEY KEY);
+    type(KEY);
+    type(KEY);
     assert_said("kept");
     TEST_ASSERT_NULL(strstr(said, "0e0f"));
 }
@@ -151,8 +209,10 @@ int main(void)
     RUN_TEST(test_a_slip_ends_the_entry);
     RUN_TEST(test_a_board_with_a_key_keeps_it);
     RUN_TEST(test_a_board_that_keeps_none_says_so);
-    RUN_TEST(test_memory_that_does_not_answer_is_told);
+    RUN_TEST(test_what_the_memory_holds_is_told);
     RUN_TEST(test_memory_that_refuses_is_told);
+    RUN_TEST(test_an_echo_ends_the_entry);
+    RUN_TEST(test_an_entry_that_nobody_goes_on_with_ends);
     RUN_TEST(test_the_key_is_not_shown);
     return UNITY_END();
 }

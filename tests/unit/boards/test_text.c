@@ -61,7 +61,7 @@ static void test_numbers_and_words(void)
     text_string(&text, " ");
     text_hex(&text, 0x0123abcdu);
     text_line(&text);
-    TEST_ASSERT_EQUAL_STRING("a 0 4294967295 -2147483648 7 0x0123abcd\r\n", line);
+    TEST_ASSERT_EQUAL_STRING("# a 0 4294967295 -2147483648 7 0x0123abcd\r\n", line);
 }
 
 /* A line that takes nothing: the text is dropped after 0.1 s, and what follows at once. */
@@ -75,7 +75,10 @@ static void test_it_waits_for_a_tenth_of_a_second_before_the_first_tick(void)
     room = 100u;
     text_string(&text, "more");
     TEST_ASSERT_LESS_THAN(3u, looks);
-    TEST_ASSERT_EQUAL_STRING("abc", line);
+    TEST_ASSERT_EQUAL_STRING("# a", line);
+    text_again(&text);
+    text_string(&text, "ghi");
+    TEST_ASSERT_EQUAL_STRING("# a\r\n# ghi", line); /* what was cut ends, and the next line has its prefix */
 }
 
 static void test_a_line_that_fails_is_not_waited_for(void)
@@ -97,13 +100,13 @@ static void test_kept_text_goes_out_as_the_line_has_room(void)
     room = 5u;
     TEST_ASSERT_FALSE(text_serve(&text));
     TEST_ASSERT_FALSE(text_serve(&text)); /* no room */
-    TEST_ASSERT_EQUAL_STRING("abcde", line);
+    TEST_ASSERT_EQUAL_STRING("# abc", line);
     room = 100u;
     TEST_ASSERT_TRUE(text_serve(&text));
-    TEST_ASSERT_EQUAL_STRING("abcdef\r\n", line);
+    TEST_ASSERT_EQUAL_STRING("# abcdef\r\n", line);
     text_string(&text, "ghi");
     TEST_ASSERT_TRUE(text_serve(&text));
-    TEST_ASSERT_EQUAL_STRING("abcdef\r\nghi", line);
+    TEST_ASSERT_EQUAL_STRING("# abcdef\r\n# ghi", line);
     TEST_ASSERT_EQUAL(0u, looks);
 }
 
@@ -111,9 +114,9 @@ static void test_kept_text_goes_out_as_the_line_has_room(void)
 static void test_more_than_is_kept_is_dropped(void)
 {
     text_keep(&text);
-    static char piece[1025];
+    static char piece[1024];
     memset(piece, 'x', sizeof piece - 1u);
-    text_string(&text, piece);
+    text_string(&text, piece); /* and two characters of the prefix */
     text_string(&text, piece);
     TEST_ASSERT_FALSE(text.gone);
     text_string(&text, "y");
@@ -146,7 +149,7 @@ static void test_what_stops_the_ticks_sends_the_rest_and_waits(void)
     room = 100u;
     text_wait(&text);
     text_string(&text, "ghi");
-    TEST_ASSERT_EQUAL_STRING("abcdefghi", line);
+    TEST_ASSERT_EQUAL_STRING("# abcdefghi", line);
 }
 
 int main(void)

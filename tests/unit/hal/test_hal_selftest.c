@@ -7,7 +7,7 @@ static void the_truth_passes(void)
 {
     for (int32_t slot = 0; slot < BRACE_NVM_SLOT_COUNT; slot++) {
         open_door();
-        world.moves = true;
+        world.moves = world.limb_is_free = true;
         const brace_selftest_setup_t setup = setup_of(slot);
         brace_selftest_result_t result;
         TEST_ASSERT_EQUAL_INT32(0, brace_selftest_run(&door, &setup, &result));
@@ -52,6 +52,22 @@ static void every_null_is_named(void)
         TEST_ASSERT_EQUAL_INT32(1, brace_selftest_run(&door, &setup, NULL));
         TEST_ASSERT_EQUAL_STRING(entries[i].entry, first_failure()->entry);
     }
+}
+
+/* Not even for no offset: that moves a joint that had another. */
+static void no_joint_is_commanded_unless_the_limb_is_free(void)
+{
+    for (uint32_t free = 0u; free < 2u; free++) {
+        open_door();
+        world.limb_is_free = free == 1u;
+        const brace_selftest_setup_t setup = setup_of(0);
+        brace_selftest_result_t result;
+        TEST_ASSERT_EQUAL_INT32(0, brace_selftest_run(&door, &setup, &result));
+        TEST_ASSERT_EQUAL_UINT32(2u * free, world.commands);
+    }
+    open_door();
+    TEST_ASSERT_EQUAL_INT32(0, brace_selftest_run(&door, NULL, NULL));
+    TEST_ASSERT_EQUAL_UINT32(0u, world.commands);
 }
 
 static void memory_is_kept_when_asked(void)
@@ -109,6 +125,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(the_truth_passes);
     RUN_TEST(every_null_is_named);
+    RUN_TEST(no_joint_is_commanded_unless_the_limb_is_free);
     RUN_TEST(memory_is_kept_when_asked);
     RUN_TEST(what_is_optional_may_be_absent);
     RUN_TEST(impossible_requests_are_refused);

@@ -5,7 +5,7 @@
 enum {
     JOINT_MISSING = 1, JOINT_DEVICE, JOINT_AGAIN_FOR_EVER, JOINT_NAN, JOINT_DEGREES, JOINT_STALE, JOINT_FUTURE,
     JOINT_SAME_SAMPLE, JOINT_STUCK, JOINT_INDEX_UNCHECKED, COMMAND_REFUSED, COMMAND_INDEX_UNCHECKED,
-    FORCE_AGAIN_FOR_EVER, FORCE_NAN, LIES
+    FORCE_AGAIN_FOR_EVER, FORCE_NAN, CEILING_SPEED, CEILING_TRAVEL, LIES
 };
 
 static int32_t lying_joint_read(void *context, int32_t index, brace_hal_joint_t *joint)
@@ -53,6 +53,14 @@ static void open_lying(int lie)
     door.joint_command = lying_joint_command;
     door.tip_force_read = lying_tip_force_read;
     world.moves = lie == JOINT_STUCK;
+    world.limb_is_free = true;
+    static brace_hal_ceiling_t ceilings[JOINTS];
+    for (uint32_t i = 0u; i < JOINTS; i++) {
+        ceilings[i] = (brace_hal_ceiling_t){INFINITY, -1.0f, 1.0f, 1.0f};
+    }
+    ceilings[2].speed_most_rad_per_s = lie == CEILING_SPEED ? NAN : 1.0f;
+    ceilings[0].angle_most_rad = lie == CEILING_TRAVEL ? -1.0f : 1.0f;
+    door.ceiling = ceilings;
 }
 
 static void each_lie_is_named(void)
@@ -72,6 +80,8 @@ static void each_lie_is_named(void)
         {COMMAND_INDEX_UNCHECKED, "joint_command", "joint 3 is accepted"},
         {FORCE_AGAIN_FOR_EVER, "tip_force_read", "no sample in 50 ms"},
         {FORCE_NAN, "tip_force_read", "not finite"},
+        {CEILING_SPEED, "ceiling", "not above 0"},
+        {CEILING_TRAVEL, "ceiling", "ends before it begins"},
     };
     TEST_ASSERT_EQUAL_UINT32(LIES - 1u, sizeof named / sizeof named[0]);
     expect_each_named(named, sizeof named / sizeof named[0], open_lying);

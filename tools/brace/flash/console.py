@@ -12,8 +12,9 @@ from pathlib import Path
 from brace.errors import NoDeviceError, NotVerifiedError
 from brace.flash.image import ImageInfo
 
-ANSWER_S = 3.0
-_BANNER = re.compile(rb"^brace (\S+) \((\S+), (\S+)\) on (\S+)\s*$", re.MULTILINE)
+ANSWER_S = 6.0
+AGAIN_S = 2.5  # a console that has heard itself, before the port was set up, listens when it has been quiet for 2 s
+_BANNER = re.compile(rb"^# brace (\S+) \((\S+), (\S+)\) on (\S+)\s*$", re.MULTILINE)
 
 
 def check_running(port: Path, wanted: ImageInfo) -> str:
@@ -34,7 +35,7 @@ def check_running(port: Path, wanted: ImageInfo) -> str:
             why=f"brace {wanted.version} ({wanted.hash}) on {wanted.board} was written",
             next_step="is the port another board's? else write again",
         )
-    return found[0].decode(errors="replace").strip()
+    return found[0].decode(errors="replace").strip().removeprefix("# ")
 
 
 def _banner(port: Path) -> re.Match[bytes] | None:
@@ -49,9 +50,9 @@ def _banner(port: Path) -> re.Match[bytes] | None:
         ) from None
     try:
         _raw(handle)
-        heard, end, asked = b"", time.monotonic() + ANSWER_S, 0.0
+        heard, end, asked = b"", time.monotonic() + ANSWER_S, -AGAIN_S
         while time.monotonic() < end:
-            if time.monotonic() - asked > 0.5:
+            if time.monotonic() - asked > AGAIN_S:
                 asked = time.monotonic()
                 _write(handle)
             if select.select([handle], [], [], 0.1)[0]:
@@ -77,7 +78,7 @@ def _raw(handle: int) -> None:
 
 def _write(handle: int) -> None:
     try:
-        os.write(handle, b"b")
+        os.write(handle, b"\rbanner\r")
     except OSError:
         pass
 

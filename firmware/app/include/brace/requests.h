@@ -84,6 +84,10 @@ void brace_app_gone(brace_app_t *app, brace_asker_t port);
 /* Everybody on the board's buses may move the limb until the next start: for the board's own console. */
 void brace_app_become_bench(brace_app_t *app);
 
+/* Does the controller add anything to a joint's set-point, or is it about to? Then a joint is taken up, held, on its way
+ * back, or in a loading test. */
+bool brace_app_moves(const brace_app_t *app);
+
 /* Holds every set-point where it is: anybody may, always. A loading test is over; what was taken up stays so. The limb
  * moves again when its owner asks for something, letting go for example.
  * returns BRACE_OK, BRACE_E_NULL, BRACE_E_MODE: nothing moves the limb */
