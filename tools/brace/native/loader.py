@@ -31,6 +31,7 @@ FIRMWARE_HEADERS = (
     "loaded_space.h",
     "kinematics_batch.h",
     "uncertainty.h",
+    "uncertainty_causes.h",
     "slope.h",
     "contact.h",
     "parameters.h",
