@@ -194,6 +194,7 @@ static void test_a_flank_that_is_lost_ends_what_was_known(void)
     int losses = 0;
     for (int i = 0; i < 6 * ROUND_TICKS; i++) {
         const bool was_valid = now()->play[BRACE_FEMUR].valid;
+        fake.joint[BRACE_FEMUR].sample.motor_rad += i % 2 == 0 ? 1e-4f : -1e-4f; /* or it would be stuck */
         ticks(1);
         if (now()->play[BRACE_FEMUR].valid != was_valid) {
             losses++;
