@@ -48,8 +48,8 @@ class Unit:
 
 @contextlib.contextmanager
 def rtu_unit(late_s: Callable[[int], float], byte_s: Callable[[int], float] = lambda _: 0.0) -> Iterator[Unit]:
-    """By the number of the request, from 0: late_s before its answer, byte_s between the bytes of that. Requests wait for
-    their turn."""
+    """By the number of the request, from 0: late_s before its answer, byte_s between the bytes of that. Requests
+    wait for their turn."""
     ours, theirs = pty.openpty()
     subprocess.run(["stty", "-F", os.ttyname(theirs), "raw", "-echo"], check=True)
 
