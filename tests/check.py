@@ -1,4 +1,4 @@
-"""The edit loop: format, types and layers of the whole, and the unit tests of what differs from main.
+"""The edit loop: format, types, layers and generated files of the whole, and the unit tests of what differs from main.
 
     ./dev check     sets up what this needs and runs it
 
@@ -22,6 +22,7 @@ sys.path.insert(0, str(ROOT / "tests" / "discipline"))
 
 from typed_folders import TYPED, mypy_command, mypy_environment  # noqa: E402
 
+Step = tuple[str, Callable[[], bool]]
 MOST_COLUMNS = 120
 PYTHON_TESTS_S = 40.0  # no further test file begins after so long, so that the whole takes about a minute
 BUILD = ROOT / "build" / "host"
@@ -30,17 +31,21 @@ C_PARTS = {  # changed folder: folder of its tests
     "firmware/core": "tests/unit/core",
     "firmware/interface": "tests/unit/interface",
     "firmware/app": "tests/unit/app",
+    "firmware/boards": "tests/unit/boards",
     "firmware/store": "tests/unit/store",
     "hal": "tests/unit/hal",
     "host_sim": "tests/host_sim",
+    "tools/client": "tests/client",
 }
+INTERFACE = ("firmware/interface", "tools/interface")  # the dictionary, and what writes all that follows from it
 
 
-def run(*command: str, environment: dict[str, str] | None = None) -> bool:
-    """Runs a command in the project's folder. Prints its output only when it fails."""
+def run(*command: str, environment: dict[str, str] | None = None, folder: str = ".") -> bool:
+    """Runs a command in a folder of the project. Prints its output only when it fails."""
     done = subprocess.run(
-        command, cwd=ROOT, env={**os.environ, **(environment or {})}, capture_output=True, text=True, check=False
-    )
+        command, cwd=ROOT / folder, env={**os.environ, **(environment or {})}, capture_output=True, text=True,
+        check=False,
+    )  # fmt: skip
     if done.returncode:
         print(done.stdout + done.stderr, end="")
     return done.returncode == 0
@@ -111,7 +116,7 @@ def check_layers() -> bool:
 
 
 def c_tests(changed: Iterable[Path]) -> list[str]:
-    """Names of the C and C++ tests in the folders that mirror the changed ones; and changed tests themselves."""
+    """Names of the C and C++ tests in and below the folders that mirror the changed ones; changed tests themselves."""
     names: set[str] = set()
     for path in changed:
         if path.suffix not in (".c", ".h", ".cpp"):
@@ -120,16 +125,31 @@ def c_tests(changed: Iterable[Path]) -> list[str]:
             names.add(path.stem)
         for part, folder in C_PARTS.items():
             if path.is_relative_to(part):
-                names |= {test.stem for test in (ROOT / folder).glob("test_*.c*")}
+                names |= {test.stem for test in (ROOT / folder).rglob("test_*.c*")}
     return sorted(name for name in names if list((ROOT / "tests").rglob(f"{name}.c*")))
+
+
+def is_interface(path: Path) -> bool:
+    """Does something generated follow from this file?"""
+    return path.suffix in (".toml", ".py") and any(path.is_relative_to(folder) for folder in INTERFACE)
+
+
+def check_generated() -> bool:
+    """Is every generated file what the dictionary says? The generator refuses a dictionary that is wrong."""
+    same = run(sys.executable, "-m", "interface", "--check", folder="tools")
+    if not same:
+        print("  try: mend what is named above, if anything is; then cd tools && ../.venv/bin/python -m interface")
+    return same
 
 
 def python_tests(changed: Iterable[Path]) -> list[str]:
     """Files of tests/tools that mirror changed modules, the closest first: changed themselves, named after a module,
-    importing one or running its command."""
+    importing one or running its command. The generator's tests where the dictionary or the generator has changed."""
     tests = {path: path.read_text() for path in sorted((ROOT / "tests" / "tools").rglob("test_*.py"))}
     closest: dict[Path, int] = {}
     for path in changed:
+        if is_interface(path):
+            closest |= {test: 0 for test in tests if test.stem.startswith("test_interface")}
         if path.suffix != ".py":
             continue
         if ROOT / path in tests:
@@ -191,24 +211,32 @@ def main() -> int:
     print(f"{len(changed)} files differ from {since[:12]}")
     in_c = any(path.suffix in (".c", ".h", ".cpp", ".txt", ".cmake") for path in changed)
     units, files = c_tests(changed), python_tests(changed)
-    steps: list[tuple[str, Callable[[], bool]]] = [
+    looks: list[Step] = [
         ("format: ruff; lengths and trailing blanks of changed lines", lambda: check_format(since)),
         ("types: mypy", lambda: check_types(changed)),
         ("layers: docs/layers.toml, tools/pyproject.toml", check_layers),
     ]
+    if any(map(is_interface, changed)):
+        looks.append(("generated files: python -m interface --check", check_generated))
+    tests: list[Step] = []
     if in_c:
-        steps.append((f"build and C tests: {' '.join(units) or 'none mirrors what changed'}", lambda: test_c(units)))
+        tests.append((f"build and C tests: {' '.join(units) or 'none mirrors what changed'}", lambda: test_c(units)))
     if files:
-        steps.append(("Python tests of what changed", lambda: test_python(files)))
-    failed = []
-    for name, step in steps:
-        started = time.monotonic()
-        ok = step()
-        print(f"{'ok    ' if ok else 'FAILED'} {time.monotonic() - started:5.1f} s  {name}", flush=True)
-        if not ok:
-            failed.append(name.partition(":")[0])
+        tests.append(("Python tests of what changed", lambda: test_python(files)))
+    with ThreadPoolExecutor(2) as pool:  # a look takes one processor, a test's build all of them
+        done = [*pool.map(timed, looks)] + [timed(step) for step in tests]
+    failed = [name.partition(":")[0] for name, ok in done if not ok]
     print(f"{time.monotonic() - begun:.0f} s; " + (f"failed: {', '.join(failed)}" if failed else "all is well"))
     return 1 if failed else 0
+
+
+def timed(step: Step) -> tuple[str, bool]:
+    """Runs a step and says how it went: its name, and whether all is well."""
+    name, run_step = step
+    started = time.monotonic()
+    ok = run_step()
+    print(f"{'ok    ' if ok else 'FAILED'} {time.monotonic() - started:5.1f} s  {name}", flush=True)
+    return name, ok
 
 
 if __name__ == "__main__":
