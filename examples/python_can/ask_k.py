@@ -7,7 +7,7 @@ import sys
 import time
 
 import can
-from brace.wire.frames import ANSWER_ID, ANSWERS, DICTIONARY_HASH, REFUSED_PART, REQUEST_ID, REQUESTS
+from brace.wire.frames import ANSWER_ID, ANSWERS, DICTIONARY_HASH, REFUSED, REQUEST_ID, REQUESTS
 
 NODE = 1
 
@@ -16,17 +16,16 @@ def ask(bus, name, values, token):
     """The answer's values by name."""
     data = REQUESTS[name].encode(values, token)
     bus.send(can.Message(arbitration_id=REQUEST_ID + NODE, data=data, is_extended_id=False))
-    answer, missing, until = {}, len(ANSWERS[name]), time.monotonic() + 1.0
-    while missing and time.monotonic() < until:
+    parts, answer, until = {part.command: part for part in ANSWERS[name]}, {}, time.monotonic() + 1.0
+    while parts and time.monotonic() < until:
         frame = bus.recv(0.1)
         if frame is None or frame.arbitration_id != ANSWER_ID + NODE or frame.data[1] != token:
             continue
-        part = frame.data[0] >> 5
-        if part == REFUSED_PART:
+        if frame.data[0] == REFUSED:
             sys.exit(f"node {NODE} refuses {name}")
-        answer |= ANSWERS[name][part].decode(bytes(frame.data))
-        missing -= 1
-    return answer if not missing else sys.exit(f"node {NODE} does not answer")
+        if frame.data[0] in parts:
+            answer |= parts.pop(frame.data[0]).decode(bytes(frame.data))
+    return answer if not parts else sys.exit(f"node {NODE} does not answer")
 
 
 if len(sys.argv) != 3:

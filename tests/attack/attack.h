@@ -172,8 +172,8 @@ static inline answer_t command(uint8_t data[8])
         while (brace_fake_frame_take(&fake, &frame)) {
             const uint32_t entry = (uint32_t)frame.data[2] | (uint32_t)frame.data[3] << 8;
             const bool is_of_seal =
-                frame.data[0] == (uint8_t)BRACE_REQUEST_WRITE_ENTRY && entry == COMMAND_ENTRY(seal_mac);
-            if (frame.id == 0x580u + NODE && (frame.data[0] & 31u) == data[0] && frame.data[1] == data[1] &&
+                frame.data[0] == (uint8_t)BRACE_WRITE_ENTRY_ANSWER_0 && entry == COMMAND_ENTRY(seal_mac);
+            if (frame.id == 0x580u + NODE && answered_code(frame.data) == data[0] && frame.data[1] == data[1] &&
                 !is_of_seal) {
                 memcpy(answer.part[answer.count++], frame.data, 8);
             }
@@ -186,7 +186,7 @@ static inline void accepted_command(uint8_t data[8])
 {
     const answer_t answer = command(data);
     TEST_ASSERT_TRUE(answer.count > 0);
-    TEST_ASSERT_TRUE_MESSAGE(answer.part[0][0] < 0xe0u, "the operator's own command is refused");
+    TEST_ASSERT_TRUE_MESSAGE(!is_refusal(answer.part[0]), "the operator's own command is refused");
 }
 
 static inline void make_take_up(uint32_t joint, uint8_t data[8])
@@ -283,7 +283,7 @@ static inline uint32_t refusals_told(void)
     brace_can_frame_t frame;
     uint32_t told = 0;
     while (brace_fake_frame_take(&fake, &frame)) {
-        if (frame.id == 0x580u + NODE && frame.data[0] >= 0xe0u) {
+        if (frame.id == 0x580u + NODE && is_refusal(frame.data)) {
             brace_can_refusal_t refusal;
             brace_can_unpack_refusal(frame.data, &refusal);
             told += is_own_refusal(refusal.status);

@@ -29,7 +29,7 @@ static int32_t status_of(const answer_t *answer)
 {
     brace_can_refusal_t refusal = {0};
     TEST_ASSERT_TRUE(answer->count > 0);
-    if (answer->part[0][0] < 0xe0u) {
+    if (!is_refusal(answer->part[0])) {
         return BRACE_OK;
     }
     brace_can_unpack_refusal(answer->part[0], &refusal);

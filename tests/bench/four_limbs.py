@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from brace.bus.frame import Frame
-from brace.wire.frames import DICTIONARY_HASH, MESSAGES, MULTIPLEXED
+from brace.wire.frames import DICTIONARY_HASH, GROUPS, MESSAGES
 from brace.wire.layout import Layout
 
 NODES = 4
 SECONDS = 4.0
-STIFFNESS_S, POSTURE_S, LOAD_S, HEARTBEAT_S = 0.005, 0.02, 0.1, 1.0
+STIFFNESS_S, POSTURE_S, LOAD_S, SIGMA_S, HEARTBEAT_S = 0.005, 0.02, 0.1, 0.1, 1.0
 
 
 def frame_of(layout: Layout, node: int, time_s: float, sequence: int, angle_rad: float) -> Frame:
@@ -26,8 +26,9 @@ def frames() -> Iterator[Frame]:
         names = ["stiffness_a", "stiffness_b"]
         names += ["eigenvalues", "posture"] if tick % round(POSTURE_S / STIFFNESS_S) == 0 else []
         layouts = [MESSAGES[name] for name in names]
-        layouts += MULTIPLEXED["load"] if tick % round(LOAD_S / STIFFNESS_S) == 0 else []
-        layouts += [MESSAGES["heartbeat"]] if tick % round(HEARTBEAT_S / STIFFNESS_S) == 0 else []
+        layouts += GROUPS["load"] if tick % round(LOAD_S / STIFFNESS_S) == 0 else []
+        layouts += GROUPS["sigma"] if tick % round(SIGMA_S / STIFFNESS_S) == 0 else []
+        layouts += [MESSAGES["heartbeat"], *GROUPS["condition"]] if tick % round(HEARTBEAT_S / STIFFNESS_S) == 0 else []
         for node in range(1, NODES + 1):
             for layout in layouts:
                 yield frame_of(layout, node, now, tick & 0xFF, 0.5 + 0.1 * now)

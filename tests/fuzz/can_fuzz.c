@@ -148,9 +148,10 @@ static void check_k(const uint8_t *request)
 static void check_answer(const uint8_t *request, bool is_the_benchs)
 {
     const uint32_t command = request[0];
-    if (answer_count == 1u && answer[0][0] == (command | 7u << 5) && answer[0][1] == request[1]) {
+    if (answer_count == 1u && answer[0][0] == BRACE_ANSWER_REFUSED && answer[0][1] == request[1] &&
+        answer[0][2] == command) {
         refused++;
-        if ((int8_t)answer[0][2] >= 0) {
+        if ((int8_t)answer[0][3] >= 0) {
             fail("a refusal that is none", request, 8);
         }
         if (command == 3u && is_the_benchs && app.controller.mode.now != BRACE_MODE_CONFIGURATION &&
@@ -163,7 +164,8 @@ static void check_answer(const uint8_t *request, bool is_the_benchs)
         fail("as many parts as no answer has", request, 8);
     }
     for (uint32_t part = 0; part < answer_count; part++) {
-        if (answer[part][0] != (command | part << 5) || answer[part][1] != request[1]) {
+        const brace_can_answer_frame_t *is = &brace_can_answer_frames[answer[part][0]];
+        if (is->parts == 0u || is->code != command || is->part != part || answer[part][1] != request[1]) {
             fail("another request's answer", request, 8);
         }
     }

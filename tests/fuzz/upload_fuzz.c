@@ -5,10 +5,11 @@
  *   a block is put in force that is not the one announced, whole, in order, of this dictionary and in range
  *   an undisturbed upload of a good one is refused, or something else than its words is in force
  * The upload is followed by a model of its own, with a CRC of its own. Exit code 0 and one line when all is well. */
+#include "brace/can_messages.h"
 #include "fuzz.h"
 
 enum { NODE = 5, WORDS = BRACE_BLOCK_BYTES / 4, HEADER = 5, STORE_TICKS = 4000, SILENCE_TICKS = 10100 };
-enum { READ = 1, SET_MODE = 9, BEGIN = 10, WORD = 11, COMMIT = 12, ROLLBACK = 13, REFUSED = 7 };
+enum { READ = 1, SET_MODE = 9, BEGIN = 10, WORD = 11, COMMIT = 12, ROLLBACK = 13 };
 enum { BLOCK_GOOD, BLOCK_NOT_FINITE, BLOCK_OUT_OF_RANGE, BLOCK_OTHER_SCHEMA, BLOCK_OTHER_HEADER, BLOCK_BAD_CRC,
        BLOCK_KINDS };
 
@@ -125,7 +126,7 @@ static void ask(const uint8_t data[8])
         ticks(1);
         take_frames(data);
         if (got_count > 0u && got[0][1] == 0xfeu && data[1] != 0xfeu) {
-            if (got[0][0] != (BEGIN | REFUSED << 5)) {
+            if (got[0][0] != BRACE_ANSWER_REFUSED || got[0][2] != BEGIN) {
                 fail("a begin of three bytes was taken", data, 8);
             }
             got_count--; /* in the same tick there may be the answer that is waited for */
@@ -141,10 +142,11 @@ static void ask(const uint8_t data[8])
 
 static bool ok(const uint8_t *data)
 {
-    if (got[0][1] != data[1] || (got[0][0] & 31u) != data[0]) {
+    const bool is_refusal = got[0][0] == BRACE_ANSWER_REFUSED;
+    if (got[0][1] != data[1] || (is_refusal ? got[0][2] : brace_can_answer_frames[got[0][0]].code) != data[0]) {
         fail("another request's answer", data, 8);
     }
-    return got[0][0] >> 5 != REFUSED;
+    return !is_refusal;
 }
 
 /* ---------------------------------------------------------------------------------------------- the judge -- */

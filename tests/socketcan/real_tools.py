@@ -93,11 +93,11 @@ def with_python_can(interface: str) -> dict[str, Any]:
     answer: dict[str, Any] = {}
     with can.Bus(interface="socketcan", channel=interface) as bus:
         theta1, theta2 = ASKED_RAD
-        fields = {"command": 3, "token": 90, "k_at_posture_theta1": theta1, "k_at_posture_theta2": theta2}
+        fields = {"code": 3, "token": 90, "k_at_posture_theta1": theta1, "k_at_posture_theta2": theta2}
         request = database.get_message_by_name("request")
         bus.send(can.Message(arbitration_id=request.frame_id, data=request.encode(fields), is_extended_id=False))
         end = time.monotonic() + 10.0
-        while time.monotonic() < end and (len(first.keys() - {"emergency"}) < 5 or len(answer) < 12):
+        while time.monotonic() < end and (len(first.keys() - {"emergency"}) < 6 or len(answer) < 8):
             frame = bus.recv(0.2)
             if frame is None or frame.arbitration_id == request.frame_id:
                 continue
@@ -106,7 +106,7 @@ def with_python_can(interface: str) -> dict[str, Any]:
             message = database.get_message_by_frame_id(frame.arbitration_id)
             signals = message.decode(bytes(frame.data), decode_choices=False)
             if message.name == "answer":
-                answer |= {name: value for name, value in signals.items() if name != "command"}
+                answer |= {name: value for name, value in signals.items() if name != "number"}
             else:
                 first.setdefault(message.name, signals)
     return {"messages": first, "answer": answer}

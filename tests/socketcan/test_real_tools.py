@@ -91,7 +91,7 @@ def test_k_as_candump_prints_it_is_the_limbs(seen: dict[str, Any]) -> None:
 
 def test_cansend_by_hand_is_answered(seen: dict[str, Any]) -> None:
     frames = frames_of(seen["cansend"])
-    assert [identifier for _, identifier, _ in frames] == [ANSWER + NODE] * 3
+    assert [identifier for _, identifier, _ in frames] == [ANSWER + NODE] * 4
     assert all(data[1] == 0xA5 for _, _, data in frames)
     check(k_of_answers([data for _, _, data in frames]), *ASKED_RAD)
 
@@ -100,9 +100,10 @@ def test_python_can_and_cantools_read_the_same(seen: dict[str, Any]) -> None:
     told = seen["python_can"]
     messages = told["messages"]
     messages.pop("emergency", None)  # candump's test says of what
-    assert set(messages) == {"stiffness_a", "stiffness_b", "eigenvalues", "posture", "heartbeat"}
-    messages["heartbeat"]["faults"] &= ~TICK_LATE
-    assert messages["heartbeat"] == {"state": 5, "mode": 1, "faults": 0, "setting": 1, "dictionary_hash": DICTIONARY_HASH}
+    assert set(messages) == {"stiffness_a", "stiffness_b", "eigenvalues", "posture", "heartbeat", "details"}
+    assert messages["heartbeat"] == {
+        "state": 5, "mode": 1, "setting": 1, "protocol": 2, "dictionary_hash": DICTIONARY_HASH
+    }
     posture, true = messages["posture"], expected(*STANDS_RAD)
     assert posture["theta1"] == pytest.approx(STANDS_RAD[0], abs=1e-3)
     assert posture["theta2"] == pytest.approx(STANDS_RAD[1], abs=1e-3)
@@ -110,7 +111,7 @@ def test_python_can_and_cantools_read_the_same(seen: dict[str, Any]) -> None:
     assert messages["eigenvalues"]["lambda_min"] == pytest.approx(true.low, abs=0.01)
     answer = told["answer"]
     assert answer.pop("token") == 90
-    assert answer.pop("k_at_posture_2_flags") == 0
+    assert answer.pop("k_at_posture_3_flags") == 0
     names = ("0_k_xx", "0_k_xz", "1_k_zz", "1_lambda_min", "2_lambda_max", "2_stiff_axis")
     check(K(*(answer.pop(f"k_at_posture_{name}") for name in names)), *ASKED_RAD)
     assert not answer

@@ -18,6 +18,7 @@ from processes import PATIENCE_S, emulated
 from wire_by_hand import (
     ANSWER,
     EIGENVALUES,
+    K_ANSWERS,
     K_AT_POSTURE,
     K_STEP_N_PER_MM,
     NODE,
@@ -148,9 +149,9 @@ def _gaps(wire: Wire, pairs: int) -> tuple[np.ndarray, np.ndarray]:
         asked = (0.15 * number - 0.5, 0.5 + 0.15 * number)
         for kind, between in ((K_AT_POSTURE, k_request(2, *asked)), (READ_ENTRY, entry_request(2, SEQUENCE_ENTRY))):
             wire.ask(entry_request(1, SEQUENCE_ENTRY), between, entry_request(3, SEQUENCE_ENTRY))
-            parts = 3 if kind == K_AT_POSTURE else 1
-            answers = wire.answers(2 + parts)
-            assert [data[0] & 31 for data in answers] == [READ_ENTRY, *[kind] * parts, READ_ENTRY], answers
+            numbers = K_ANSWERS if kind == K_AT_POSTURE else [READ_ENTRY]
+            answers = wire.answers(2 + len(numbers))
+            assert [data[0] for data in answers] == [READ_ENTRY, *numbers, READ_ENTRY], answers
             if kind == K_AT_POSTURE:
                 check(k_of_answers(answers[1:4]), *asked)
             gaps[kind].append(whole(answers[-1], 32, 32) - whole(answers[0], 32, 32))

@@ -43,7 +43,7 @@ def test_python_can_asks_and_is_answered(channel: str) -> None:
     with can.Bus(interface="slcan", channel=channel, bitrate=1_000_000, sleep_after_open=0.2) as bus:
         bus.send(request)
         end = time.monotonic() + 60.0
-        while len(parts) < 3 and time.monotonic() < end:
+        while len(parts) < 4 and time.monotonic() < end:
             frame = bus.recv(0.2)
             if frame is not None and frame.arbitration_id == ANSWER + NODE and frame.data[1] == 7:
                 parts.append(bytes(frame.data))

@@ -21,6 +21,7 @@ NODE = 1
 STIFFNESS_A, STIFFNESS_B, EIGENVALUES, POSTURE, HEARTBEAT = 0x180, 0x280, 0x380, 0x480, 0x700
 REQUEST, ANSWER = 0x600, 0x580
 READ_ENTRY, K_AT_POSTURE = 1, 3
+K_ANSWERS = [3, 4, 5, 6]  # the numbers of the frames that answer it
 SEQUENCE_ENTRY = 0x1004  # the snapshot's number, of the measured values
 K_STEP_N_PER_MM = 0.0005
 AXIS_STEP_RAD = 1e-4
@@ -45,7 +46,7 @@ def entry_request(token: int, index: int) -> bytes:
 
 @dataclass
 class K:
-    """An answer's three parts, or what they should be [N/mm, rad]."""
+    """An answer's numbers, or what they should be [N/mm, rad]."""
 
     xx: float
     xz: float
@@ -56,8 +57,8 @@ class K:
 
 
 def k_of_answers(parts: list[bytes]) -> K:
-    """Of parts 0, 1, 2."""
-    assert [part[0] for part in parts] == [K_AT_POSTURE + 32 * number for number in range(3)], parts
+    """Of the four frames, in their order."""
+    assert [part[0] for part in parts] == K_ANSWERS, parts
     xx, xz = (whole(parts[0], start, 24, True) * K_STEP_N_PER_MM for start in (16, 40))
     zz, low = (whole(parts[1], 16, 24, True) * K_STEP_N_PER_MM, whole(parts[1], 40, 24) * K_STEP_N_PER_MM)
     high, axis = whole(parts[2], 16, 24) * K_STEP_N_PER_MM, whole(parts[2], 40, 16, True) * AXIS_STEP_RAD

@@ -47,7 +47,7 @@ static int32_t answer_request(uint32_t code, const brace_request_t *asked, brace
     }
 }
 
-#define ROW_OF(ID, name, rate) {ID, brace_can_make_##name, offsetof(brace_controller_t, rate)},
+#define ROW_OF(ID, name, rate, coxa) {ID, brace_can_make_##name, offsetof(brace_controller_t, rate)},
 static const struct {
     uint32_t id;
     void (*make)(const brace_measured_t *, float, uint8_t *);
@@ -77,7 +77,7 @@ int main(void)
             print_frame(process[i].id + 1u, data);
         }
     }
-    for (uint32_t code = 0; code < 32u; code++) {
+    for (uint32_t code = 0; code < 256u; code++) {
         const uint8_t request[8] = {(uint8_t)code, 9, 7};
         uint8_t parts[BRACE_CAN_ANSWER_PARTS_MOST][8];
         brace_request_t asked;
@@ -205,7 +205,7 @@ def after_entry(name: str) -> str:
 def test_a_request_is_two_files(copy: Copy) -> None:
     copy.append(MESSAGES, '''
 [[request]]
-code = 0
+code = 200
 name = "throw_away"
 description = "doubles a number"
 [[request.field]]
@@ -213,6 +213,7 @@ name = "number"
 bits = 8
 description = "the number"
 [[request.answer]]
+number = 200
 [[request.answer.field]]
 name = "doubled"
 bits = 16
@@ -230,25 +231,26 @@ int32_t answer_throw_away(void *request, const brace_throw_away_request_t *asked
 ''')
     copy.generate()
     assert copy.by_hand() == {MESSAGES, answer}
-    assert "581 00090e0000000000" in copy.run()
+    assert "581 c8090e0000000000" in copy.run()
     database: Any = cantools.database.load_file(copy.project / "firmware/interface/brace.dbc", strict=True)
-    decoded = database.decode_message("answer", bytes.fromhex("00090e0000000000"))
+    decoded = database.decode_message("answer", bytes.fromhex("c8090e0000000000"))
     assert decoded["throw_away_0_doubled"] == 14 and decoded["token"] == 9
     assert copy.python(
         "import json; from brace.wire.frames import ANSWERS;"
-        "print(json.dumps(ANSWERS['throw_away'][0].decode(bytes.fromhex('00090e0000000000'))))"
+        "print(json.dumps(ANSWERS['throw_away'][0].decode(bytes.fromhex('c8090e0000000000'))))"
     ) == {"doubled": 14}
-    assert "### 0 throw_away" in (copy.project / "docs/protocol.md").read_text()
+    assert "### 200 throw_away" in (copy.project / "docs/protocol.md").read_text()
 
 
 def test_a_message_is_one_file(copy: Copy) -> None:
     copy.append(MESSAGES, '''
-[[message]]
+[[multiplexed.group]]
 name = "throw_away"
-id = 0x780
 rate = "controller.posture_hz"
 description = "the load at a joint"
-[[message.signal]]
+[[multiplexed.group.part]]
+number = 200
+[[multiplexed.group.part.signal]]
 name = "load"
 from = "load_femur"
 bits = 16
@@ -257,12 +259,14 @@ kind = "value"
 step = 0.5
 unit = "N mm"
 description = "the load that the joint's gap transmits"
-''')
+''', after='from = "sigma_k_across"\nbits = 16\nkind = "value"\nstep = 0.0005\nunit = "N/mm"\n'
+                'description = "one sigma of k_across"\n')
     copy.generate()
     assert copy.by_hand() == {MESSAGES}
-    assert "781 fdff000000000000" in copy.run()
+    assert "201 00c8fdff00000000" in copy.run()
     database: Any = cantools.database.load_file(copy.project / "firmware/interface/brace.dbc", strict=True)
-    assert database.decode_message("throw_away", bytes.fromhex("fdff000000000000")) == {"load": -1.5}
+    decoded = database.decode_message("details", bytes.fromhex("00c8fdff00000000"))
+    assert decoded == {"sequence": 0, "part": "THROW_AWAY", "throw_away_load": -1.5}
 
 
 def joint_entry(copy: Copy) -> tuple[str, str, str]:

@@ -6,7 +6,7 @@ import random
 
 from brace.bus.frame import Frame
 from brace.bus.snapshot import Joiner, Snapshot
-from brace.wire.frames import FD_MESSAGES, MESSAGES, MULTIPLEXED
+from brace.wire.frames import FD_GROUPS, FD_MESSAGES, GROUPS, MESSAGES
 
 STEP = 0.0005
 PERIOD_S = 0.005
@@ -17,14 +17,14 @@ def frames_of(tick: int, node: int = 1) -> list[Frame]:
     """All four frames of a snapshot; every value tells its tick."""
     sequence, time_s, mark = tick * TICKS_A_PERIOD & 0xFF, 1000.0 + tick * PERIOD_S, (tick % 4_000_000) * STEP
     contents = {
-        "stiffness_a": {"sequence": sequence, "flags": 0, "k_xx": mark, "k_xz": -mark},
+        "stiffness_a": {"sequence": sequence, "k_xx": mark, "k_xz": -mark, "age": 0},
         "stiffness_b": {
             "sequence": sequence,
             "k_zz": mark,
-            "age": 0,
+            "flags": 0,
             "play_femur": 0,
             "play_tibia": 0,
-            "parameter_tag": tick & 0xFFFF,
+            "mode": 1,
         },
         "eigenvalues": {
             "sequence": sequence,
@@ -36,8 +36,7 @@ def frames_of(tick: int, node: int = 1) -> list[Frame]:
             "sequence": sequence,
             "theta1": (tick % 500_000) * 2e-5,
             "theta2": 0,
-            "mode": 1,
-            "faults": 0,
+            "parameter_tag": tick & 0xFFFF,
         },
     }
     return [
@@ -49,8 +48,8 @@ def frames_of(tick: int, node: int = 1) -> list[Frame]:
 def assert_of_one_tick(snapshot: Snapshot) -> None:
     marks = [round(float(value or 0) / STEP) for value in (snapshot.k_xx, snapshot.k_zz)]
     assert marks[0] == marks[1] == -round(float(snapshot.k_xz or 0) / STEP), snapshot
-    assert marks[0] & 0xFFFF == snapshot.parameter_tag
     if snapshot.has_posture:
+        assert marks[0] & 0xFFFF == snapshot.parameter_tag
         assert round(float(snapshot.lambda_min or 0) / STEP) == marks[0] % 1_000_000
         assert round(float(snapshot.theta1 or 0) / 2e-5) == marks[0] % 500_000
 
@@ -101,8 +100,8 @@ def test_a_long_loss_of_the_counter_s_round_mixes_nothing() -> None:
 
 def test_what_is_not_known_stays_unknown() -> None:
     joiner = Joiner()
-    unknown = {"sequence": 3, "flags": 0x10, "k_xx": None, "k_xz": None}
-    b = {"sequence": 3, "k_zz": None, "age": None, "play_femur": 0, "play_tibia": 5, "parameter_tag": 1}
+    unknown = {"sequence": 3, "k_xx": None, "k_xz": None, "age": None}
+    b = {"sequence": 3, "k_zz": None, "flags": 0x10, "play_femur": 0, "play_tibia": 5, "mode": 1}
     assert joiner.add(Frame(0.0, 0x185, MESSAGES["stiffness_a"].encode(unknown))) is None
     snapshot = joiner.add(Frame(0.0, 0x285, MESSAGES["stiffness_b"].encode(b)))
     assert snapshot is not None and not snapshot.is_valid
@@ -124,7 +123,7 @@ def whole_of(tick: int) -> Frame:
     layout = FD_MESSAGES["snapshot_fd"]
     values: dict[str, float | int | None] = {item.name: 0 for item in layout.fields}
     values |= {"sequence": 0x12345600 | tick & 0xFF, "k_xx": 4.0, "k_xz": -0.5, "k_zz": 1.0, "lambda_min": 0.9}
-    values |= {"parameter_crc": 0xABCD1234, "mode": 1, "flags": 9, "faults": 0x84, "theta1": 0.25, "age": 1.5,
+    values |= {"parameter_tag": 0x1234, "mode": 1, "flags": 9, "faults": 0x84, "theta1": 0.25, "age": 1.5,
                "play_tibia": 3}
     return Frame(1.0, layout.identifier + 5, layout.encode(values))
 
@@ -155,7 +154,7 @@ def test_halves_a_round_of_the_number_apart_do_not_fit() -> None:
 
 # ------------------------------------------------------------------------------------------- K in space
 
-SPACE = MULTIPLEXED["space"]
+SPACE = GROUPS["space"]
 SPACE_VALUES = ("k_xx", "k_xy", "k_xz", "k_yy", "k_yz", "k_zz", "lambda_1", "lambda_2", "lambda_3", "k_across")
 
 
@@ -237,7 +236,7 @@ def test_k_in_space_that_comes_first_waits_for_its_snapshot() -> None:
 
 
 def space_fd_of(sequence: int, time_s: float = 1.001) -> Frame:
-    layout = FD_MESSAGES["space_fd"]
+    (layout,) = FD_GROUPS["space_fd"]
     values: dict[str, float | int | None] = {item.name: 0 for item in layout.fields}
     values |= {"sequence": sequence, "k_xx": 3.5, "k_yy": None, "theta0": 0.5, "k_across": 0.25, "flags": 16}
     return Frame(time_s, layout.identifier + 5, layout.encode(values))
@@ -247,9 +246,9 @@ def test_over_can_fd_k_in_space_is_the_second_frame() -> None:
     joiner = Joiner()
     whole = joiner.add(whole_of(7))
     assert whole is not None and not joiner.is_complete(whole)  # K in space may follow
-    assert joiner.add(space_fd_of(0x12345608)) is None  # of the next tick
-    assert joiner.add(space_fd_of(0x12345607, time_s=1.05)) is None  # of another round
-    both = joiner.add(space_fd_of(0x12345607))
+    assert joiner.add(space_fd_of(8)) is None  # of the next tick
+    assert joiner.add(space_fd_of(7, time_s=1.05)) is None  # of another round
+    both = joiner.add(space_fd_of(7))
     assert both is not None and both.space is not None and both.has_posture and joiner.is_complete(both)
     assert not both.space.is_valid and both.space.k[3] is None and both.space.flags == ("STALE",)
     assert both.space.theta0 == 0.5 and both.is_valid
@@ -262,16 +261,16 @@ def test_a_planar_node_over_can_fd_is_complete_with_its_second_frame() -> None:
 
 
 def load_of(tick: int, node: int = 1) -> list[Frame]:
-    """The five frames of a snapshot's load; every value but the factor tells its tick."""
+    """The frames of a snapshot's load; every value but the factor tells its tick."""
     mark = (tick % 4_000_000) * STEP
     values: dict[str, float | int | None] = {
-        field.name: mark for layout in MULTIPLEXED["load"] for field in layout.fields if field.name != "sequence"
+        field.name: mark for layout in GROUPS["load"] for field in layout.fields if field.name != "sequence"
     }
     values |= {"sequence": tick * TICKS_A_PERIOD & 0xFF, "flags": 0, "gravity_direction": -1.5, "gravity_lean": 0.25}
     time_s = 1000.0 + tick * PERIOD_S
     return [
         Frame(time_s + 1e-5 * part, layout.identifier + node, layout.encode(values))
-        for part, layout in enumerate(MULTIPLEXED["load"])
+        for part, layout in enumerate(GROUPS["load"])
     ]
 
 
@@ -313,16 +312,95 @@ def test_frames_of_two_ticks_never_make_one_load() -> None:
             if snapshot is not None:
                 loads += snapshot.load is not None
                 assert_load_of_its_tick(snapshot)
-    assert 3_000 < loads < 10_000  # 0.9^7 of all
+    assert 3_000 < loads < 10_000  # 0.9^8 of all
 
 
 def test_over_can_fd_a_load_is_a_frame_of_its_own() -> None:
     joiner = Joiner()
     whole = joiner.add(whole_of(7))
     assert whole is not None
-    layout = FD_MESSAGES["load_fd"]
+    (layout,) = FD_GROUPS["load_fd"]
     values: dict[str, float | int | None] = {item.name: 0 for item in layout.fields}
-    values |= {"sequence": 0x12345607, "counted_force_x": None, "counted_force_z": None, "unloaded_k_zz": 0.5}
+    values |= {"sequence": 7, "counted_force_x": None, "counted_force_z": None, "unloaded_k_zz": 0.5}
     snapshot = joiner.add(Frame(1.001, layout.identifier + 5, layout.encode(values)))
     assert snapshot is not None and snapshot.load is not None and snapshot.adds == "load" and snapshot.has_posture
     assert not snapshot.load.is_counted and snapshot.load.as_json()["unloaded_k_zz_n_per_mm"] == 0.5
+
+
+def sigma_of_tick(tick: int, node: int = 1) -> list[Frame]:
+    """The frames of a snapshot's uncertainty; every value tells its tick."""
+    mark = (tick % 60_000) * STEP
+    values: dict[str, float | int | None] = {
+        name: mark for name in ("k_xx", "k_xz", "k_zz", "lambda_min", "lambda_max")
+    }
+    values |= {"sequence": tick * TICKS_A_PERIOD & 0xFF, "stiff_axis": 0.25}
+    time_s = 1000.0 + tick * PERIOD_S
+    return [
+        Frame(time_s + 1e-5 * part, layout.identifier + node, layout.encode(values))
+        for part, layout in enumerate(GROUPS["sigma"])
+    ]
+
+
+def test_an_uncertainty_joins_its_k_and_no_other() -> None:
+    """Before it or behind it, whatever is lost; the numbers of other groups come between."""
+    chance = random.Random(13)
+    joiner = Joiner()
+    told = 0
+    for tick in range(10_000):
+        frames = [*frames_of(tick)[:2], *sigma_of_tick(tick), *load_of(tick)]
+        if chance.random() < 0.5:
+            frames = sorted(frames, key=lambda frame: frame.identifier)
+        for frame in frames:
+            snapshot = joiner.add(frame) if chance.random() >= 0.1 else None
+            if snapshot is not None and snapshot.sigma is not None:
+                assert_of_one_tick(snapshot)
+                assert snapshot.sigma.k == (snapshot.k_xx,) * 3 and snapshot.sigma.values["stiff_axis"] == 0.25
+                told += snapshot.adds == "sigma"
+    assert told > 1_500
+    entry = joiner.add(sigma_of_tick(1)[0])
+    assert entry is None
+
+
+def test_an_uncertainty_that_is_not_known_is_none() -> None:
+    joiner = Joiner()
+    layouts = GROUPS["sigma"]
+    values: dict[str, float | int | None] = {field.name: None for layout in layouts for field in layout.fields}
+    for frame in frames_of(0)[:2]:
+        joiner.add(frame)
+    last = None
+    for layout in layouts:
+        last = joiner.add(Frame(1000.0, layout.identifier + 1, layout.encode(values | {"sequence": 0})))
+    assert last is not None and last.sigma is not None and not last.sigma.is_known
+    entry = last.as_json()
+    assert entry["sigma_k_xx_n_per_mm"] is None and entry["sigma_stiff_axis_rad"] is None
+
+
+def condition(faults: int, node: int = 1) -> Frame:
+    (layout,) = GROUPS["condition"]
+    values = {"sequence": 9, "faults": faults, "mode": 1, "setting": 1}
+    return Frame(1000.0, layout.identifier + node, layout.encode(values))
+
+
+def test_faults_are_those_last_heard() -> None:
+    """Not known until a controller tells them; each node has its own; the highest bit has room."""
+    joiner = Joiner()
+    emergency = MESSAGES["emergency"]
+    told = []
+    for tick, news in enumerate((
+        None, condition(0), condition(1 << 31 | 1, node=2), condition(1 << 31 | 1),
+        Frame(1000.0, emergency.identifier + 1, emergency.encode(
+            {"error_code": 0, "error_register": 0, "drift_cause": 0, "mode": 1, "faults": 4})),
+    )):
+        if news is not None:
+            assert joiner.add(news) is None
+        told += [s.faults for frame in frames_of(tick)[:2] if (s := joiner.add(frame)) is not None]
+    assert told == [None, (), (), ("sensor_femur", "bit_31"), ("encoder_stuck",)]
+
+
+def test_a_part_of_another_version_is_nobody_s() -> None:
+    joiner = Joiner()
+    (layout,) = GROUPS["condition"]
+    for frame in frames_of(0)[:2]:
+        joiner.add(frame)
+    for number in set(range(256)) - {part.part for group in GROUPS.values() for part in group}:
+        assert joiner.add(Frame(1000.0, layout.identifier + 1, bytes([0, number, *range(6)]))) is None

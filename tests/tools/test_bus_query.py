@@ -288,10 +288,11 @@ def test_a_bus_that_goes_away(limb: Path) -> None:
 def test_another_dictionary_is_6_with_both(limb: Path) -> None:
     other = DICTIONARY_HASH ^ 0xFFFF
     parts = (
-        {"major": 9, "minor": 8, "patch": 7, "protocol": 1, "node": 5},
+        {"major": 9, "minor": 8, "patch": 7, "protocol": 2, "node": 5},
         {"dictionary_hash": other},
         {"schema_hash": 0},
         {"parameter_crc": 0, "origin": 0},
+        {"faults": 0, "mode": 1, "setting": 1},
     )
 
     def answer(line: bytes) -> bytes:
@@ -301,7 +302,9 @@ def test_another_dictionary_is_6_with_both(limb: Path) -> None:
         frames = [layout.encode(values, token) for layout, values in zip(ANSWERS["identify"], parts)]
         return b"z\r" + b"".join(b"t5858" + frame.hex().encode() + b"\r" for frame in frames)
 
-    beat = MESSAGES["heartbeat"].encode({"state": 5, "mode": 1, "faults": 0, "setting": 1, "dictionary_hash": other})
+    beat = MESSAGES["heartbeat"].encode(
+        {"state": 5, "mode": 1, "setting": 1, "protocol": 2, "dictionary_hash": other}
+    )
     with adapter(answer, sends=b"t7058" + beat.hex().encode() + b"\r") as url:
         for command in (("query",), ("monitor",), ("params", "pull"), ("params", "push", limb)):
             said = told_in_time(6, *command, "--bus", url)

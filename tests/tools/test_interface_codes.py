@@ -119,9 +119,17 @@ def test_a_code_that_is_not_there_is_refused(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("before", "after", "why"),
     [
-        ('name = "part"\nbits = 8', 'name = "part"\nbits = 2', "counts its parts"),
-        ('name = "part"\nbits = 8', 'name = "place"\nbits = 8', "counts its parts"),
-        ("id = 0x200", "id = 0x180", "that of stiffness_a; free identifiers: 0x200, 0x780"),
+        ('name = "part"\nbits = 8', 'name = "part"\nbits = 2', "0 to 3"),
+        ('name = "part"\nbits = 8', 'name = "place"\nbits = 8', "one signal named 'part'"),
+        ("number = 17", "number = 16", "space_1: 16 is that of space_0; .*the first that is free is 1"),
+        ("number = 16", "number = 256", "space_0: 256 does not fit"),
+        ('name = "k_xy"\nfrom', 'name = "k_xx"\nfrom', "space_0.k_xx: the database calls it space_k_xx"),
+        ("code = 2\n", "code = 1\n", "write_entry: 1 is that of read_entry; codes of requests"),
+        ("code = 2\n", "code = 0\n", "write_entry: 0 does not fit: codes of requests are 1 to 255"),
+        ("number = 2\n", "number = 1\n", "write_entry_answer_0: 1 is that of read_entry_answer_0; numbers of answers"),
+        ("number = 2\n", "number = 255\n", "write_entry_answer_0: 255 does not fit: numbers of answers are 1 to 254"),
+        ("answer_numbers = [24, 25]", "answer_numbers = [24]", "rollback.*one for each of the 2"),
+        ("id = 0x200", "id = 0x180", "that of stiffness_a; free identifiers: 0x100, 0x200, 0x400, 0x680, 0x780"),
         ("id = 0x200", "id = 0x201", "no multiple of 0x80"),
         ('rate = "controller.stiffness_hz"', 'rate = "motor.stiffness_hz"', "rate"),
         ('name = "drift_cause"\nbits = 4', 'name = "drift_cause"\nbits = 2', "do not hold"),
@@ -145,8 +153,8 @@ def test_bad_messages_are_refused(before: str, after: str, why: str, tmp_path: P
         ('from = "space_k_xx"', 'from = "theta0"', "space_0.k_xx: theta0 is f32 in 'rad'"),
         ('from = "space_flags"', 'from = "force_x"', "space_4.flags: force_x is f32"),
         ("by_hand = true", "", "heartbeat.state: no measured value"),
-        ('saturated_by = ["stiffness_a"', 'saturated_by = ["emergency"', "stiffness_a.flags.*emergency"),
-        ('bit_names = "flag"\nsaturated_by', "saturated_by", "stiffness_a.flags.*SATURATED"),
+        ('saturated_by = ["stiffness_a"', 'saturated_by = ["emergency"', "stiffness_b.flags.*emergency"),
+        ('bit_names = "flag"\nsaturated_by', "saturated_by", "stiffness_b.flags.*SATURATED"),
     ],
 )
 def test_process_data_that_is_not_measured_is_refused(before: str, after: str, why: str, tmp_path: Path) -> None:

@@ -50,7 +50,9 @@ def snapshot(**changes: object) -> Snapshot:
 
 
 def view_of(newest: Snapshot, card: Card, now_s: float = 100.5) -> tuple[LimbWords, LimbNumbers]:
-    state = NodeState(snapshot=newest, posture=newest, last_s=newest.time_s)
+    state = NodeState(
+        snapshot=newest, posture=newest, mode=newest.mode, faults=newest.faults, last_s=newest.time_s
+    )
     return limb_words(3, state, card), limb_numbers(3, state, card, now_s)
 
 
@@ -76,7 +78,10 @@ def test_what_is_not_known_is_told_as_that() -> None:
 
 
 def test_heartbeats_alone_make_a_limb() -> None:
-    state = NodeState(heartbeat=Heartbeat(3, 100.0, "operational", "fault", ("sensor_femur",), 0), last_s=100.0)
+    state = NodeState(
+        heartbeat=Heartbeat(3, 100.0, "operational", "fault", "bench", 2, 0), mode="fault", faults=("sensor_femur",),
+        last_s=100.0,
+    )
     words = limb_words(3, state, Card())
     assert words["mode"] == "fault" and words["faults"][0]["name"] == "SENSOR_FEMUR"
     assert not limb_numbers(3, state, Card(), 100.0)["is_valid"]

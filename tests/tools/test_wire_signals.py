@@ -43,11 +43,18 @@ def database() -> Any:
 def layouts() -> list[tuple[Layout, str, str]]:
     """Each layout with its message in the database and what its signals' names begin with there."""
     listed = [(layout, name, "") for name, layout in (*frames.MESSAGES.items(), *frames.FD_MESSAGES.items())]
-    listed += [(layout, name, "") for name, parts in frames.MULTIPLEXED.items() for layout in parts]
+    for message, groups in (("details", frames.GROUPS), ("details_fd", frames.FD_GROUPS)):
+        for name, parts in groups.items():
+            listed += [(layout, message, name.removesuffix("_fd") + "_") for layout in parts]
     listed += [(layout, "request", name + "_") for name, layout in frames.REQUESTS.items()]
     for name, parts in frames.ANSWERS.items():
         listed += [(layout, "answer", f"{name}_{part}_") for part, layout in enumerate(parts)]
-    return listed
+    return [*listed, (frames.REFUSAL, "answer", "refused_")]
+
+
+def signal_of(layout: Layout, prefix: str, name: str) -> str:
+    """What a field is called in the database: of a frame in parts, the sequence is common to all."""
+    return name if layout.part is not None and name == "sequence" else prefix + name
 
 
 def codes(field: Field, dice: random.Random) -> list[int]:
@@ -65,9 +72,9 @@ def value_of(field: Field, code: int) -> float | int:
 
 def others(layout: Layout, prefix: str) -> dict[str, float | int]:
     """A frame in which every signal is 0."""
-    values: dict[str, float | int] = {prefix + field.name: 0 for field in layout.fields}
+    values: dict[str, float | int] = {signal_of(layout, prefix, field.name): 0 for field in layout.fields}
     if layout.command is not None:
-        values |= {"command": layout.command, "token": 0}
+        values |= {"number" if layout.identifier == frames.ANSWER_ID else "code": layout.command, "token": 0}
     if layout.part is not None:
         values |= {"part": layout.part}
     return values
@@ -91,7 +98,7 @@ def test_every_signal(layout: Layout, message: str, prefix: str, c: tuple[Any, A
     struct, data = ffi.new(f"brace_can_{layout.name}_t *"), ffi.new("uint8_t[]", layout.size)
     dice = random.Random(layout.name)
     for field in layout.fields:
-        member, signal = field.name + SUFFIX[field.unit], prefix + field.name
+        member, signal = field.name + SUFFIX[field.unit], signal_of(layout, prefix, field.name)
         listed = codes(field, dice) if field.kind != "f32" else None
         values = (
             [value_of(field, code) for code in listed]
@@ -163,8 +170,8 @@ def test_a_value_has_no_more_digits_than_its_step(step: float) -> None:
 def test_the_frame_of_can_fd_is_one_in_its_database() -> None:
     """As the attributes of the format have it, with the rate switched; and the other database has none."""
     fd: Any = cantools.database.load_file(DBC_FD, strict=True)
-    assert [message.name for message in fd.messages if message.is_fd] == list(frames.FD_MESSAGES)
-    assert [(message.frame_id, message.length) for message in fd.messages] == [(0x501, 64), (0x301, 64), (0x681, 64)]
+    assert [message.name for message in fd.messages if message.is_fd] == [*frames.FD_MESSAGES, "details_fd"]
+    assert [(message.frame_id, message.length) for message in fd.messages] == [(0x501, 64), (0x301, 64)]
     for message in fd.messages:
         assert str(message.dbc.attributes["VFrameFormat"].value) in ("StandardCAN_FD", "14")
         assert str(message.dbc.attributes["CANFD_BRS"].value) == "1"
@@ -183,12 +190,13 @@ def test_database_has_the_promised_names(database: Any) -> None:
 def test_a_multiplexed_message_says_which_part_it_is(c: tuple[Any, Any], database: Any) -> None:
     """The number that C packs is what C, cantools and Python find; cantools then shows that part's signals alone."""
     ffi, lib = c
-    for name, parts in frames.MULTIPLEXED.items():
+    for name, groups in (("details", frames.GROUPS), ("details_fd", frames.FD_GROUPS)):
         known = database.get_message_by_name(name)
-        for number, layout in enumerate(parts):
+        for layout, group in [(layout, group) for group in groups for layout in groups[group]]:
+            number, prefix = layout.part, group.removesuffix("_fd") + "_"
             struct, data = ffi.new(f"brace_can_{layout.name}_t *", {"sequence": 77}), ffi.new("uint8_t[]", layout.size)
             getattr(lib, f"brace_can_pack_{layout.name}")(struct, data)
             assert getattr(lib, f"brace_can_{name}_part")(data) == number
             read = known.decode(bytes(data), decode_choices=False)
             assert (read.pop("part"), read["sequence"]) == (number, 77)
-            assert set(read) == {field.name for field in layout.fields}
+            assert set(read) == {signal_of(layout, prefix, field.name) for field in layout.fields}

@@ -71,9 +71,8 @@ def answering_source(wire: Wire) -> str:
     parts = [_MADE, '#include "brace/answering.h"\n\n#include "brace/status.h"\n#include "can_bits.h"\n',
              *(_pack(request) for request in wire.requests if not request.answers_as),
              "\nvoid brace_can_pack_answer(uint32_t code, const brace_answer_t *answer, uint32_t token, "
-             "uint8_t (*parts)[8])\n{\n    const uint64_t head = code | (token & 0xffu) << 8;\n    switch (code) {\n",
-             *(f"    case {_code(request)}: pack_{_shape(request)}(&answer->{request.name}, head, parts); break;\n"
-               for request in wire.requests),
+             "uint8_t (*parts)[8])\n{\n    switch (code) {\n",
+             *(_packing(request) for request in wire.requests),
              "    default: break;\n    }\n}\n"]
     return "".join(parts)
 
@@ -119,17 +118,25 @@ def _unpack(request: Request) -> str:
 
 
 def _pack(request: Request) -> str:
-    lines = [f"\nstatic void pack_{request.name}(const brace_{request.name}_answer_t *answer, uint64_t head,\n"
-             "    uint8_t (*parts)[8])\n{\n    uint32_t limited = 0u;\n    uint64_t bits;\n"]
+    lines = [f"\nstatic void pack_{request.name}(const brace_{request.name}_answer_t *answer, const uint8_t *number,\n"
+             "    uint32_t token, uint8_t (*parts)[8])\n{\n    const uint32_t head = (token & 0xffu) << 8;\n"
+             "    uint32_t limited = 0u;\n    uint64_t bits;\n"]
     told_last = [frame for frame in request.answers if any(signal.saturated_by for signal in frame.signals)]
     if len(told_last) > 1:
         raise DictionaryError(f"{request.name}: flags of one part alone have saturated_by = [{WHOLE!r}]")
-    for number, frame in sorted(enumerate(request.answers), key=lambda part: part[1] in told_last):
-        lines.append(f"    bits = head | {32 * number}u;\n")
+    for place, frame in sorted(enumerate(request.answers), key=lambda part: part[1] in told_last):
+        lines.append(f"    bits = head | number[{place}];\n")
         for signal in sorted(frame.signals, key=lambda signal: bool(signal.saturated_by)):
             lines.append(f"    bits |= {packed(signal, _value(request, signal))};\n")
-        lines.append(f"    brace_bits_store(bits, parts[{number}]);\n")
+        lines.append(f"    brace_bits_store(bits, parts[{place}]);\n")
     return "".join(lines) + "}\n"
+
+
+def _packing(request: Request) -> str:
+    """The case that packs an answer with the numbers of its own frames."""
+    numbers = ", ".join(f"BRACE_{frame.name.upper()}" for frame in request.answers)
+    return (f"    case {_code(request)}: {{\n        static const uint8_t number[] = {{{numbers}}};\n"
+            f"        pack_{_shape(request)}(&answer->{request.name}, number, token, parts);\n        break;\n    }}\n")
 
 
 def _value(request: Request, signal: Signal) -> str:

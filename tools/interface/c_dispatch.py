@@ -11,9 +11,10 @@ _HEAD = """
 /* Every message of messages.toml, as lists for the preprocessor. A controller makes its tables from them, so a new
  * message needs no hand-written line.
  *
- * BRACE_CAN_PROCESS(X)     X(identifier, name, rate): classic frames of measured values, name as in
- *                          brace_can_make_<name>; rate is the member of brace_controller_t that says how often.
- *                          Each part of a multiplexed message stands by itself, in order.
+ * BRACE_CAN_PROCESS(X)     X(identifier, name, rate, coxa): classic frames of measured values, name as in
+ *                          brace_can_make_<name>; rate is the member of brace_controller_t that says how often; coxa is
+ *                          1 where only a limb whose coxa joint is fitted sends the frame, else 0. Each part of a
+ *                          multiplexed message stands by itself, in order.
  * BRACE_CAN_PROCESS_FD(X)  the same of CAN FD
  * BRACE_CAN_BY_HAND(X)     X(identifier, name): classic frames that hand-written code fills and sends
  * BRACE_CAN_FRAMES(X)      X(name, bytes): every frame there is, requests and answers too; name as in
@@ -29,9 +30,9 @@ def dispatch_header(wire: Wire) -> str:
     identifiers = {part.name: message.name for message in wire.multiplexed for part in message.parts}
     lists = [
         ("BRACE_CAN_PROCESS", _rated(classic, identifiers)),
-        ("BRACE_CAN_PROCESS_FD", _rated(wire.fd_messages, {})),
+        ("BRACE_CAN_PROCESS_FD", _rated([frame for frame in wire.process_frames if frame.is_fd], identifiers)),
         ("BRACE_CAN_BY_HAND",
-         [f"X({_identifier(frame, {})}, {frame.name})" for frame in classic if not frame.is_measured]),
+         [f"X({_identifier(frame, identifiers)}, {frame.name})" for frame in classic if not frame.is_measured]),
         ("BRACE_CAN_FRAMES", [f"X({frame.name}, {frame.bytes})" for frame in wire.frames]),
     ]
     parts = [_MADE, "#ifndef BRACE_CAN_FRAMES_H\n#define BRACE_CAN_FRAMES_H\n", _HEAD]
@@ -41,7 +42,8 @@ def dispatch_header(wire: Wire) -> str:
 
 def _rated(frames: Sequence[Frame], identifiers: dict[str, str]) -> list[str]:
     return [
-        f"X({_identifier(frame, identifiers)}, {frame.name}, {frame.rate.removeprefix('controller.')})"
+        f"X({_identifier(frame, identifiers)}, {frame.name}, {frame.rate.removeprefix('controller.')}, "
+        f"{frame.needs_coxa:d})"
         for frame in frames if frame.is_measured
     ]
 

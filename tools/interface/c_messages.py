@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from interface.c_comment import c_comment
-from interface.messages import FRAME_BITS, Frame, Multiplexed, Signal, Wire
+from interface.messages import CODES, FRAME_BITS, REFUSED, Frame, Multiplexed, Signal, Wire
 
 _MADE = "/* Written by tools/interface from messages.toml; do not edit. */\n"
 _HEAD = """
@@ -34,11 +34,17 @@ def messages_header(wire: Wire, dictionary_hash: int) -> str:
           for frame in wire.process),
         f"    BRACE_CAN_ID_REQUEST = 0x{wire.request_id:03x},\n    BRACE_CAN_ID_ANSWER = 0x{wire.answer_id:03x}\n"
         "};\n\n",
-        "/* First byte of a request; of an answer: plus 32 times its part. */\nenum {\n",
+        "/* First byte of a request. */\nenum {\n",
         *(f"    BRACE_REQUEST_{request.name.upper()} = {request.code},\n" for request in wire.requests),
-        f"    BRACE_ANSWER_PART = 32,\n    BRACE_ANSWER_REFUSED = {wire.refused_part * 32}\n}};\n\n",
+        "};\n\n/* First byte of an answer: the number of this frame, which no other answer has. */\nenum {\n",
+        *(f"    BRACE_{frame.name.upper()} = {frame.command},\n"
+          for request in wire.requests for frame in request.answers),
+        f"    BRACE_ANSWER_REFUSED = {REFUSED}\n}};\n\n",
         "/* Frames of the answer, by the request's code; 0: no such request. */\n",
-        "extern const uint8_t brace_can_answer_parts[32];\n",
+        f"extern const uint8_t brace_can_answer_parts[{CODES}];\n\n",
+        "/* Whose answer's frame a number is, and which of its frames, counted from 0; parts of 0: nobody's. */\n",
+        "typedef struct {\n    uint8_t code, part, parts;\n} brace_can_answer_frame_t;\n",
+        f"extern const brace_can_answer_frame_t brace_can_answer_frames[{CODES}];\n",
     ]
     for message in wire.multiplexed:
         parts.append(_part_of(message))
@@ -50,8 +56,13 @@ def messages_header(wire: Wire, dictionary_hash: int) -> str:
 def messages_sources(wire: Wire) -> dict[str, str]:
     """generated/can_process.c, can_questions.c, can_answers.c: what a controller sends by itself, what it is asked, and
     what it answers."""
-    counts = {request.code: len(request.answers) for request in wire.requests}
-    parts = ", ".join(str(counts.get(code, 0)) for code in range(32))
+    counts = "".join(f"    [BRACE_REQUEST_{request.name.upper()}] = {len(request.answers)},\n"
+                     for request in wire.requests)
+    rows = "".join(
+        f"    [BRACE_{frame.name.upper()}] = "
+        f"{{BRACE_REQUEST_{request.name.upper()}, {part}, {len(request.answers)}}},\n"
+        for request in wire.requests for part, frame in enumerate(request.answers)
+    )
     return {
         "can_process": _source(
             wire.process_frames, after="".join(_part_source(message) for message in wire.multiplexed)
@@ -59,7 +70,8 @@ def messages_sources(wire: Wire) -> dict[str, str]:
         "can_questions": _source([request.question for request in wire.requests]),
         "can_answers": _source(
             [*(frame for request in wire.requests for frame in request.answers), wire.refusal],
-            f"const uint8_t brace_can_answer_parts[32] = {{{parts}}};\n",
+            f"const uint8_t brace_can_answer_parts[{CODES}] = {{\n{counts}}};\n\n"
+            f"const brace_can_answer_frame_t brace_can_answer_frames[{CODES}] = {{\n{rows}}};\n",
         ),
     }
 
@@ -94,17 +106,22 @@ def most_of(frame: Frame, signal: Signal) -> str:
 
 
 def _part_of(message: Multiplexed) -> str:
-    upper = message.name.upper()
+    numbers = "".join(f"    {part_of(frame)} = {frame.part},\n" for frame in message.parts)
     return (
-        f"\n/* The frames of one {message.name}, and which of them a frame is. */\n"
-        f"enum {{ BRACE_CAN_{upper}_PARTS = {len(message.parts)} }};\n"
-        f"uint32_t brace_can_{message.name}_part(const uint8_t data[8]);\n"
+        f"\n/* Which frame of {message.name} it is: BRACE_CAN_PART_..., or a number that this list lacks. */\n"
+        f"enum {{\n{numbers}}};\n"
+        f"uint32_t brace_can_{message.name}_part(const uint8_t *data);\n"
     )
+
+
+def part_of(frame: Frame) -> str:
+    """The C name of a part's number."""
+    return f"BRACE_CAN_PART_{frame.name.upper()}"
 
 
 def _part_source(message: Multiplexed) -> str:
     return (
-        f"\nuint32_t brace_can_{message.name}_part(const uint8_t data[8])\n{{\n"
+        f"\nuint32_t brace_can_{message.name}_part(const uint8_t *data)\n{{\n"
         f"    return brace_value_number(brace_bits_load(data), {_reach(message.selector)});\n}}\n"
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from interface.messages import Signal, Wire
+from interface.messages import FRAME_BITS, Frame, Multiplexed, Signal, Wire
 
 _CONTROLLER, _COMPUTER = "LIMB", "ROBOT"
 _NODE = 1
@@ -12,94 +12,103 @@ _NODE = 1
 _FORMATS = ("StandardCAN", "ExtendedCAN", *("reserved",) * 12, "StandardCAN_FD", "ExtendedCAN_FD")
 
 
-def dbc(wire: Wire, dictionary_hash: int) -> str:
-    """Text of the database."""
-    messages: list[str] = []
-    comments: list[str] = ['CM_ "Brace: stiffness on the limb. Written from messages.toml. Dictionary '
-                           f'0x{dictionary_hash:08x}.";']
-    values: list[str] = []
-    floats: list[str] = []
-    for frame in wire.messages:
-        identifier = frame.identifier + _NODE
-        lines = [_signal_line(signal, signal.name, "", _COMPUTER) for signal in frame.signals]
-        messages.append(_message(identifier, frame.name, _CONTROLLER, lines))
-        comments.append(f'CM_ BO_ {identifier} "{frame.description}";')
-        for signal in frame.signals:
-            comments.append(f'CM_ SG_ {identifier} {signal.name} "{_words(signal)}";')
-            values += _value_table(identifier, signal, signal.name)
-    for multiplexed in wire.multiplexed:
-        identifier = multiplexed.identifier + _NODE
-        signals = [(signal, "M " if signal is multiplexed.selector else "") for signal in multiplexed.common]
+class _Database:
+    """The sections of a database, as they grow."""
+
+    def __init__(self, what: str, dictionary_hash: int) -> None:
+        self.messages: list[str] = []
+        self.comments = [f'CM_ "Brace: {what}. Written from messages.toml. Dictionary 0x{dictionary_hash:08x}.";']
+        self.attributes: list[str] = []
+        self.values: list[str] = []
+        self.floats: list[str] = []
+
+    def add(self, frame: Frame) -> None:
+        """A message that is one frame."""
+        self._add(frame.identifier, frame.name, frame.description, frame.bytes,
+                  [(signal, signal.name, "") for signal in frame.signals])
+
+    def add_parts(self, message: Multiplexed) -> None:
+        """A message whose frames share an identifier: signals are called <group>_<signal>."""
+        signals = [(signal, signal.name, "M " if signal is message.selector else "") for signal in message.common]
         signals += [
-            (signal, f"m{part.part} ")
-            for part in multiplexed.parts for signal in part.signals if signal not in multiplexed.common
+            (signal, f"{group.name.removesuffix('_fd')}_{signal.name}", f"m{part.part} ")
+            for group in message.groups for part in group.parts for signal in message.own(part)
         ]
-        lines = [_signal_line(signal, signal.name, how, _COMPUTER) for signal, how in signals]
-        messages.append(_message(identifier, multiplexed.name, _CONTROLLER, lines))
-        comments.append(f'CM_ BO_ {identifier} "{multiplexed.description}";')
-        for signal, _ in signals:
-            comments.append(f'CM_ SG_ {identifier} {signal.name} "{_words(signal)}";')
-            values += _value_table(identifier, signal, signal.name)
-            if signal.kind == "f32":
-                floats.append(f"SIG_VALTYPE_ {identifier} {signal.name} : 1;")
-    questions = [request.question for request in wire.requests]
-    answers = [frame for request in wire.requests for frame in request.answers]
-    refusals = [(wire.refusal, request.code + 32 * wire.refused_part) for request in wire.requests]
-    for identifier, name, from_, to, frames in (
-        (wire.request_id + _NODE, "request", _COMPUTER, _CONTROLLER, [(f, f.command or 0) for f in questions]),
-        (wire.answer_id + _NODE, "answer", _CONTROLLER, _COMPUTER, [(f, f.command or 0) for f in answers] + refusals),
-    ):
-        lines = [
-            f' SG_ command M : 0|8@1+ (1,0) [0|255] "" {to}',
-            f' SG_ token : 8|8@1+ (1,0) [0|255] "" {to}',
-        ]
+        self._add(message.identifier, message.name, message.description, message.bytes, signals)
+        meanings = " ".join(f'{part.part} "{part.name.upper()}"' for part in message.parts)
+        self.values.append(f"VAL_ {message.identifier + _NODE} {message.selector.name} {meanings} ;")
+
+    def add_exchange(self, name: str, identifier: int, frames: Sequence[tuple[Frame, str]], selector: str) -> None:
+        """Requests, or answers: frames whose first byte says which one it is."""
+        asks = name == "request"
+        from_, to = (_COMPUTER, _CONTROLLER) if asks else (_CONTROLLER, _COMPUTER)
+        lines = [f' SG_ {selector} M : 0|8@1+ (1,0) [0|255] "" {to}', f' SG_ token : 8|8@1+ (1,0) [0|255] "" {to}']
         meanings: list[str] = []
-        for frame, command in frames:
-            refused = frame is wire.refusal
-            stem = f"refused_{command % 32}" if refused else frame.name.removesuffix("_request")
-            meanings.append(f'{command} "{stem.upper()}"')
+        for frame, stem in frames:
+            meanings.append(f'{frame.command} "{stem.upper()}"')
             for signal in frame.signals:
                 full = f"{stem.replace('_answer_', '_')}_{signal.name}"
-                lines.append(_signal_line(signal, full, f"m{command} ", to))
-                values += _value_table(identifier, signal, full)
-                if signal.kind == "f32":
-                    floats.append(f"SIG_VALTYPE_ {identifier} {full} : 1;")
-        messages.append(_message(identifier, name, from_, lines))
-        values.append(f"VAL_ {identifier} command {' '.join(meanings)} ;")
-    head = 'VERSION ""\n\nNS_ :\n\nBS_:\n\nBU_: ' + f"{_CONTROLLER} {_COMPUTER}" + "\n"
-    return "\n".join([head, *messages, *comments, *values, *floats]) + "\n"
+                lines.append(_signal_line(signal, full, f"m{frame.command} ", to))
+                self._meanings(identifier + _NODE, signal, full)
+        self.messages.append(_message(identifier + _NODE, name, from_, lines))
+        self.values.append(f"VAL_ {identifier + _NODE} {selector} {' '.join(meanings)} ;")
+
+    def _add(
+        self, identifier: int, name: str, words: str, size: int, signals: Sequence[tuple[Signal, str, str]]
+    ) -> None:
+        identifier += _NODE
+        lines = [_signal_line(signal, called, how, _COMPUTER) for signal, called, how in signals]
+        self.messages.append(_message(identifier, name, _CONTROLLER, lines, size))
+        self.comments.append(f'CM_ BO_ {identifier} "{words}";')
+        if size > FRAME_BITS // 8:
+            self.attributes.append(f'BA_ "VFrameFormat" BO_ {identifier} {_FORMATS.index("StandardCAN_FD")};')
+            self.attributes.append(f'BA_ "CANFD_BRS" BO_ {identifier} 1;')
+        for signal, called, _ in signals:
+            self.comments.append(f'CM_ SG_ {identifier} {called} "{_words(signal)}";')
+            self._meanings(identifier, signal, called)
+
+    def _meanings(self, identifier: int, signal: Signal, called: str) -> None:
+        self.values += _value_table(identifier, signal, called)
+        if signal.kind == "f32":
+            self.floats.append(f"SIG_VALTYPE_ {identifier} {called} : 1;")
+
+    def text(self, definitions: Sequence[str] = ()) -> str:
+        """The whole file."""
+        head = f'VERSION ""\n\nNS_ :\n\nBS_:\n\nBU_: {_CONTROLLER} {_COMPUTER}\n'
+        lines = [head, *self.messages, *self.comments, *definitions, *self.attributes, *self.values, *self.floats]
+        return "\n".join(lines) + "\n"
+
+
+def dbc(wire: Wire, dictionary_hash: int) -> str:
+    """Text of the database."""
+    database = _Database("stiffness on the limb", dictionary_hash)
+    for frame in wire.messages:
+        database.add(frame)
+    for message in wire.classic:
+        database.add_parts(message)
+    requests = [(request.question, request.name) for request in wire.requests]
+    answers = [(frame, frame.name) for request in wire.requests for frame in request.answers]
+    database.add_exchange("request", wire.request_id, requests, "code")
+    database.add_exchange("answer", wire.answer_id, [*answers, (wire.refusal, "refused")], "number")
+    codes = " ".join(f'{request.code} "{request.name.upper()}"' for request in wire.requests)
+    database.values.append(f"VAL_ {wire.answer_id + _NODE} refused_code {codes} ;")
+    return database.text()
 
 
 def dbc_fd(wire: Wire, dictionary_hash: int) -> str:
     """Text of the database of CAN FD frames alone; read it beside brace.dbc."""
-    messages: list[str] = []
-    comments: list[str] = [
-        f'CM_ "Brace: stiffness on the limb, CAN FD. Written from messages.toml. Dictionary 0x{dictionary_hash:08x}.";'
-    ]
-    attributes: list[str] = []
-    values: list[str] = []
-    floats: list[str] = []
+    database = _Database("stiffness on the limb, CAN FD", dictionary_hash)
     for frame in wire.fd_messages:
-        identifier = frame.identifier + _NODE
-        lines = [_signal_line(signal, signal.name, "", _COMPUTER) for signal in frame.signals]
-        messages.append(_message(identifier, frame.name, _CONTROLLER, lines, frame.bytes))
-        comments.append(f'CM_ BO_ {identifier} "{frame.description}";')
-        attributes.append(f'BA_ "VFrameFormat" BO_ {identifier} {_FORMATS.index("StandardCAN_FD")};')
-        attributes.append(f'BA_ "CANFD_BRS" BO_ {identifier} 1;')
-        for signal in frame.signals:
-            comments.append(f'CM_ SG_ {identifier} {signal.name} "{_words(signal)}";')
-            values += _value_table(identifier, signal, signal.name)
-            if signal.kind == "f32":
-                floats.append(f"SIG_VALTYPE_ {identifier} {signal.name} : 1;")
-    head = 'VERSION ""\n\nNS_ :\n\nBS_:\n\nBU_: ' + f"{_CONTROLLER} {_COMPUTER}" + "\n"
+        database.add(frame)
+    for message in wire.fd:
+        database.add_parts(message)
     formats = ",".join(f'"{name}"' for name in _FORMATS)
-    definitions = [
+    return database.text([
         'BA_DEF_ "BusType" STRING ;', f'BA_DEF_ BO_ "VFrameFormat" ENUM {formats};',
         'BA_DEF_ BO_ "CANFD_BRS" ENUM "0","1";',
         'BA_DEF_DEF_ "BusType" "CAN FD";', 'BA_DEF_DEF_ "VFrameFormat" "StandardCAN";', 'BA_DEF_DEF_ "CANFD_BRS" "1";',
         'BA_ "BusType" "CAN FD";',
-    ]
-    return "\n".join([head, *messages, *comments, *definitions, *attributes, *values, *floats]) + "\n"
+    ])
 
 
 def _message(identifier: int, name: str, sender: str, lines: Sequence[str], length: int = 8) -> str:

@@ -10,13 +10,11 @@ from typing import Any
 
 from interface.codes import Codes, Table
 from interface.dictionary import DictionaryError, check_area
+from interface.units import UNIT_SUFFIX
 
 MEASURED_REGISTER, ANSWERED_REGISTER, COMMAND_REGISTER = 0, 0x1000, 0x4000  # the first of each
 QUESTION = "asked_"  # the names of a question's values begin with it
 _KEYS = {"name", "register", "type", "unit", "names", "bit_names", "numeric", "description"}
-UNIT_SUFFIX = {
-    "": "", "us": "", "N/mm": "_n_per_mm", "rad": "_rad", "mm": "_mm", "N": "_n", "N mm": "_n_mm", "degC": "_degc"
-}
 
 
 @dataclass(frozen=True)

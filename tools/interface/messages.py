@@ -11,15 +11,16 @@ from typing import Any
 
 from interface.codes import Codes, Table
 from interface.dictionary import DictionaryError
+from interface.units import UNIT_SUFFIX
 
 FRAME_BITS = 64
-_PAYLOAD_START = 16  # of requests and answers: behind command and token
+_PAYLOAD_START = 16  # of requests and answers: behind code or number, and token
+CODES = 256  # of requests, and numbers of answers
+REFUSED = CODES - 1  # the number of an answer that is a refusal
 _SIGNAL_KEYS = {"name", "bits", "signed", "kind", "step", "unit", "names", "bit_names", "description", "from", "wraps",
                 "saturated_by"}
 NODES = 0x80  # identifiers of one message: one for each node, and 0
 BASIC_IDS = 0x800  # of 11 bits
-_UNIT_SUFFIX = {"": "", "1": "_ratio", "N/mm": "_n_per_mm", "rad": "_rad", "ms": "_ms", "mm": "_mm", "N": "_n",
-                "N mm": "_n_mm"}
 _SATURATED = "SATURATED"  # the bit of flags: a value was limited
 PART = "part"  # the common signal of a multiplexed message that says which part a frame carries
 
@@ -56,7 +57,7 @@ class Signal:
     @property
     def member(self) -> str:
         """Name with its unit: k_xx_n_per_mm."""
-        return self.name + _UNIT_SUFFIX[self.unit]
+        return self.name + UNIT_SUFFIX[self.unit]
 
     @property
     def least(self) -> int:
@@ -89,11 +90,12 @@ class Frame:
     rate: str  # key of limb.toml, or ""
     signals: tuple[Signal, ...]
     description: str
-    command: int | None = None  # first byte of a request or an answer: code + 32 * part
+    command: int | None = None  # first byte: the code of a request, the number of an answer
     bytes: int = 8  # more: CAN FD
     part: int | None = None  # of a multiplexed message
     part_at: int = 0  # the first bit of the part's number
-    by_hand: bool = False  # of a message with a rate: not all that it carries is measured
+    by_hand: bool = False  # hand-written code fills or sends it
+    needs_coxa: bool = False  # only a limb whose coxa joint is fitted sends it
 
     @property
     def is_measured(self) -> bool:
@@ -112,15 +114,39 @@ class Frame:
 
 
 @dataclass(frozen=True)
+class Group:
+    """Frames of one identifier that belong together."""
+
+    name: str
+    rate: str
+    description: str
+    parts: tuple[Frame, ...]  # the common signals but the part's number, then their own
+
+
+@dataclass(frozen=True)
 class Multiplexed:
-    """A message that carries a snapshot in several frames of one identifier."""
+    """One identifier for many frames, each with a number of its own."""
 
     name: str
     identifier: int  # of node 0
-    rate: str
+    bytes: int
     description: str
     common: tuple[Signal, ...]  # in every part, the part's number too
-    parts: tuple[Frame, ...]  # the common signals but the part's number, then their own
+    groups: tuple[Group, ...]
+
+    @property
+    def parts(self) -> tuple[Frame, ...]:
+        """The frames of all groups."""
+        return tuple(frame for group in self.groups for frame in group.parts)
+
+    @property
+    def is_fd(self) -> bool:
+        """Does classic CAN know no such frames?"""
+        return self.bytes > FRAME_BITS // 8
+
+    def own(self, frame: Frame) -> tuple[Signal, ...]:
+        """The signals of a part that not every part has."""
+        return tuple(signal for signal in frame.signals if signal not in self.common)
 
     @property
     def selector(self) -> Signal:
@@ -147,7 +173,6 @@ class Wire:
     protocol: int
     request_id: int
     answer_id: int
-    refused_part: int
     messages: tuple[Frame, ...]
     multiplexed: tuple[Multiplexed, ...]
     fd_messages: tuple[Frame, ...]
@@ -158,8 +183,17 @@ class Wire:
     def frames(self) -> tuple[Frame, ...]:
         """All layouts, each once."""
         exchanged = [frame for request in self.requests for frame in (request.question, *request.answers)]
-        parts = [part for message in self.multiplexed for part in message.parts]
-        return (*self.messages, *parts, *self.fd_messages, *exchanged, self.refusal)
+        return (*self.process_frames, *exchanged, self.refusal)
+
+    @property
+    def classic(self) -> tuple[Multiplexed, ...]:
+        """The identifiers of many frames, without those of CAN FD."""
+        return tuple(message for message in self.multiplexed if not message.is_fd)
+
+    @property
+    def fd(self) -> tuple[Multiplexed, ...]:
+        """The identifiers of many frames of CAN FD."""
+        return tuple(message for message in self.multiplexed if message.is_fd)
 
     @property
     def process(self) -> tuple[Frame | Multiplexed, ...]:
@@ -169,7 +203,8 @@ class Wire:
     @property
     def process_frames(self) -> tuple[Frame, ...]:
         """The frames of `process`: each part of a multiplexed message stands by itself."""
-        return (*self.messages, *(part for message in self.multiplexed for part in message.parts), *self.fd_messages)
+        classic, fd = ([part for message in some for part in message.parts] for some in (self.classic, self.fd))
+        return (*self.messages, *classic, *self.fd_messages, *fd)
 
     @property
     def schema(self) -> str:
@@ -217,33 +252,61 @@ def load_wire(path: Path, codes: Codes) -> Wire:
     request_id, answer_id = content["request_id"], content["answer_id"]
     answers = {raw["name"]: raw["answer"] for raw in content["request"] if "answer" in raw}
     requests = tuple(_request(raw, answers, request_id, answer_id, codes) for raw in content["request"])
-    numbers = [request.code for request in requests]
-    if len(set(numbers)) != len(numbers) or not all(0 <= number <= 31 for number in numbers):
-        raise DictionaryError("codes of requests are different numbers of 0-31")
     refusal = Frame(
         "refusal", answer_id, "",
         _signals(
             [
+                {"name": "code", "bits": 8, "description": "the code of the request"},
                 {"name": "status", "bits": 8, "signed": True,
                  "description": "why: docs/errors.md, statuses and refusals"},
                 {"name": "detail", "bits": 32, "description": "what more there is to say: an index, a mode, a hash"},
             ],
             _PAYLOAD_START, "refusal", codes,
         ),
-        "a request is refused; code + 32 * part 7", content["refused_part"] * 32,
+        "a request is refused", REFUSED,
     )
-    wire = Wire(
-        content["protocol"], request_id, answer_id, content["refused_part"], messages, multiplexed, fd_messages,
-        requests, refusal,
-    )
+    wire = Wire(content["protocol"], request_id, answer_id, messages, multiplexed, fd_messages, requests, refusal)
     names = [frame.name for frame in wire.frames]
     if len(set(names)) != len(names):
         raise DictionaryError("two frames have one name")
-    rates = [message.rate for message in wire.process if message.rate]
+    _refuse_numbers("codes of requests", [(request.code, request.name) for request in requests], 1, CODES)
+    _refuse_numbers("numbers of answers", [(frame.command or 0, frame.name) for request in requests
+                                           for frame in request.answers], 1, REFUSED)
+    for message in multiplexed:
+        _refuse_numbers(f"numbers of the parts of {message.name}",
+                        [(frame.part or 0, frame.name) for frame in message.parts], 0, 1 << message.selector.bits)
+        _refuse_twice_in_dbc(message)
+    rates = [frame.rate for frame in wire.process_frames if frame.rate]
     if not all(rate.startswith("controller.") for rate in rates):
         raise DictionaryError("a message's rate is a key of limb.toml's table [controller]")
     _refuse_identifiers(wire)
     return wire
+
+
+def _refuse_numbers(what: str, numbered: Sequence[tuple[int, str]], least: int, below: int) -> None:
+    """Two frames with one number, or a number that the byte does not hold."""
+    used: dict[int, str] = {}
+    free = next((number for number in range(least, below) if number not in dict(numbered)), None)
+    for number, name in numbered:
+        where = f"{name}: {number} "
+        if not least <= number < below:
+            raise DictionaryError(f"{where}does not fit: {what} are {least} to {below - 1}")
+        if number in used:
+            raise DictionaryError(f"{where}is that of {used[number]}; {what}: the first that is free is {free}")
+        used[number] = name
+
+
+def _refuse_twice_in_dbc(message: Multiplexed) -> None:
+    """Two signals that the database of CAN frames would call by one name."""
+    used: dict[str, str] = {}
+    for group in message.groups:
+        for frame in group.parts:
+            for signal in message.own(frame):
+                name = f"{group.name}_{signal.name}"
+                if name in used:
+                    raise DictionaryError(f"{frame.name}.{signal.name}: the database calls it {name}, as it does that "
+                                          f"of {used[name]}")
+                used[name] = frame.name
 
 
 def _refuse_identifiers(wire: Wire) -> None:
@@ -261,22 +324,31 @@ def _refuse_identifiers(wire: Wire) -> None:
 
 
 def _multiplexed(raw: Mapping[str, Any], codes: Codes) -> Multiplexed:
-    name = raw["name"]
+    name, size = raw["name"], raw.get("bytes", FRAME_BITS // 8)
     common = _signals(raw["signal"], 0, name, codes)
     selectors = [signal for signal in common if signal.name == PART]
-    if len(selectors) != 1 or selectors[0].kind != "number" or len(raw["part"]) > 1 << selectors[0].bits:
-        raise DictionaryError(f"{name}: a multiplexed message has one signal named {PART!r} that counts its parts")
+    if len(selectors) != 1 or selectors[0].kind != "number" or selectors[0].bits > 8:
+        raise DictionaryError(f"{name}: it has one signal named {PART!r}, a number of at most 8 bits")
     start = sum(signal.bits for signal in common)
-    parts = tuple(
-        Frame(
-            f"{name}_{number}", raw["id"], raw.get("rate", ""),
-            (*(signal for signal in common if signal.name != PART),
-             *_signals(part["signal"], start, f"{name}_{number}", codes)),
-            f"{raw['description']}: part {number}", part=number, part_at=selectors[0].start,
+    shared = tuple(signal for signal in common if signal.name != PART)
+
+    def part(group: Mapping[str, Any], place: int, one: Mapping[str, Any]) -> Frame:
+        several = len(group["part"]) > 1
+        called = f"{group['name']}_{place}" if several else group["name"]
+        own = _signals(one["signal"], start, called, codes, 8 * size)
+        return Frame(
+            called, raw["id"], group.get("rate", ""), (*shared, *own),
+            group["description"] + (f": frame {place + 1} of {len(group['part'])}" if several else ""), bytes=size,
+            part=one["number"], part_at=selectors[0].start, by_hand=group.get("by_hand", False),
+            needs_coxa=group.get("coxa", False),
         )
-        for number, part in enumerate(raw["part"])
+
+    groups = tuple(
+        Group(group["name"], group.get("rate", ""), group["description"],
+              tuple(part(group, place, one) for place, one in enumerate(group["part"])))
+        for group in raw["group"]
     )
-    return Multiplexed(name, raw["id"], raw.get("rate", ""), raw["description"], common, parts)
+    return Multiplexed(name, raw["id"], size, raw["description"], common, groups)
 
 
 def _request(
@@ -286,6 +358,11 @@ def _request(
     name, code, answers_as = raw["name"], raw["code"], raw.get("answers_as", "")
     if ("answer" in raw) == bool(answers_as) or (answers_as or name) not in answers_of:
         raise DictionaryError(f"{name}: a request has either [[request.answer]] or answers_as a request that has them")
+    parts = answers_of[answers_as or name]
+    numbers = raw.get("answer_numbers", []) if answers_as else [part["number"] for part in parts]
+    if len(numbers) != len(parts) or (not answers_as and "answer_numbers" in raw):
+        raise DictionaryError(f"{name}: with answers_as a request has answer_numbers, one for each of the "
+                              f"{len(parts)} frames of its answer")
     question = Frame(
         f"{name}_request", request_id, "", _signals(raw.get("field", []), _PAYLOAD_START, name, codes),
         raw["description"], code
@@ -293,9 +370,9 @@ def _request(
     answers = tuple(
         Frame(
             f"{name}_answer_{part}", answer_id, "", _signals(answer["field"], _PAYLOAD_START, name, codes),
-            raw["description"], code + 32 * part,
+            raw["description"], number,
         )
-        for part, answer in enumerate(answers_of[answers_as or name])
+        for part, (number, answer) in enumerate(zip(numbers, parts, strict=True))
     )
     return Request(code, name, raw["description"], question, answers, answers_as)
 
@@ -322,10 +399,10 @@ def _signals(
         )
         if kind not in ("value", "number", "f32") or (kind == "f32" and signal.bits != 32):
             raise DictionaryError(f"{at}: kind {kind} of {signal.bits} bits")
-        if (kind == "value") != ("step" in raw) or signal.unit not in _UNIT_SUFFIX:
+        if (kind == "value") != ("step" in raw) or signal.unit not in UNIT_SUFFIX:
             raise DictionaryError(
                 f"{at}: a value has a step, nothing else has one, and its unit is one of "
-                f"{', '.join(unit or 'none' for unit in _UNIT_SUFFIX)}"
+                f"{', '.join(unit or 'none' for unit in UNIT_SUFFIX)}"
             )
         if table is not None and max(signal.names, default=len(signal.bit_names) - 1) > (
             signal.greatest if signal.names else signal.bits - 1

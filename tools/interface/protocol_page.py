@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from interface.measured import Values
-from interface.messages import Frame, Signal, Wire
+from interface.messages import REFUSED, Frame, Multiplexed, Signal, Wire
 from interface.registers import COMMAND_ENTRY, MEASURED_ENTRY
 
 WRITTEN_AS_ENTRIES = ("stop", "end_test", "life_mac", "seal_mac")  # wire/answers/parameters.c
@@ -47,34 +47,29 @@ def protocol_page(wire: Wire, values: Values, dictionary_hash: int) -> str:
         parts.append(f"\n### {frame.name}, 0x{frame.identifier:03x} + node\n\n{_sentence(frame.description)}"
                      f"{often}\n\n")
         parts.append(_table(frame))
-    for message in wire.multiplexed:
-        parts.append(f"\n### {message.name}, 0x{message.identifier:03x} + node\n\n{_sentence(message.description)}"
-                     f" As often as `{message.rate}` says. Every frame has\n\n{_signals(message.common)}")
-        for frame in message.parts:
-            own = [signal for signal in frame.signals if signal not in message.common]
-            parts.append(f"\nPart {frame.part}:\n\n{_signals(own)}")
+    parts += [_parts(message) for message in wire.classic]
     parts.append(_FD)
     for frame in wire.fd_messages:
         parts.append(f"\n### {frame.name}, 0x{frame.identifier:03x} + node, {frame.bytes} bytes\n\n"
                      f"{_sentence(frame.description)}")
         parts.append(f" As often as `{frame.rate}` says.\n\n")
         parts.append(_table(frame))
+    parts += [_parts(message) for message in wire.fd]
     parts.append(
         f"\n## What it answers\n\nAsked on 0x{wire.request_id:03x} + node, answered on 0x{wire.answer_id:03x} + node. "
-        "Byte 0 is"
-        " the request's code; in an answer plus 32 times its part. Byte 1 is a token that comes back in every part. The"
-        " fields begin at bit 16. The token's upper four bits say which master of the bus asks: masters are answered"
+        "Byte 0 of a request is its code. An answer has one frame or several; byte 0 of each is a number that no other"
+        " frame of any answer has. Byte 1 is a token that comes back in every frame of the answer. The fields begin at"
+        " bit 16. The token's upper four bits say which master of the bus asks: masters are answered"
         " in turn, and what a master has begun (a force that was told, a download) is that master's. A stop is obeyed"
-        " before anything else, commands go before questions, and each port answers one question a tick; an answer of part "
-        f"{wire.refused_part} is a"
-        " refusal:\n\n"
+        " before anything else, commands go before questions, and each port answers one question a tick."
+        f" The number {REFUSED} is a refusal, of whatever request:\n\n"
     )
     parts.append(_table(wire.refusal))
     for request in wire.requests:
         parts.append(f"\n### {request.code} {request.name}\n\n{_sentence(request.description)}\n\n")
         parts.append(_table(request.question) if request.question.signals else "Nothing more is asked.\n")
-        for part, answer in enumerate(request.answers):
-            parts.append(f"\nAnswer, part {part}:\n\n" + _table(answer))
+        for answer in request.answers:
+            parts.append(f"\nAnswer, number {answer.command}:\n\n" + _table(answer))
     parts.append(
         "\n## Entries\n\nFor `read_entry` and `write_entry` parameters have the numbers that"
         " [limb.toml's keys](limb-keys.md) are listed with, half their Modbus addresses; for `read_entry`"
@@ -89,6 +84,17 @@ def protocol_page(wire: Wire, values: Values, dictionary_hash: int) -> str:
     parts += [f"| {COMMAND_ENTRY + v.index} | `{v.name}` | {v.description} |\n"
               for v in values.commands if v.name in WRITTEN_AS_ENTRIES]  # fmt: skip
     return "".join(parts)
+
+
+def _parts(message: Multiplexed) -> str:
+    size = f", {message.bytes} bytes" if message.is_fd else ""
+    text = [f"\n### {message.name}, 0x{message.identifier:03x} + node{size}\n\n{_sentence(message.description)} "
+            f"Every frame has\n\n{_signals(message.common)}"]
+    for group in message.groups:
+        often = f" As often as `{group.rate}` says." if group.rate else ""
+        text.append(f"\n#### {group.name}\n\n{_sentence(group.description)}{often}\n")
+        text += [f"\nPart {frame.part}:\n\n{_signals(message.own(frame))}" for frame in group.parts]
+    return "".join(text)
 
 
 def _sentence(words: str) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from interface.messages import Frame, Signal, Wire
+from interface.messages import REFUSED, Frame, Group, Signal, Wire
 
 
 def frames_module(wire: Wire, dictionary_hash: int) -> str:
@@ -19,21 +19,19 @@ def frames_module(wire: Wire, dictionary_hash: int) -> str:
         f"PROTOCOL = {wire.protocol}",
         f"REQUEST_ID = 0x{wire.request_id:03X}",
         f"ANSWER_ID = 0x{wire.answer_id:03X}",
-        f"REFUSED_PART = {wire.refused_part}",
+        f"REFUSED = {REFUSED}  # the number of an answer that is a refusal",
         "",
         "MESSAGES: dict[str, Layout] = {",
         *(line for frame in wire.messages for line in _entry(frame)),
         "}",
         "",
-        "# Messages that carry a snapshot in parts: each part by its number.",
-        "MULTIPLEXED: dict[str, tuple[Layout, ...]] = {",
-    ]
-    for message in wire.multiplexed:
-        lines.append(f'    "{message.name}": (')
-        for frame in message.parts:
-            lines += ["    " + line for line in _layout(frame)]
-        lines.append("    ),")
-    lines += [
+        "# Groups of frames that share an identifier.",
+        "GROUPS: dict[str, tuple[Layout, ...]] = {",
+        *(line for message in wire.classic for group in message.groups for line in _group(group)),
+        "}",
+        "",
+        "FD_GROUPS: dict[str, tuple[Layout, ...]] = {",
+        *(line for message in wire.fd for group in message.groups for line in _group(group)),
         "}",
         "",
         "FD_MESSAGES: dict[str, Layout] = {",
@@ -55,6 +53,11 @@ def frames_module(wire: Wire, dictionary_hash: int) -> str:
     return "\n".join(lines) + "\n"
 
 
+def _group(group: Group) -> list[str]:
+    layouts = [f"    {line}" for frame in group.parts for line in _layout(frame)]
+    return [f'    "{group.name}": (', *layouts, "    ),"]
+
+
 def _entry(frame: Frame, name: str | None = None) -> list[str]:
     first, *rest = _layout(frame)
     return [f'    "{name or frame.name}": {first.strip()}', *rest]
@@ -70,9 +73,8 @@ def _layout(frame: Frame) -> list[str]:
 
 
 def _further(frame: Frame) -> str:
-    if frame.part is not None:
-        return f", part={frame.part}, part_at={frame.part_at}"
-    return f", {frame.bytes}" if frame.is_fd else ""
+    size = f", {frame.bytes}" if frame.is_fd else ""
+    return size if frame.part is None else f"{size}, part={frame.part}, part_at={frame.part_at}"
 
 
 def _field(signal: Signal) -> str:

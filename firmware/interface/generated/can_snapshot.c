@@ -12,7 +12,18 @@ static bool is_beyond(float value, float most)
     return __builtin_fabsf(value) > most;
 }
 
-static uint32_t stiffness_a_flags(const brace_measured_t *measured)
+void brace_can_make_stiffness_a(const brace_measured_t *measured, float age_ms, uint8_t *data)
+{
+    const brace_can_stiffness_a_t message = {
+        .sequence = measured->sequence & 0xffu,
+        .k_xx_n_per_mm = measured->k_xx_n_per_mm,
+        .k_xz_n_per_mm = measured->k_xz_n_per_mm,
+        .age_ms = age_ms,
+    };
+    (void)brace_can_pack_stiffness_a(&message, data);
+}
+
+static uint32_t stiffness_b_flags(const brace_measured_t *measured)
 {
     const bool is_limited =
         is_beyond(measured->k_xx_n_per_mm, BRACE_CAN_STIFFNESS_A_K_XX_N_PER_MM_MOST) ||
@@ -24,27 +35,16 @@ static uint32_t stiffness_a_flags(const brace_measured_t *measured)
     return measured->flags | (is_limited ? (uint32_t)BRACE_FLAG_SATURATED : 0u);
 }
 
-void brace_can_make_stiffness_a(const brace_measured_t *measured, float age_ms, uint8_t *data)
-{
-    (void)age_ms;
-    const brace_can_stiffness_a_t message = {
-        .sequence = measured->sequence & 0xffu,
-        .flags = stiffness_a_flags(measured),
-        .k_xx_n_per_mm = measured->k_xx_n_per_mm,
-        .k_xz_n_per_mm = measured->k_xz_n_per_mm,
-    };
-    (void)brace_can_pack_stiffness_a(&message, data);
-}
-
 void brace_can_make_stiffness_b(const brace_measured_t *measured, float age_ms, uint8_t *data)
 {
+    (void)age_ms;
     const brace_can_stiffness_b_t message = {
         .sequence = measured->sequence & 0xffu,
         .k_zz_n_per_mm = measured->k_zz_n_per_mm,
-        .age_ms = age_ms,
+        .flags = stiffness_b_flags(measured),
         .play_femur = measured->play_femur,
         .play_tibia = measured->play_tibia,
-        .parameter_tag = measured->parameter_crc & 0xffffu,
+        .mode = measured->mode,
     };
     (void)brace_can_pack_stiffness_b(&message, data);
 }
@@ -68,8 +68,7 @@ void brace_can_make_posture(const brace_measured_t *measured, float age_ms, uint
         .sequence = measured->sequence & 0xffu,
         .theta1_rad = measured->theta1_rad,
         .theta2_rad = measured->theta2_rad,
-        .mode = measured->mode,
-        .faults = measured->faults,
+        .parameter_tag = measured->parameter_crc & 0xffffu,
     };
     (void)brace_can_pack_posture(&message, data);
 }
@@ -138,7 +137,6 @@ void brace_can_make_space_4(const brace_measured_t *measured, float age_ms, uint
         .lambda_3_n_per_mm = measured->space_lambda_3_n_per_mm,
         .flags = space_4_flags(measured),
         .age_ms = age_ms,
-        .play_coxa = measured->play_coxa,
     };
     (void)brace_can_pack_space_4(&message, data);
 }
@@ -162,6 +160,7 @@ void brace_can_make_space_6(const brace_measured_t *measured, float age_ms, uint
         .sequence = measured->sequence & 0xffu,
         .theta0_rad = measured->theta0_rad,
         .k_across_n_per_mm = measured->k_across_n_per_mm,
+        .play_coxa = measured->play_coxa,
     };
     (void)brace_can_pack_space_6(&message, data);
 }
@@ -183,11 +182,11 @@ static uint32_t load_1_flags(const brace_measured_t *measured)
         is_beyond(measured->unloaded_k_xx_n_per_mm, BRACE_CAN_LOAD_0_UNLOADED_K_XX_N_PER_MM_MOST) ||
         is_beyond(measured->unloaded_k_xz_n_per_mm, BRACE_CAN_LOAD_0_UNLOADED_K_XZ_N_PER_MM_MOST) ||
         is_beyond(measured->unloaded_k_zz_n_per_mm, BRACE_CAN_LOAD_1_UNLOADED_K_ZZ_N_PER_MM_MOST) ||
-        is_beyond(measured->gravity_lean_rad, BRACE_CAN_LOAD_1_GRAVITY_LEAN_RAD_MOST) ||
         is_beyond(measured->counted_force_x_n, BRACE_CAN_LOAD_2_COUNTED_FORCE_X_N_MOST) ||
         is_beyond(measured->counted_force_z_n, BRACE_CAN_LOAD_2_COUNTED_FORCE_Z_N_MOST) ||
         is_beyond(measured->moved_x_mm, BRACE_CAN_LOAD_3_MOVED_X_MM_MOST) ||
-        is_beyond(measured->moved_z_mm, BRACE_CAN_LOAD_3_MOVED_Z_MM_MOST);
+        is_beyond(measured->moved_z_mm, BRACE_CAN_LOAD_3_MOVED_Z_MM_MOST) ||
+        is_beyond(measured->gravity_lean_rad, BRACE_CAN_LOAD_5_GRAVITY_LEAN_RAD_MOST);
     return measured->flags | (is_limited ? (uint32_t)BRACE_FLAG_SATURATED : 0u);
 }
 
@@ -197,7 +196,6 @@ void brace_can_make_load_1(const brace_measured_t *measured, float age_ms, uint8
     const brace_can_load_1_t message = {
         .sequence = measured->sequence & 0xffu,
         .unloaded_k_zz_n_per_mm = measured->unloaded_k_zz_n_per_mm,
-        .gravity_lean_rad = measured->gravity_lean_rad,
         .flags = load_1_flags(measured),
     };
     (void)brace_can_pack_load_1(&message, data);
@@ -236,6 +234,16 @@ void brace_can_make_load_4(const brace_measured_t *measured, float age_ms, uint8
     (void)brace_can_pack_load_4(&message, data);
 }
 
+void brace_can_make_load_5(const brace_measured_t *measured, float age_ms, uint8_t *data)
+{
+    (void)age_ms;
+    const brace_can_load_5_t message = {
+        .sequence = measured->sequence & 0xffu,
+        .gravity_lean_rad = measured->gravity_lean_rad,
+    };
+    (void)brace_can_pack_load_5(&message, data);
+}
+
 void brace_can_make_load_across_0(const brace_measured_t *measured, float age_ms, uint8_t *data)
 {
     (void)age_ms;
@@ -267,11 +275,81 @@ void brace_can_make_load_across_1(const brace_measured_t *measured, float age_ms
     (void)brace_can_pack_load_across_1(&message, data);
 }
 
+void brace_can_make_sigma_0(const brace_measured_t *measured, float age_ms, uint8_t *data)
+{
+    (void)age_ms;
+    const brace_can_sigma_0_t message = {
+        .sequence = measured->sequence & 0xffu,
+        .k_xx_n_per_mm = measured->sigma_k_xx_n_per_mm,
+        .k_xz_n_per_mm = measured->sigma_k_xz_n_per_mm,
+        .k_zz_n_per_mm = measured->sigma_k_zz_n_per_mm,
+    };
+    (void)brace_can_pack_sigma_0(&message, data);
+}
+
+void brace_can_make_sigma_1(const brace_measured_t *measured, float age_ms, uint8_t *data)
+{
+    (void)age_ms;
+    const brace_can_sigma_1_t message = {
+        .sequence = measured->sequence & 0xffu,
+        .lambda_min_n_per_mm = measured->sigma_lambda_min_n_per_mm,
+        .lambda_max_n_per_mm = measured->sigma_lambda_max_n_per_mm,
+        .stiff_axis_rad = measured->sigma_stiff_axis_rad,
+    };
+    (void)brace_can_pack_sigma_1(&message, data);
+}
+
+void brace_can_make_sigma_space_0(const brace_measured_t *measured, float age_ms, uint8_t *data)
+{
+    (void)age_ms;
+    const brace_can_sigma_space_0_t message = {
+        .sequence = measured->sequence & 0xffu,
+        .k_xx_n_per_mm = measured->sigma_space_k_xx_n_per_mm,
+        .k_xy_n_per_mm = measured->sigma_space_k_xy_n_per_mm,
+        .k_xz_n_per_mm = measured->sigma_space_k_xz_n_per_mm,
+    };
+    (void)brace_can_pack_sigma_space_0(&message, data);
+}
+
+void brace_can_make_sigma_space_1(const brace_measured_t *measured, float age_ms, uint8_t *data)
+{
+    (void)age_ms;
+    const brace_can_sigma_space_1_t message = {
+        .sequence = measured->sequence & 0xffu,
+        .k_yy_n_per_mm = measured->sigma_space_k_yy_n_per_mm,
+        .k_yz_n_per_mm = measured->sigma_space_k_yz_n_per_mm,
+        .k_zz_n_per_mm = measured->sigma_space_k_zz_n_per_mm,
+    };
+    (void)brace_can_pack_sigma_space_1(&message, data);
+}
+
+void brace_can_make_sigma_space_2(const brace_measured_t *measured, float age_ms, uint8_t *data)
+{
+    (void)age_ms;
+    const brace_can_sigma_space_2_t message = {
+        .sequence = measured->sequence & 0xffu,
+        .lambda_1_n_per_mm = measured->sigma_space_lambda_1_n_per_mm,
+        .lambda_2_n_per_mm = measured->sigma_space_lambda_2_n_per_mm,
+        .lambda_3_n_per_mm = measured->sigma_space_lambda_3_n_per_mm,
+    };
+    (void)brace_can_pack_sigma_space_2(&message, data);
+}
+
+void brace_can_make_sigma_space_3(const brace_measured_t *measured, float age_ms, uint8_t *data)
+{
+    (void)age_ms;
+    const brace_can_sigma_space_3_t message = {
+        .sequence = measured->sequence & 0xffu,
+        .k_across_n_per_mm = measured->sigma_k_across_n_per_mm,
+    };
+    (void)brace_can_pack_sigma_space_3(&message, data);
+}
+
 void brace_can_make_snapshot_fd(const brace_measured_t *measured, float age_ms, uint8_t *data)
 {
     const brace_can_snapshot_fd_t message = {
         .sequence = measured->sequence,
-        .parameter_crc = measured->parameter_crc,
+        .parameter_tag = measured->parameter_crc & 0xffffu,
         .age_ms = age_ms,
         .flags = measured->flags,
         .mode = measured->mode,
@@ -297,12 +375,16 @@ void brace_can_make_snapshot_fd(const brace_measured_t *measured, float age_ms, 
 void brace_can_make_space_fd(const brace_measured_t *measured, float age_ms, uint8_t *data)
 {
     const brace_can_space_fd_t message = {
-        .sequence = measured->sequence,
+        .sequence = measured->sequence & 0xffu,
         .age_ms = age_ms,
-        .parameter_tag = measured->parameter_crc & 0xffffu,
         .flags = measured->space_flags,
+        .parameter_tag = measured->parameter_crc & 0xffffu,
         .mode = measured->mode,
         .play_coxa = measured->play_coxa,
+        .stiff_axis_x = measured->space_stiff_axis_x,
+        .stiff_axis_y = measured->space_stiff_axis_y,
+        .stiff_axis_z = measured->space_stiff_axis_z,
+        .theta0_rad = measured->theta0_rad,
         .k_across_n_per_mm = measured->k_across_n_per_mm,
         .k_xx_n_per_mm = measured->space_k_xx_n_per_mm,
         .k_xy_n_per_mm = measured->space_k_xy_n_per_mm,
@@ -313,10 +395,6 @@ void brace_can_make_space_fd(const brace_measured_t *measured, float age_ms, uin
         .lambda_1_n_per_mm = measured->space_lambda_1_n_per_mm,
         .lambda_2_n_per_mm = measured->space_lambda_2_n_per_mm,
         .lambda_3_n_per_mm = measured->space_lambda_3_n_per_mm,
-        .theta0_rad = measured->theta0_rad,
-        .stiff_axis_x = measured->space_stiff_axis_x,
-        .stiff_axis_y = measured->space_stiff_axis_y,
-        .stiff_axis_z = measured->space_stiff_axis_z,
     };
     (void)brace_can_pack_space_fd(&message, data);
 }
@@ -324,9 +402,10 @@ void brace_can_make_space_fd(const brace_measured_t *measured, float age_ms, uin
 void brace_can_make_load_fd(const brace_measured_t *measured, float age_ms, uint8_t *data)
 {
     const brace_can_load_fd_t message = {
-        .sequence = measured->sequence,
+        .sequence = measured->sequence & 0xffu,
         .age_ms = age_ms,
         .flags = measured->flags,
+        .parameter_tag = measured->parameter_crc & 0xffffu,
         .unloaded_k_xx_n_per_mm = measured->unloaded_k_xx_n_per_mm,
         .unloaded_k_xz_n_per_mm = measured->unloaded_k_xz_n_per_mm,
         .unloaded_k_zz_n_per_mm = measured->unloaded_k_zz_n_per_mm,
@@ -342,4 +421,29 @@ void brace_can_make_load_fd(const brace_measured_t *measured, float age_ms, uint
         .unloaded_k_across_n_per_mm = measured->unloaded_k_across_n_per_mm,
     };
     (void)brace_can_pack_load_fd(&message, data);
+}
+
+void brace_can_make_sigma_fd(const brace_measured_t *measured, float age_ms, uint8_t *data)
+{
+    (void)age_ms;
+    const brace_can_sigma_fd_t message = {
+        .sequence = measured->sequence & 0xffu,
+        .stiff_axis_rad = measured->sigma_stiff_axis_rad,
+        .k_xx_n_per_mm = measured->sigma_k_xx_n_per_mm,
+        .k_xz_n_per_mm = measured->sigma_k_xz_n_per_mm,
+        .k_zz_n_per_mm = measured->sigma_k_zz_n_per_mm,
+        .lambda_min_n_per_mm = measured->sigma_lambda_min_n_per_mm,
+        .lambda_max_n_per_mm = measured->sigma_lambda_max_n_per_mm,
+        .space_k_xx_n_per_mm = measured->sigma_space_k_xx_n_per_mm,
+        .space_k_xy_n_per_mm = measured->sigma_space_k_xy_n_per_mm,
+        .space_k_xz_n_per_mm = measured->sigma_space_k_xz_n_per_mm,
+        .space_k_yy_n_per_mm = measured->sigma_space_k_yy_n_per_mm,
+        .space_k_yz_n_per_mm = measured->sigma_space_k_yz_n_per_mm,
+        .space_k_zz_n_per_mm = measured->sigma_space_k_zz_n_per_mm,
+        .space_lambda_1_n_per_mm = measured->sigma_space_lambda_1_n_per_mm,
+        .space_lambda_2_n_per_mm = measured->sigma_space_lambda_2_n_per_mm,
+        .space_lambda_3_n_per_mm = measured->sigma_space_lambda_3_n_per_mm,
+        .k_across_n_per_mm = measured->sigma_k_across_n_per_mm,
+    };
+    (void)brace_can_pack_sigma_fd(&message, data);
 }

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stddef.h>
 
-_Static_assert(sizeof(brace_parameters_t) == 4 * 113, "the dictionary lists every member");
+_Static_assert(sizeof(brace_parameters_t) == 4 * 114, "the dictionary lists every member");
 _Static_assert(offsetof(brace_parameters_t, limb.coxa_mm) == 0, "order");
 _Static_assert(offsetof(brace_parameters_t, limb.femur_mm) == 4, "order");
 _Static_assert(offsetof(brace_parameters_t, limb.tibia_mm) == 8, "order");
@@ -112,13 +112,14 @@ _Static_assert(offsetof(brace_parameters_t, controller.age_limit_us) == 408, "or
 _Static_assert(offsetof(brace_parameters_t, controller.stiffness_hz) == 412, "order");
 _Static_assert(offsetof(brace_parameters_t, controller.posture_hz) == 416, "order");
 _Static_assert(offsetof(brace_parameters_t, controller.load_hz) == 420, "order");
-_Static_assert(offsetof(brace_parameters_t, controller.heartbeat_hz) == 424, "order");
-_Static_assert(offsetof(brace_parameters_t, controller.bus_load_ratio) == 428, "order");
-_Static_assert(offsetof(brace_parameters_t, controller.can_fd_bit_rate) == 432, "order");
-_Static_assert(offsetof(brace_parameters_t, controller.let_go_after_ms) == 436, "order");
-_Static_assert(offsetof(brace_parameters_t, controller.stop_id) == 440, "order");
-_Static_assert(offsetof(brace_parameters_t, controller.modbus_address) == 444, "order");
-_Static_assert(offsetof(brace_parameters_t, controller.modbus_baud) == 448, "order");
+_Static_assert(offsetof(brace_parameters_t, controller.sigma_hz) == 424, "order");
+_Static_assert(offsetof(brace_parameters_t, controller.heartbeat_hz) == 428, "order");
+_Static_assert(offsetof(brace_parameters_t, controller.bus_load_ratio) == 432, "order");
+_Static_assert(offsetof(brace_parameters_t, controller.can_fd_bit_rate) == 436, "order");
+_Static_assert(offsetof(brace_parameters_t, controller.let_go_after_ms) == 440, "order");
+_Static_assert(offsetof(brace_parameters_t, controller.stop_id) == 444, "order");
+_Static_assert(offsetof(brace_parameters_t, controller.modbus_address) == 448, "order");
+_Static_assert(offsetof(brace_parameters_t, controller.modbus_baud) == 452, "order");
 
 const float brace_f32_range[25][2] = {
     {0.0f, 10000.0f},
@@ -167,11 +168,11 @@ const uint32_t brace_u32_choices[2][9] = {
 };
 
 /* For each member: its range of floats, or of whole numbers after these, or its choices after those. */
-const uint8_t brace_parameter_rule[113] = {
+const uint8_t brace_parameter_rule[114] = {
     0, 1, 1, 2, 2, 3, 2, 4, 4, 2, 2, 3, 2, 4, 4, 2, 2, 3, 2, 4, 4, 4, 5, 6, 4, 5, 6, 4, 5, 6, 2, 2, 4, 7, 5,
     4, 4, 8, 9, 10, 11, 4, 11, 12, 11, 11, 13, 14, 14, 12, 8, 9, 10, 11, 4, 11, 12, 11, 11, 13, 14, 14, 12, 8,
     9, 10, 11, 4, 11, 12, 11, 11, 13, 14, 14, 12, 11, 11, 11, 15, 3, 16, 16, 17, 15, 18, 18, 19, 19, 20, 11,
-    2, 21, 18, 22, 2, 23, 25, 17, 26, 35, 27, 28, 29, 29, 29, 30, 24, 31, 32, 33, 34, 36,
+    2, 21, 18, 22, 2, 23, 25, 17, 26, 35, 27, 28, 29, 29, 29, 29, 30, 24, 31, 32, 33, 34, 36,
 };
 
 const brace_parameters_t brace_parameters_safe = {
@@ -228,8 +229,9 @@ const brace_parameters_t brace_parameters_safe = {
     .controller.age_limit_us = 20000u,
     .controller.stiffness_hz = 200u,
     .controller.posture_hz = 20u,
+    .controller.sigma_hz = 10u,
     .controller.heartbeat_hz = 1u,
-    .controller.bus_load_ratio = 0.06f,
+    .controller.bus_load_ratio = 0.0625f,
     .controller.stop_id = 1u,
     .controller.modbus_address = 1u,
     .controller.modbus_baud = 115200u,
@@ -342,6 +344,7 @@ static const char *const keys[] = {
     "controller.stiffness_hz",
     "controller.posture_hz",
     "controller.load_hz",
+    "controller.sigma_hz",
     "controller.heartbeat_hz",
     "controller.bus_load_ratio",
     "controller.can_fd_bit_rate",
@@ -359,7 +362,7 @@ static const char *const units[] = {
     "N mm", "", "N mm/rad^3", "N mm", "", "N mm s^2/rad", "N mm", "N mm", "N mm", "rad", "rad", "rad", "N mm",
     "N mm", "", "N mm/rad^3", "N mm", "", "N mm s^2/rad", "N mm", "N mm", "N mm", "rad", "rad", "rad", "N mm",
     "N", "N", "N", "rad", "rad", "N", "N", "", "rad", "", "", "N/s", "N/s", "N", "N", "", "s", "1/degC",
-    "degC", "mm", "s", "", "", "", "bit/s", "us", "us", "Hz", "Hz", "Hz", "Hz", "", "bit/s", "", "", "",
+    "degC", "mm", "s", "", "", "", "bit/s", "us", "us", "Hz", "Hz", "Hz", "Hz", "Hz", "", "bit/s", "", "", "",
     "bit/s",
 };
 
@@ -377,8 +380,8 @@ const uint16_t brace_parameter_indices[BRACE_PARAMETER_NUMBERS] = {
     0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27, 28,
     29, 30, 31, 32, 33, 34, 35, 36, 37, 38, 39, 40, 41, 42, 43, 44, 45, 46, 47, 48, 49, 50, 51, 52, 53, 54,
     55, 56, 57, 58, 59, 60, 61, 62, 63, 64, 65, 66, 67, 68, 69, 70, 71, 72, 73, 74, 75, 76, 77, 78, 81, 82,
-    83, 84, 85, 86, 87, 88, 89, 90, 91, 92, 93, 94, 95, 96, 97, 98, 99, 100, 101, 102, 103, 104, 106, 107,
-    108, 111, 112, 79, 80, 105, 109, 110,
+    83, 84, 85, 86, 87, 88, 89, 90, 91, 92, 93, 94, 95, 96, 97, 98, 99, 100, 101, 102, 103, 104, 107, 108,
+    109, 112, 113, 79, 80, 105, 110, 111, 106,
 };
 
 uint32_t brace_parameter_number(uint32_t index)
@@ -388,7 +391,7 @@ uint32_t brace_parameter_number(uint32_t index)
         29, 30, 31, 32, 33, 34, 35, 36, 37, 38, 39, 40, 41, 42, 43, 44, 45, 46, 47, 48, 49, 50, 51, 52, 53, 54,
         55, 56, 57, 58, 59, 60, 61, 62, 63, 64, 65, 66, 67, 68, 69, 70, 71, 72, 73, 74, 75, 76, 77, 78, 108, 109,
         79, 80, 81, 82, 83, 84, 85, 86, 87, 88, 89, 90, 91, 92, 93, 94, 95, 96, 97, 98, 99, 100, 101, 102, 110,
-        103, 104, 105, 111, 112, 106, 107,
+        113, 103, 104, 105, 111, 112, 106, 107,
     };
     return index < BRACE_PARAMETER_COUNT ? number[index] : (uint32_t)BRACE_PARAMETER_NUMBERS;
 }

@@ -307,15 +307,23 @@ void brace_can_unpack_request(const uint8_t data[8], brace_request_t *asked)
     }
 }
 
-/* A frame begins with code and part, then the token (the dictionary's tests); the rest is any (codec_numbers,
+/* A frame begins with its number, then the token (the dictionary's tests); the rest is any (codec_numbers,
  * codec_whole). */
+static uint8_t number_of(uint32_t code, uint32_t part)
+{
+    const uint32_t number = any_u8();
+    ASSUME(brace_can_answer_frames[number].parts > 0u && brace_can_answer_frames[number].code == code &&
+           brace_can_answer_frames[number].part == part);
+    return (uint8_t)number;
+}
+
 void brace_can_pack_answer(uint32_t code, const brace_answer_t *answer, uint32_t token, uint8_t (*parts)[8])
 {
     (void)answer;
     for (uint32_t i = 0; i < brace_can_answer_parts[code]; i++) { /* at most BRACE_CAN_ANSWER_PARTS_MOST */
         uint8_t any[8];
         memcpy(parts[i], any, 8);
-        parts[i][0] = (uint8_t)(code + i * BRACE_ANSWER_PART);
+        parts[i][0] = number_of(code, i);
         parts[i][1] = (uint8_t)token;
     }
 }
@@ -354,8 +362,11 @@ static void answers_are_of(const can_answers_t *answers, const uint8_t *request,
     PROVE(later ? count == 0u : count >= 1u, "an answer or a refusal, at once; or later, when it is stored");
     ASSUME(which < count); /* any part, so all */
     const uint8_t *part = answers->frame[(answers->first + before + which) % CAN_ANSWERS_ROOM];
-    PROVE((part[0] & 31u) == request[0] && part[1] == request[1], "with the request's code and token");
-    PROVE(part[0] >> 5 == which || (part[0] >> 5 == 7u && count == 1u), "its parts in order, or one refusal");
+    const brace_can_answer_frame_t *is = &brace_can_answer_frames[part[0]];
+    const bool is_refusal = part[0] == BRACE_ANSWER_REFUSED;
+    PROVE((is_refusal ? part[2] : is->code) == request[0] && part[1] == request[1],
+          "with the request's code and token");
+    PROVE(is_refusal ? count == 1u : is->parts > 0u && is->part == which, "its parts in order, or one refusal");
 }
 
 int main(void)
@@ -370,7 +381,6 @@ int main(void)
     const can_answers_t *answers = &port.answers;
     const uint32_t at = any_u32();
     ASSUME(*(const uint8_t *)&transfer->upload_is_open <= 1u);
-    ASSUME(data[0] < BRACE_ANSWER_PART); /* else it is not taken for one */
     ASSUME(answers->first < CAN_ANSWERS_ROOM && answers->count + BRACE_CAN_ANSWER_PARTS_MOST <= CAN_ANSWERS_ROOM);
     ASSUME(transfer->upload_next <= BRACE_BLOCK_BYTES / 4 && transfer->download_next <= BRACE_BLOCK_BYTES / 4);
     open_for_writing = any_bool();

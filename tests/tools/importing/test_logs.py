@@ -214,7 +214,7 @@ def test_our_own_recordings(brace: Brace, tmp_path: Path, one_pose: Record, endi
         for frame in read(rig.candump(tmp_path, one_pose, database=rig.ELEVEN_BITS))
     ]
     heart = b"\5\0\0\0" + DICTIONARY_HASH.to_bytes(4, "little")
-    posture = MESSAGES["posture"].encode({"sequence": 1, **theta, "mode": 0, "faults": 0})
+    posture = MESSAGES["posture"].encode({"sequence": 1, **theta, "parameter_tag": 0})
     begin = frames[0].time_s
     for second in range(0, 250):
         frames.append(Frame(begin + second, MESSAGES["heartbeat"].identifier + 2, heart))

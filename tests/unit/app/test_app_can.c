@@ -50,13 +50,31 @@ static void test_a_heartbeat_each_second_tells_mode_faults_and_dictionary(void)
     TEST_ASSERT_EQUAL(8, frame.length);
     TEST_ASSERT_EQUAL_HEX8(0x05, frame.data[0]);
     TEST_ASSERT_EQUAL(BRACE_MODE_MONITOR, frame.data[1]);
-    TEST_ASSERT_EQUAL(0, frame.data[2]);
-    TEST_ASSERT_EQUAL_HEX8(BRACE_SETTING_BENCH << 6, frame.data[3]);
+    TEST_ASSERT_EQUAL_HEX8(BRACE_SETTING_BENCH, frame.data[2]);
+    TEST_ASSERT_EQUAL(2, frame.data[3]); /* the protocol */
     TEST_ASSERT_EQUAL_HEX32(BRACE_DICTIONARY_HASH, u32(&frame.data[4]));
     TEST_ASSERT_EQUAL(10, frames(0x705, 10005));
     TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_enter(&app));
     TEST_ASSERT_TRUE(frame_with(0x705, 10, &frame));
     TEST_ASSERT_EQUAL_HEX8(0x7f, frame.data[0]);
+}
+
+/* Whoever begins to listen knows every fault within a second, though nothing changes. */
+static void test_a_newcomer_knows_the_faults_within_a_second(void)
+{
+    brace_can_frame_t frame;
+    ticks(10);
+    fake.joint[BRACE_TIBIA].not_newer = true;
+    ticks(1500);
+    while (brace_fake_frame_take(&fake, &frame)) { /* nobody has heard that */
+    }
+    TEST_ASSERT_TRUE(frame_with(0x705, 1000, &frame));
+    do { /* in the tick behind it */
+        TEST_ASSERT_TRUE(frame_with(0x205, 2, &frame));
+    } while (brace_can_details_part(frame.data) != BRACE_CAN_PART_CONDITION);
+    TEST_ASSERT_EQUAL_HEX32(BRACE_FAULT_SENSOR_TIBIA, u32(&frame.data[2]));
+    TEST_ASSERT_EQUAL(BRACE_MODE_FAULT, frame.data[6]);
+    TEST_ASSERT_EQUAL(BRACE_SETTING_BENCH, frame.data[7]);
 }
 
 static void test_a_fault_is_told_at_once_and_so_is_its_end(void)
@@ -236,7 +254,7 @@ static void test_only_a_request_that_does_not_exist_is_unknown(void)
         const uint32_t before = counters().frames_unknown;
         TEST_ASSERT_TRUE(brace_fake_frame_arrives(&fake, &row[i].frame));
         TEST_ASSERT_TRUE(frame_with(0x585, 10, &answer));
-        TEST_ASSERT_EQUAL(row[i].status == BRACE_OK, answer.data[0] < 0xe0u);
+        TEST_ASSERT_EQUAL(row[i].status == BRACE_OK, answer.data[0] != BRACE_ANSWER_REFUSED);
         if (row[i].status != BRACE_OK) {
             brace_can_refusal_t refusal;
             brace_can_unpack_refusal(answer.data, &refusal);
@@ -253,6 +271,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_a_heartbeat_each_second_tells_mode_faults_and_dictionary);
+    RUN_TEST(test_a_newcomer_knows_the_faults_within_a_second);
     RUN_TEST(test_a_fault_is_told_at_once_and_so_is_its_end);
     RUN_TEST(test_a_node_without_a_number_listens_and_is_silent);
     RUN_TEST(test_the_bit_rate_is_the_parameters);

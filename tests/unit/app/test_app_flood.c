@@ -4,6 +4,8 @@
  *
  * The limb is that of test_app_takeup.c: links held by the ground, each motor behind its gap pulled by a servo. One
  * joint's motor moves a little in every tick, so that a K of older samples shows: it is that of a snapshot before. */
+#include <stdlib.h>
+
 #include "can_bench.h"
 #include "mode/mode.h"
 #include "modbus_master.h"
@@ -213,17 +215,24 @@ static bool is_answered_on_bus(void)
     brace_can_frame_t frame;
     bool answered = false;
     while (brace_fake_frame_take(&fake, &frame)) {
-        answered = answered || (frame.id == 0x580u + NODE && frame.data[0] < 0xe0u);
+        answered = answered || (frame.id == 0x580u + NODE && !is_refusal(frame.data));
     }
     return answered;
 }
 
 static bool is_answered_as_text(void)
 {
-    char text[800];
+    char text[4000];
     const uint32_t count = brace_fake_bytes_take(&fake, BRACE_SERIAL_SLCAN, (uint8_t *)text, sizeof text - 1u);
     text[count] = '\0';
-    return strstr(text, "t58580") != NULL || strstr(text, "t58581") != NULL; /* codes below 0x20 */
+    for (const char *answer = strstr(text, "t5858"); answer != NULL; answer = strstr(answer + 5, "t5858")) {
+        const char digits[] = {answer[5], answer[6], '\0'};
+        const brace_can_answer_frame_t *is = &brace_can_answer_frames[strtoul(digits, NULL, 16)];
+        if (is->parts > 0u && is->part == 0u) {
+            return true;
+        }
+    }
+    return false;
 }
 
 static bool is_answered_over_tcp(void)

@@ -107,7 +107,7 @@ static void test_without_a_force_the_weight_counts(void)
     brace_can_k_at_posture_answer_0_t a;
     brace_can_pack_k_at_posture_request(&(brace_can_k_at_posture_request_t){4, 0.8f, 1.2f}, data);
     const answer_t answer = ask_within(data, K_TICKS);
-    TEST_ASSERT_EQUAL(3, answer.count);
+    TEST_ASSERT_EQUAL(4, answer.count);
     brace_can_unpack_k_at_posture_answer_0(answer.part[0], &a);
     const brace_loaded_stiffness_t k = expected(0.8f, 1.2f, 0.0f, 0.0f);
     ASSERT_CLOSE(k.stiffness.k_xx_n_per_mm, a.k_xx_n_per_mm, 4e-4);
@@ -363,8 +363,8 @@ static void test_four_ports_that_ask_at_once_are_answered_within_twelve_ticks(vo
             answer_t answer = {0};
             ticks(1);
             collect(&answer);
-            answered[0] = answered[0] || answer.count == 3;
-            answered[1] = answered[1] || heard_on(BRACE_SERIAL_SLCAN) > 3u * 20u;
+            answered[0] = answered[0] || answer.count == 4;
+            answered[1] = answered[1] || heard_on(BRACE_SERIAL_SLCAN) > 4u * 20u;
             answered[2] = answered[2] || heard_on(BRACE_SERIAL_MODBUS) == 8u;
             answered[3] = answered[3] || heard_on(BRACE_SERIAL_MODBUS_TCP) == 12u;
         }

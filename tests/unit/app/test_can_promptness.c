@@ -96,8 +96,8 @@ static heard_t answers_of_tick(uint8_t token)
     ticks(1);
     while (brace_fake_frame_take(&fake, &frame)) {
         if (frame.id == 0x580u + NODE) {
-            const bool ours = (frame.data[0] & 31u) == BRACE_REQUEST_K_AT_POSTURE && frame.data[1] == token;
-            heard.k_parts += ours && frame.data[0] < 0xe0u;
+            const bool ours = answered_code(frame.data) == BRACE_REQUEST_K_AT_POSTURE && frame.data[1] == token;
+            heard.k_parts += ours && !is_refusal(frame.data);
             heard.others += !ours;
         }
     }
@@ -155,7 +155,7 @@ static uint32_t worst_wait(const traffic_t *traffic)
             const heard_t heard = answers_of_tick(token);
             watch_k();
             worst = waited > worst ? waited : worst;
-            if (heard.k_parts == 3u) {
+            if (heard.k_parts == 4u) {
                 break;
             }
             TEST_ASSERT_TRUE(waited < 20u);
@@ -270,7 +270,7 @@ static void test_behind_questions_for_the_tip(void)
             parts = answers_of_tick(0).others;
             watch_k();
         }
-        TEST_ASSERT_EQUAL(3, parts);
+        TEST_ASSERT_EQUAL(4, parts);
     }
     TEST_ASSERT_EQUAL(ticks_watched, ticks_with_k);
 }
@@ -326,8 +326,8 @@ static uint32_t parts_as_text(uint32_t token)
     uint32_t parts = 0;
     const uint32_t length = brace_fake_bytes_take(&fake, BRACE_SERIAL_SLCAN, (uint8_t *)text, sizeof text - 1u);
     text[length] = '\0';
-    for (uint32_t i = 0; i < 3u; i++) {
-        (void)snprintf(part, sizeof part, "t5858%02X%02X", (unsigned)(BRACE_REQUEST_K_AT_POSTURE + 32u * i),
+    for (uint32_t i = 0; i < 4u; i++) {
+        (void)snprintf(part, sizeof part, "t5858%02X%02X", (unsigned)answer_number(BRACE_REQUEST_K_AT_POSTURE, i),
                        (unsigned)token);
         parts += strstr(text, part) != NULL;
     }
@@ -371,8 +371,8 @@ static void test_over_slcan(void)
             as_text += parts_as_text(token);
             watch_k();
         }
-        TEST_ASSERT_EQUAL(3, on_bus);
-        TEST_ASSERT_EQUAL(3, as_text);
+        TEST_ASSERT_EQUAL(4, on_bus);
+        TEST_ASSERT_EQUAL(4, as_text);
     }
     TEST_ASSERT_EQUAL(ticks_watched, ticks_with_k);
 }

@@ -4,6 +4,7 @@
 
 #include <string.h>
 
+#include "answer_frames.h"
 #include "app_bench.h"
 #include "brace/can_messages.h"
 #include "brace/measured.h"
@@ -74,8 +75,9 @@ static inline brace_can_refusal_t refusal_of(const answer_t *answer, uint32_t co
 {
     brace_can_refusal_t refusal = {0};
     TEST_ASSERT_EQUAL(1, answer->count);
-    TEST_ASSERT_EQUAL_HEX8(0xe0u | code, answer->part[0][0]);
+    TEST_ASSERT_EQUAL_HEX8(BRACE_ANSWER_REFUSED, answer->part[0][0]);
     brace_can_unpack_refusal(answer->part[0], &refusal);
+    TEST_ASSERT_EQUAL(code, refusal.code);
     return refusal;
 }
 
@@ -93,7 +95,7 @@ static inline uint32_t read_entry(uint32_t index)
     brace_can_pack_read_entry_request(&(brace_can_read_entry_request_t){9, index}, data);
     const answer_t answer = ask(data);
     TEST_ASSERT_EQUAL(1, answer.count);
-    TEST_ASSERT_EQUAL_HEX8(BRACE_REQUEST_READ_ENTRY, answer.part[0][0]);
+    TEST_ASSERT_EQUAL_HEX8(BRACE_READ_ENTRY_ANSWER_0, answer.part[0][0]);
     brace_can_unpack_read_entry_answer_0(answer.part[0], &read);
     TEST_ASSERT_EQUAL(index, read.index);
     TEST_ASSERT_EQUAL(9, read.token);

@@ -79,7 +79,7 @@ static void test_a_bit_that_changes_changes_one_field_alone(void)
 /* A request that is unpacked and an answer that is packed as a whole go the same way as their frames. */
 static void test_every_request_is_unpacked_and_every_answer_packed(void)
 {
-    for (uint32_t code = 0; code < 32u; code++) {
+    for (uint32_t code = 0; code < 256u; code++) {
         uint8_t data[8] = {(uint8_t)code, 0x5a, 1, 0, 0, 0, 0, 0}, parts[8][8];
         brace_request_t asked;
         brace_answer_t answer;
@@ -90,7 +90,11 @@ static void test_every_request_is_unpacked_and_every_answer_packed(void)
         brace_can_pack_answer(code, &answer, 0x5au, parts);
         for (uint32_t part = 0; part < 8u; part++) {
             const bool there = part < brace_can_answer_parts[code];
-            TEST_ASSERT_EQUAL_HEX8(there ? code + BRACE_ANSWER_PART * part : 0xeeu, parts[part][0]);
+            const brace_can_answer_frame_t *is = &brace_can_answer_frames[parts[part][0]];
+            TEST_ASSERT_EQUAL(there ? code : is->code, is->code);
+            TEST_ASSERT_EQUAL(there ? part : is->part, is->part);
+            TEST_ASSERT_EQUAL(there ? brace_can_answer_parts[code] : is->parts, is->parts);
+            TEST_ASSERT_EQUAL(there, parts[part][0] != 0xeeu);
             TEST_ASSERT_EQUAL_HEX8(there ? 0x5au : 0xeeu, parts[part][1]);
         }
     }
@@ -100,9 +104,8 @@ static void test_a_part_says_which_it_is(void)
 {
     for (uint32_t part = 0; part < 256u; part++) {
         const uint8_t data[8] = {9, (uint8_t)part, 7, 7, 7, 7, 7, 7};
-        TEST_ASSERT_EQUAL(part, brace_can_space_part(data));
-        TEST_ASSERT_EQUAL(part, brace_can_load_part(data));
-        TEST_ASSERT_EQUAL(part, brace_can_load_across_part(data));
+        TEST_ASSERT_EQUAL(part, brace_can_details_part(data));
+        TEST_ASSERT_EQUAL(part, brace_can_details_fd_part(data));
     }
 }
 
@@ -117,7 +120,7 @@ static void test_every_measured_frame_is_made_of_its_values(void)
         memcpy((uint8_t *)&other + 4u * i, &one, 4);
     }
     other.sequence = 7;
-#define MADE(ID, name, rate)                                                            \
+#define MADE(ID, name, rate, coxa)                                                      \
     {                                                                                   \
         uint8_t of_zeros[MOST_BYTES] = {0}, of_ones[MOST_BYTES] = {0};                  \
         brace_can_make_##name(&measured, 0.0f, of_zeros);                               \

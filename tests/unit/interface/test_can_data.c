@@ -21,6 +21,8 @@ static uint32_t of(const count_t *count, uint32_t function)
     return count->function[function >> 7];
 }
 
+static uint32_t all_conditions; /* that have come in all runs */
+
 static count_t run(int count)
 {
     count_t seen = {0};
@@ -31,9 +33,16 @@ static count_t run(int count)
             TEST_ASSERT_EQUAL(NODE, frame.id & 0x7fu);
             seen.function[frame.id >> 7]++;
             seen.all++;
+            all_conditions += frame.id == (uint32_t)BRACE_CAN_ID_DETAILS + NODE &&
+                              brace_can_details_part(frame.data) == BRACE_CAN_PART_CONDITION;
         }
     }
     return seen;
+}
+
+static void without_rates(brace_parameters_t *p)
+{
+    p->controller.stiffness_hz = p->controller.posture_hz = p->controller.load_hz = p->controller.sigma_hz = 0;
 }
 
 static void test_rates_are_the_parameters(void)
@@ -46,20 +55,23 @@ static void test_rates_are_the_parameters(void)
     TEST_ASSERT_UINT32_WITHIN(1, 200, of(&seen, 0x380));
     TEST_ASSERT_UINT32_WITHIN(1, 200, of(&seen, 0x480));
     TEST_ASSERT_UINT32_WITHIN(1, 10, of(&seen, 0x700));
+    /* sigma in two parts, a condition with each heartbeat */
+    TEST_ASSERT_UINT32_WITHIN(3, 2 * 100 + 10, of(&seen, 0x200));
     TEST_ASSERT_EQUAL(0, of(&seen, 0x080));
 }
 
 static void test_rates_of_zero_are_silence_but_for_the_heartbeat(void)
 {
     brace_parameters_t p = bench_parameters();
-    p.controller.stiffness_hz = p.controller.posture_hz = p.controller.load_hz = 0;
+    without_rates(&p);
     p.controller.heartbeat_hz = 5;
     bench_start(&p);
     ticks(50);
     drain();
     const count_t seen = run(2000);
     TEST_ASSERT_UINT32_WITHIN(1, 10, of(&seen, 0x700));
-    TEST_ASSERT_EQUAL(of(&seen, 0x700), seen.all);
+    TEST_ASSERT_UINT32_WITHIN(1, of(&seen, 0x700), of(&seen, 0x200)); /* its condition follows each */
+    TEST_ASSERT_EQUAL(of(&seen, 0x700) + of(&seen, 0x200), seen.all);
     p.controller.posture_hz = 50;
     bench_start(&p);
     ticks(50);
@@ -73,7 +85,7 @@ static void test_rates_of_zero_are_silence_but_for_the_heartbeat(void)
 static void test_without_a_rate_no_snapshot_is_taken(void)
 {
     brace_parameters_t p = bench_parameters();
-    p.controller.stiffness_hz = p.controller.posture_hz = p.controller.load_hz = 0;
+    without_rates(&p);
     bench_start(&p);
     ticks(50);
     const process_t *process = &app.wires.can.bus_port.process;
@@ -119,7 +131,8 @@ static void test_a_share_that_heartbeats_use_up_leaves_little(void)
     drain();
     const count_t seen = run(2000);
     TEST_ASSERT_UINT32_WITHIN(1, 20, of(&seen, 0x700));
-    TEST_ASSERT_LESS_OR_EQUAL(of(&seen, 0x700) + 12u, seen.all); /* one snapshot, of no more than a dozen frames */
+    /* A condition follows each; one snapshot, of no more than a dozen frames. */
+    TEST_ASSERT_LESS_OR_EQUAL(2u * of(&seen, 0x700) + 12u, seen.all);
 }
 
 /* Where nothing else is to be sent, two frames leave in each tick until a snapshot is told. A port that nobody has
@@ -127,15 +140,18 @@ static void test_a_share_that_heartbeats_use_up_leaves_little(void)
 static void test_a_snapshot_leaves_two_frames_at_a_time(void)
 {
     brace_parameters_t p = bench_parameters();
-    p.controller.stiffness_hz = p.controller.posture_hz = p.controller.load_hz = 37; /* at even ticks and at odd ones */
+    p.controller.stiffness_hz = p.controller.posture_hz = 37; /* at even ticks and at odd ones */
+    p.controller.load_hz = p.controller.sigma_hz = 37;
     p.controller.bus_load_ratio = 1.0f;
     bench_start(&p);
     ticks(50);
     drain();
     int ended = 0, before = 0;
     for (int i = 0; i < 600; i++) {
+        const uint32_t before_conditions = all_conditions;
         const count_t seen = run(1);
-        const int frames = (int)seen.all - (int)of(&seen, 0x700);
+        const uint32_t conditions = all_conditions - before_conditions;
+        const int frames = (int)seen.all - (int)of(&seen, 0x700) - (int)conditions;
         TEST_ASSERT_LESS_OR_EQUAL(2, frames);
         TEST_ASSERT_TRUE(before == 0 || before == 2 || frames == 0); /* fewer only at the end */
         ended += before != 0 && frames == 0;
@@ -172,6 +188,8 @@ static void test_all_frames_of_a_snapshot_are_of_one_tick(void)
             if (frame.id == 0x180 + NODE) {
                 brace_can_unpack_stiffness_a(frame.data, &a);
                 TEST_ASSERT_FLOAT_WITHIN(2.6e-4f, k_xx[a.sequence], a.k_xx_n_per_mm);
+                TEST_ASSERT_FLOAT_WITHIN(0.3f, 1e-3f * (float)(fake.now_us - taken_us[a.sequence]), a.age_ms);
+                delayed += a.age_ms > 1.5f;
                 TEST_ASSERT_NOT_EQUAL(last, a.sequence);
                 TEST_ASSERT_EQUAL(pairs, begun); /* no snapshot is left half told for a newer one */
                 begun++;
@@ -181,9 +199,7 @@ static void test_all_frames_of_a_snapshot_are_of_one_tick(void)
                 brace_can_unpack_stiffness_b(frame.data, &b);
                 TEST_ASSERT_EQUAL(a.sequence, b.sequence);
                 TEST_ASSERT_FLOAT_WITHIN(2.6e-4f, k_zz[b.sequence], b.k_zz_n_per_mm);
-                TEST_ASSERT_EQUAL_HEX32(now()->parameter_crc & 0xffff, b.parameter_tag);
-                TEST_ASSERT_FLOAT_WITHIN(0.3f, 1e-3f * (float)(fake.now_us - taken_us[b.sequence]), b.age_ms);
-                delayed += b.age_ms > 3.0f;
+                TEST_ASSERT_EQUAL(BRACE_MODE_MONITOR, b.mode);
                 pairs++;
             } else if (frame.id == 0x380 + NODE) {
                 brace_can_eigenvalues_t e;
@@ -193,7 +209,7 @@ static void test_all_frames_of_a_snapshot_are_of_one_tick(void)
                 brace_can_posture_t p;
                 brace_can_unpack_posture(frame.data, &p);
                 TEST_ASSERT_FLOAT_WITHIN(1.1e-5f, theta1[p.sequence], p.theta1_rad);
-                TEST_ASSERT_EQUAL(BRACE_MODE_MONITOR, p.mode);
+                TEST_ASSERT_EQUAL_HEX32(now()->parameter_crc & 0xffff, p.parameter_tag);
             }
         }
     }
@@ -205,6 +221,7 @@ static void test_K_that_is_not_valid_is_never_a_number(void)
 {
     brace_can_frame_t frame;
     brace_can_stiffness_a_t a = {0};
+    brace_can_stiffness_b_t b = {0};
     brace_can_eigenvalues_t e = {0};
     fake.joint[BRACE_TIBIA].not_newer = true;
     ticks(200);
@@ -215,7 +232,10 @@ static void test_K_that_is_not_valid_is_never_a_number(void)
             if (frame.id == 0x180 + NODE) {
                 brace_can_unpack_stiffness_a(frame.data, &a);
                 TEST_ASSERT_TRUE(a.k_xx_n_per_mm != a.k_xx_n_per_mm && a.k_xz_n_per_mm != a.k_xz_n_per_mm);
-                TEST_ASSERT_EQUAL_HEX32(BRACE_FLAG_STALE, a.flags & BRACE_FLAG_STALE);
+            } else if (frame.id == 0x280 + NODE) {
+                brace_can_unpack_stiffness_b(frame.data, &b);
+                TEST_ASSERT_EQUAL_HEX32(BRACE_FLAG_STALE, b.flags & BRACE_FLAG_STALE);
+                TEST_ASSERT_TRUE(b.k_zz_n_per_mm != b.k_zz_n_per_mm);
             } else if (frame.id == 0x380 + NODE) {
                 brace_can_unpack_eigenvalues(frame.data, &e);
                 TEST_ASSERT_TRUE(e.lambda_min_n_per_mm != e.lambda_min_n_per_mm);
@@ -223,6 +243,7 @@ static void test_K_that_is_not_valid_is_never_a_number(void)
         }
     }
     TEST_ASSERT_NOT_EQUAL(0, a.sequence + e.sequence);
+    TEST_ASSERT_NOT_EQUAL(0, b.sequence);
 }
 
 /* Four limbs as they come out of the box but for their numbers, on one bus of 1 Mbit/s, switched on together. */
@@ -257,10 +278,10 @@ static void test_four_limbs_take_less_than_a_quarter_of_the_bus_and_begin_apart(
         }
         in_tick_most = stiffness_in_tick > in_tick_most ? stiffness_in_tick : in_tick_most;
     }
-    TEST_ASSERT_UINT32_WITHIN(8, NODES * (2u * 200u + 2u * 20u + 1u), frames);
+    TEST_ASSERT_UINT32_WITHIN(8, NODES * (2u * 200u + 2u * 20u + 2u * 10u + 2u), frames);
     const float load = (float)(frames * worst_bits()) / 1e6f;
     TEST_ASSERT_TRUE(load < 0.25f);
-    TEST_ASSERT_TRUE(load > 0.22f);
+    TEST_ASSERT_TRUE(load > 0.24f);
     TEST_ASSERT_TRUE(in_tick_most <= 2);
 }
 
@@ -368,9 +389,9 @@ static void test_slcan_opens_answers_and_closes(void)
     says("t605814AA000000000000\r"); /* identify, token 0xaa */
     const char *answer = hears(1); /* read and answered in one tick */
     TEST_ASSERT_NOT_NULL(strstr(answer, "z\r"));
-    TEST_ASSERT_NOT_NULL(strstr(answer, "t585814AA00010001"));
-    TEST_ASSERT_NOT_NULL(strstr(answer, "t585834AA"));
-    TEST_ASSERT_NOT_NULL(strstr(answer, "t585874AA"));
+    TEST_ASSERT_NOT_NULL(strstr(answer, "t585820AA00010002"));
+    TEST_ASSERT_NOT_NULL(strstr(answer, "t585821AA"));
+    TEST_ASSERT_NOT_NULL(strstr(answer, "t585824AA"));
     TEST_ASSERT_NOT_NULL(strstr(hears(30), "t1858"));
     says("C\r");
     (void)hears(5);
@@ -407,7 +428,7 @@ static void test_a_fresh_board_answers_as_node_0_over_slcan_and_is_silent_otherw
     says("O\r");
     TEST_ASSERT_EQUAL_STRING("\r", hears(1500));
     says("t600814AA000000000000\r");
-    TEST_ASSERT_NOT_NULL(strstr(hears(4), "t580814AA"));
+    TEST_ASSERT_NOT_NULL(strstr(hears(4), "t580820AA"));
 }
 
 /* Process data, heartbeat and emergency leave through both ports; an answer through the one that was asked. */
@@ -421,8 +442,8 @@ static void test_both_ports_carry_the_same_and_neither_waits_for_the_other(void)
     fake.can_room = 0; /* nobody acknowledges on the wire: the text goes on */
     says("t605814AA000000000000\r");
     const char *text = hears(1);
-    TEST_ASSERT_NOT_NULL(strstr(text, "t585814AA"));
-    TEST_ASSERT_NOT_NULL(strstr(text, "t585874AA"));
+    TEST_ASSERT_NOT_NULL(strstr(text, "t585820AA"));
+    TEST_ASSERT_NOT_NULL(strstr(text, "t585824AA"));
     TEST_ASSERT_NOT_NULL(strstr(hears(60), "t1858"));
     fake.can_room = 64;
     (void)hears(4);
@@ -431,15 +452,15 @@ static void test_both_ports_carry_the_same_and_neither_waits_for_the_other(void)
     arrives(0x600 + NODE, identify, 8); /* both in one tick */
     says("t605814AC000000000000\r");
     text = hears(1);
-    TEST_ASSERT_NOT_NULL(strstr(text, "t585814AC"));
-    TEST_ASSERT_NOT_NULL(strstr(text, "t585874AC"));
+    TEST_ASSERT_NOT_NULL(strstr(text, "t585820AC"));
+    TEST_ASSERT_NOT_NULL(strstr(text, "t585824AC"));
     TEST_ASSERT_NULL(strstr(text, "AB00"));
     uint32_t parts = 0;
     while (brace_fake_frame_take(&fake, &frame)) {
         parts += frame.id == 0x580u + NODE && frame.data[1] == 0xab;
         TEST_ASSERT_FALSE(frame.id == 0x580u + NODE && frame.data[1] != 0xab);
     }
-    TEST_ASSERT_EQUAL(4, parts);
+    TEST_ASSERT_EQUAL(5, parts);
     fake.joint[BRACE_TIBIA].not_newer = true; /* a fault is told on both */
     text = hears(40);
     TEST_ASSERT_NOT_NULL(strstr(text, "t0858"));
@@ -462,7 +483,7 @@ static int32_t slow_write(void *context, brace_serial_port_t port, const uint8_t
 static void test_text_leaves_as_fast_as_the_line_takes_it(void)
 {
     brace_parameters_t p = bench_parameters();
-    p.controller.stiffness_hz = p.controller.posture_hz = p.controller.load_hz = 0;
+    without_rates(&p);
     bench_start(&p);
     ticks(20);
     says("O\r");
@@ -471,9 +492,9 @@ static void test_text_leaves_as_fast_as_the_line_takes_it(void)
     fake.hal.serial_write = slow_write;
     says("t605814AA000000000000\r");
     const char *text = hears(40);
-    const char *parts[4] = {strstr(text, "t585814AA"), strstr(text, "t585834AA"), strstr(text, "t585854AA"),
-                            strstr(text, "t585874AA")};
-    for (int i = 0; i < 4; i++) {
+    const char *parts[5] = {strstr(text, "t585820AA"), strstr(text, "t585821AA"), strstr(text, "t585822AA"),
+                            strstr(text, "t585823AA"), strstr(text, "t585824AA")};
+    for (int i = 0; i < 5; i++) {
         TEST_ASSERT_NOT_NULL(parts[i]);
         TEST_ASSERT_TRUE(i == 0 || parts[i] == parts[i - 1] + 22);
     }
@@ -487,7 +508,7 @@ static void start_fd(bool board_can)
     p.controller.can_fd_bit_rate = 2000000;
     p.controller.stiffness_hz = 100;
     p.controller.posture_hz = 20;
-    p.controller.load_hz = 0;
+    p.controller.load_hz = p.controller.sigma_hz = 0;
     p.controller.bus_load_ratio = 1.0f;
     bench_board();
     fake.can_takes_fd = board_can;
@@ -509,7 +530,7 @@ static void test_a_snapshot_is_one_frame_of_can_fd(void)
             if (frame.id != 0x500u + NODE) {
                 others++;
                 TEST_ASSERT_FALSE(frame.fd);
-                TEST_ASSERT_EQUAL(0x700u + NODE, frame.id);
+                TEST_ASSERT_TRUE(frame.id == 0x700u + NODE || frame.id == 0x200u + NODE); /* with its condition */
                 continue;
             }
             brace_can_snapshot_fd_t got;
@@ -518,7 +539,7 @@ static void test_a_snapshot_is_one_frame_of_can_fd(void)
             TEST_ASSERT_EQUAL(64, frame.length);
             brace_can_unpack_snapshot_fd(frame.data, &got);
             TEST_ASSERT_EQUAL_UINT32(wanted->sequence, got.sequence);
-            TEST_ASSERT_EQUAL_UINT32(wanted->parameter_crc, got.parameter_crc);
+            TEST_ASSERT_EQUAL_UINT32(wanted->parameter_crc & 0xffffu, got.parameter_tag);
             TEST_ASSERT_EQUAL_UINT32(wanted->stiffness.now.flags, got.flags);
             TEST_ASSERT_EQUAL(wanted->mode, got.mode);
             TEST_ASSERT_EQUAL_FLOAT(wanted->stiffness.now.k_xx_n_per_mm, got.k_xx_n_per_mm);
@@ -537,7 +558,7 @@ static void test_a_snapshot_is_one_frame_of_can_fd(void)
         }
     }
     TEST_ASSERT_UINT32_WITHIN(1, 200, whole);
-    TEST_ASSERT_UINT32_WITHIN(1, 2, others);
+    TEST_ASSERT_UINT32_WITHIN(2, 4, others);
 }
 
 /* By ISO 11898-1 a CAN FD frame of 64 bytes has 30 bits at the bus's rate and 4 for stuffing; at the faster rate 542
@@ -550,7 +571,7 @@ static void test_can_fd_is_thinned_to_the_share_of_the_bus(void)
         p.controller.can_bit_rate = 500000;
         p.controller.can_fd_bit_rate = fd_bit_rate[i];
         p.controller.stiffness_hz = 1000;
-        p.controller.posture_hz = p.controller.load_hz = 0;
+        p.controller.posture_hz = p.controller.load_hz = p.controller.sigma_hz = 0;
         p.controller.bus_load_ratio = 0.10f;
         bench_board();
         fake.can_takes_fd = true;
@@ -561,7 +582,7 @@ static void test_can_fd_is_thinned_to_the_share_of_the_bus(void)
         const count_t seen = run(1000);
         const float whole_s = 34.0f / 500000.0f + (542.0f + 136.0f) / (float)fd_bit_rate[i];
         const float beat_s = (float)worst_bits() / 500000.0f;
-        const float taken_s = (float)of(&seen, 0x500) * whole_s + (float)of(&seen, 0x700) * beat_s;
+        const float taken_s = (float)of(&seen, 0x500) * whole_s + (float)(of(&seen, 0x700) + of(&seen, 0x200)) * beat_s;
         TEST_ASSERT_TRUE(taken_s <= 0.101f);
         TEST_ASSERT_TRUE(taken_s > 0.09f);
     }
@@ -597,7 +618,7 @@ static void test_text_is_classic_beside_can_fd(void)
     brace_can_frame_t frame;
     while (brace_fake_frame_take(&fake, &frame)) {
         whole += frame.fd;
-        TEST_ASSERT_TRUE(frame.fd || frame.id == 0x700u + NODE);
+        TEST_ASSERT_TRUE(frame.fd || frame.id == 0x700u + NODE || frame.id == 0x200u + NODE);
     }
     TEST_ASSERT_TRUE(whole >= 2u);
 }

@@ -150,6 +150,18 @@ static void sends_zeros(const frame_t *frame, uint32_t first, uint32_t second)
     }
 }
 
+/* The number of a frame of an answer; no number: 256. */
+static uint32_t number_of(uint32_t code, uint32_t part)
+{
+    for (uint32_t number = 0; number < 256u; number++) {
+        const brace_can_answer_frame_t *is = &brace_can_answer_frames[number];
+        if (is->parts > 0u && is->code == code && is->part == part) {
+            return number;
+        }
+    }
+    return 256;
+}
+
 static void test_zeros_are_sent_behind_code_and_part(void)
 {
     uint32_t requests = 0, parts = 0;
@@ -161,23 +173,29 @@ static void test_zeros_are_sent_behind_code_and_part(void)
     }                                                                                     \
     for (uint32_t part = 0; part < brace_can_answer_parts[code]; part++) {                \
         (void)snprintf(name, sizeof name, #request "_answer_%u", (unsigned)part);         \
-        sends_zeros(frame_named(name), (uint32_t)(code) + 32u * part, 0);                 \
+        sends_zeros(frame_named(name), number_of(code, part), 0);                         \
         parts++;                                                                          \
     }
     BRACE_REQUESTS(CODE)
 #undef CODE
     TEST_ASSERT_TRUE(requests > 20u && parts > 40u);
-    for (uint32_t part = 0; part < 7u; part++) {
-        (void)snprintf(name, sizeof name, "space_%u", (unsigned)part);
-        sends_zeros(frame_named(name), 0, part);
+    /* The numbers stay for good: whoever changes one changes what older logs say. */
+    static const struct {
+        const char *group;
+        uint32_t first, count;
+    } details[] = {{"space", 16, 7}, {"load", 32, 6}, {"load_across", 48, 2}, {"sigma", 64, 2}, {"sigma_space", 80, 4}};
+    for (uint32_t i = 0; i < sizeof details / sizeof *details; i++) {
+        for (uint32_t part = 0; part < details[i].count; part++) {
+            (void)snprintf(name, sizeof name, "%s_%u", details[i].group, (unsigned)part);
+            sends_zeros(frame_named(name), 0, details[i].first + part);
+        }
     }
-    for (uint32_t part = 0; part < 5u; part++) {
-        (void)snprintf(name, sizeof name, "load_%u", (unsigned)part);
-        sends_zeros(frame_named(name), 0, part);
-    }
+    sends_zeros(frame_named("space_fd"), 0, 16);
+    sends_zeros(frame_named("load_fd"), 0, 32);
+    sends_zeros(frame_named("sigma_fd"), 0, 64);
     static const char *const whole[] = {"stiffness_a", "stiffness_b", "eigenvalues", "posture",
-                                        "snapshot_fd", "space_fd",    "load_fd",     "emergency"};
-    for (uint32_t i = 0; i < 8u; i++) {
+                                        "snapshot_fd", "condition",   "emergency"};
+    for (uint32_t i = 0; i < sizeof whole / sizeof *whole; i++) {
         sends_zeros(frame_named(whole[i]), 0, 0);
     }
 }

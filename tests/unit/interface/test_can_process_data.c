@@ -17,13 +17,12 @@
     X(stiffness_b, k_zz_n_per_mm, k_zz_n_per_mm) \
     X(stiffness_b, play_femur, play_femur) \
     X(stiffness_b, play_tibia, play_tibia) \
+    X(stiffness_b, mode, mode) \
     X(eigenvalues, lambda_min_n_per_mm, lambda_min_n_per_mm) \
     X(eigenvalues, lambda_max_n_per_mm, lambda_max_n_per_mm) \
     X(eigenvalues, stiff_axis_rad, stiff_axis_rad) \
     X(posture, theta1_rad, theta1_rad) \
     X(posture, theta2_rad, theta2_rad) \
-    X(posture, mode, mode) \
-    X(posture, faults, faults) \
     X(space_0, k_xx_n_per_mm, space_k_xx_n_per_mm) \
     X(space_0, k_xy_n_per_mm, space_k_xy_n_per_mm) \
     X(space_1, k_xz_n_per_mm, space_k_xz_n_per_mm) \
@@ -33,27 +32,42 @@
     X(space_3, lambda_1_n_per_mm, space_lambda_1_n_per_mm) \
     X(space_3, lambda_2_n_per_mm, space_lambda_2_n_per_mm) \
     X(space_4, lambda_3_n_per_mm, space_lambda_3_n_per_mm) \
-    X(space_4, play_coxa, play_coxa) \
     X(space_5, stiff_axis_x, space_stiff_axis_x) \
     X(space_5, stiff_axis_y, space_stiff_axis_y) \
     X(space_5, stiff_axis_z, space_stiff_axis_z) \
     X(space_6, theta0_rad, theta0_rad) \
     X(space_6, k_across_n_per_mm, k_across_n_per_mm) \
+    X(space_6, play_coxa, play_coxa) \
     X(load_0, unloaded_k_xx_n_per_mm, unloaded_k_xx_n_per_mm) \
     X(load_0, unloaded_k_xz_n_per_mm, unloaded_k_xz_n_per_mm) \
     X(load_1, unloaded_k_zz_n_per_mm, unloaded_k_zz_n_per_mm) \
-    X(load_1, gravity_lean_rad, gravity_lean_rad) \
     X(load_2, counted_force_x_n, counted_force_x_n) \
     X(load_2, counted_force_z_n, counted_force_z_n) \
     X(load_3, moved_x_mm, moved_x_mm) \
     X(load_3, moved_z_mm, moved_z_mm) \
     X(load_4, buckling_factor, buckling_factor) \
     X(load_4, gravity_direction_rad, gravity_direction_rad) \
+    X(load_5, gravity_lean_rad, gravity_lean_rad) \
     X(load_across_0, counted_force_y_n, counted_force_y_n) \
     X(load_across_0, moved_y_mm, moved_y_mm) \
     X(load_across_1, unloaded_k_across_n_per_mm, unloaded_k_across_n_per_mm) \
+    X(sigma_0, k_xx_n_per_mm, sigma_k_xx_n_per_mm) \
+    X(sigma_0, k_xz_n_per_mm, sigma_k_xz_n_per_mm) \
+    X(sigma_0, k_zz_n_per_mm, sigma_k_zz_n_per_mm) \
+    X(sigma_1, lambda_min_n_per_mm, sigma_lambda_min_n_per_mm) \
+    X(sigma_1, lambda_max_n_per_mm, sigma_lambda_max_n_per_mm) \
+    X(sigma_1, stiff_axis_rad, sigma_stiff_axis_rad) \
+    X(sigma_space_0, k_xx_n_per_mm, sigma_space_k_xx_n_per_mm) \
+    X(sigma_space_0, k_xy_n_per_mm, sigma_space_k_xy_n_per_mm) \
+    X(sigma_space_0, k_xz_n_per_mm, sigma_space_k_xz_n_per_mm) \
+    X(sigma_space_1, k_yy_n_per_mm, sigma_space_k_yy_n_per_mm) \
+    X(sigma_space_1, k_yz_n_per_mm, sigma_space_k_yz_n_per_mm) \
+    X(sigma_space_1, k_zz_n_per_mm, sigma_space_k_zz_n_per_mm) \
+    X(sigma_space_2, lambda_1_n_per_mm, sigma_space_lambda_1_n_per_mm) \
+    X(sigma_space_2, lambda_2_n_per_mm, sigma_space_lambda_2_n_per_mm) \
+    X(sigma_space_2, lambda_3_n_per_mm, sigma_space_lambda_3_n_per_mm) \
+    X(sigma_space_3, k_across_n_per_mm, sigma_k_across_n_per_mm) \
     X(snapshot_fd, sequence, sequence) \
-    X(snapshot_fd, parameter_crc, parameter_crc) \
     X(snapshot_fd, flags, flags) \
     X(snapshot_fd, mode, mode) \
     X(snapshot_fd, play_femur, play_femur) \
@@ -71,7 +85,6 @@
     X(snapshot_fd, tip_z_mm, tip_z_mm) \
     X(snapshot_fd, force_x_n, force_x_n) \
     X(snapshot_fd, force_z_n, force_z_n) \
-    X(space_fd, sequence, sequence) \
     X(space_fd, flags, space_flags) \
     X(space_fd, mode, mode) \
     X(space_fd, play_coxa, play_coxa) \
@@ -89,7 +102,6 @@
     X(space_fd, stiff_axis_x, space_stiff_axis_x) \
     X(space_fd, stiff_axis_y, space_stiff_axis_y) \
     X(space_fd, stiff_axis_z, space_stiff_axis_z) \
-    X(load_fd, sequence, sequence) \
     X(load_fd, flags, flags) \
     X(load_fd, unloaded_k_xx_n_per_mm, unloaded_k_xx_n_per_mm) \
     X(load_fd, unloaded_k_xz_n_per_mm, unloaded_k_xz_n_per_mm) \
@@ -103,7 +115,23 @@
     X(load_fd, gravity_lean_rad, gravity_lean_rad) \
     X(load_fd, counted_force_y_n, counted_force_y_n) \
     X(load_fd, moved_y_mm, moved_y_mm) \
-    X(load_fd, unloaded_k_across_n_per_mm, unloaded_k_across_n_per_mm)
+    X(load_fd, unloaded_k_across_n_per_mm, unloaded_k_across_n_per_mm) \
+    X(sigma_fd, k_xx_n_per_mm, sigma_k_xx_n_per_mm) \
+    X(sigma_fd, k_xz_n_per_mm, sigma_k_xz_n_per_mm) \
+    X(sigma_fd, k_zz_n_per_mm, sigma_k_zz_n_per_mm) \
+    X(sigma_fd, lambda_min_n_per_mm, sigma_lambda_min_n_per_mm) \
+    X(sigma_fd, lambda_max_n_per_mm, sigma_lambda_max_n_per_mm) \
+    X(sigma_fd, stiff_axis_rad, sigma_stiff_axis_rad) \
+    X(sigma_fd, space_k_xx_n_per_mm, sigma_space_k_xx_n_per_mm) \
+    X(sigma_fd, space_k_xy_n_per_mm, sigma_space_k_xy_n_per_mm) \
+    X(sigma_fd, space_k_xz_n_per_mm, sigma_space_k_xz_n_per_mm) \
+    X(sigma_fd, space_k_yy_n_per_mm, sigma_space_k_yy_n_per_mm) \
+    X(sigma_fd, space_k_yz_n_per_mm, sigma_space_k_yz_n_per_mm) \
+    X(sigma_fd, space_k_zz_n_per_mm, sigma_space_k_zz_n_per_mm) \
+    X(sigma_fd, space_lambda_1_n_per_mm, sigma_space_lambda_1_n_per_mm) \
+    X(sigma_fd, space_lambda_2_n_per_mm, sigma_space_lambda_2_n_per_mm) \
+    X(sigma_fd, space_lambda_3_n_per_mm, sigma_space_lambda_3_n_per_mm) \
+    X(sigma_fd, k_across_n_per_mm, sigma_k_across_n_per_mm)
 
 void setUp(void) {}
 
@@ -160,7 +188,7 @@ static void test_parts_carry_their_snapshot_s_number_age_and_set(void)
     brace_measured_t measured;
     uint8_t data[64];
     fill(&measured);
-#define SEQUENCE(id, frame, rate)                                        \
+#define SEQUENCE(id, frame, rate, coxa)                                  \
     {                                                                    \
         brace_can_##frame##_t message;                                   \
         brace_can_make_##frame(&measured, AGE_MS, data);                 \
@@ -169,15 +197,18 @@ static void test_parts_carry_their_snapshot_s_number_age_and_set(void)
     }
     BRACE_CAN_PROCESS(SEQUENCE)
 #undef SEQUENCE
-    brace_can_stiffness_b_t b;
+    brace_can_stiffness_a_t a;
+    brace_can_posture_t posture;
     brace_can_space_4_t space;
     brace_can_snapshot_fd_t snapshot;
     brace_can_space_fd_t space_fd;
     brace_can_load_fd_t load;
-    brace_can_make_stiffness_b(&measured, AGE_MS, data);
-    brace_can_unpack_stiffness_b(data, &b);
-    TEST_ASSERT_EQUAL_HEX32(0xcdef, b.parameter_tag);
-    TEST_ASSERT_FLOAT_WITHIN(1.0f, AGE_MS, b.age_ms);
+    brace_can_make_stiffness_a(&measured, AGE_MS, data);
+    brace_can_unpack_stiffness_a(data, &a);
+    TEST_ASSERT_FLOAT_WITHIN(1.0f, AGE_MS, a.age_ms);
+    brace_can_make_posture(&measured, AGE_MS, data);
+    brace_can_unpack_posture(data, &posture);
+    TEST_ASSERT_EQUAL_HEX32(0xcdef, posture.parameter_tag);
     brace_can_make_space_4(&measured, AGE_MS, data);
     brace_can_unpack_space_4(data, &space);
     TEST_ASSERT_FLOAT_WITHIN(1.0f, AGE_MS, space.age_ms);
@@ -198,7 +229,7 @@ static void test_a_value_beyond_its_frame_is_flagged(void)
 {
     brace_measured_t measured;
     uint8_t data[64];
-    brace_can_stiffness_a_t a;
+    brace_can_stiffness_b_t b;
     brace_can_space_4_t space;
     brace_can_load_1_t load;
     brace_can_load_across_1_t across;
@@ -227,8 +258,8 @@ static void test_a_value_beyond_its_frame_is_flagged(void)
             fill(&measured);
             measured.flags = measured.space_flags = 0;
             memcpy((uint8_t *)&measured + all[group].at[i / 3u], &far[i % 3u], 4);
-            brace_can_make_stiffness_a(&measured, AGE_MS, data);
-            brace_can_unpack_stiffness_a(data, &a);
+            brace_can_make_stiffness_b(&measured, AGE_MS, data);
+            brace_can_unpack_stiffness_b(data, &b);
             brace_can_make_space_4(&measured, AGE_MS, data);
             brace_can_unpack_space_4(data, &space);
             brace_can_make_load_1(&measured, AGE_MS, data);
@@ -236,7 +267,7 @@ static void test_a_value_beyond_its_frame_is_flagged(void)
             brace_can_make_load_across_1(&measured, AGE_MS, data);
             brace_can_unpack_load_across_1(data, &across);
             const uint32_t wanted = i % 3u < 2u ? (uint32_t)BRACE_FLAG_SATURATED : 0u;
-            TEST_ASSERT_EQUAL_HEX32(group == 0u ? wanted : 0u, a.flags);
+            TEST_ASSERT_EQUAL_HEX32(group == 0u ? wanted : 0u, b.flags);
             TEST_ASSERT_EQUAL_HEX32(group == 1u ? wanted : 0u, space.flags);
             TEST_ASSERT_EQUAL_HEX32(group == 2u ? wanted : 0u, load.flags);
             TEST_ASSERT_EQUAL_HEX32(group == 3u ? wanted : 0u, across.flags);

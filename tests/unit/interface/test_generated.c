@@ -27,34 +27,47 @@ static void test_every_request_has_a_code_and_an_answer(void)
         const char *name;
     } request[] = {BRACE_REQUESTS(ROW)};
 #undef ROW
-    uint32_t seen = 0;
+    bool seen[256] = {false};
+    uint32_t frames = 0, numbers = 0;
     for (size_t i = 0; i < sizeof request / sizeof *request; i++) {
-        TEST_ASSERT_TRUE_MESSAGE(request[i].code <= 31u, request[i].name);
+        TEST_ASSERT_TRUE_MESSAGE(request[i].code <= 255u, request[i].name);
         TEST_ASSERT_TRUE_MESSAGE(brace_can_answer_parts[request[i].code] >= 1u, request[i].name);
-        TEST_ASSERT_FALSE_MESSAGE(seen >> request[i].code & 1u, request[i].name);
-        seen |= 1u << request[i].code;
+        TEST_ASSERT_FALSE_MESSAGE(seen[request[i].code], request[i].name);
+        seen[request[i].code] = true;
+        frames += brace_can_answer_parts[request[i].code];
     }
-    for (uint32_t code = 0; code < 32u; code++) {
-        TEST_ASSERT_EQUAL(seen >> code & 1u, brace_can_answer_parts[code] != 0u);
+    for (uint32_t code = 0; code < 256u; code++) {
+        TEST_ASSERT_EQUAL(seen[code], brace_can_answer_parts[code] != 0u);
     }
+    for (uint32_t number = 0; number < 256u; number++) {
+        const brace_can_answer_frame_t *is = &brace_can_answer_frames[number];
+        numbers += is->parts > 0u;
+        TEST_ASSERT_TRUE(is->parts == 0u || (is->part < is->parts && is->parts == brace_can_answer_parts[is->code]));
+    }
+    TEST_ASSERT_EQUAL(frames, numbers);
+    TEST_ASSERT_EQUAL(0, brace_can_answer_frames[BRACE_ANSWER_REFUSED].parts);
 }
 
 static void test_every_message_has_a_rate_of_the_controller(void)
 {
-#define ROW(ID, name, rate) {ID, offsetof(brace_controller_t, rate)},
+#define ROW(ID, name, rate, coxa) {ID, offsetof(brace_controller_t, rate), coxa},
     static const struct {
         uint32_t id;
         size_t rate;
+        bool needs_coxa;
     } message[] = {BRACE_CAN_PROCESS(ROW)}, whole[] = {BRACE_CAN_PROCESS_FD(ROW)};
 #undef ROW
-    uint32_t parts_of_space = 0;
+    uint32_t details = 0, of_coxa = 0;
     for (size_t i = 0; i < sizeof message / sizeof *message; i++) {
         TEST_ASSERT_EQUAL_HEX32(0, message[i].id & 0x7fu);
-        parts_of_space += message[i].id == (uint32_t)BRACE_CAN_ID_SPACE;
+        details += message[i].id == (uint32_t)BRACE_CAN_ID_DETAILS;
+        of_coxa += message[i].needs_coxa;
     }
-    TEST_ASSERT_EQUAL(BRACE_CAN_SPACE_PARTS, parts_of_space);
-    TEST_ASSERT_EQUAL_HEX32(BRACE_CAN_ID_SPACE_FD, whole[1].id);
+    TEST_ASSERT_EQUAL(7 + 6 + 2 + 2 + 4, details);
+    TEST_ASSERT_EQUAL(7 + 2 + 4, of_coxa);
+    TEST_ASSERT_EQUAL_HEX32(BRACE_CAN_ID_DETAILS_FD, whole[1].id);
     TEST_ASSERT_EQUAL(offsetof(brace_controller_t, stiffness_hz), whole[1].rate);
+    TEST_ASSERT_TRUE(whole[1].needs_coxa && !whole[0].needs_coxa);
 }
 
 static void test_limits_are_what_a_frame_can_carry(void)
@@ -70,17 +83,17 @@ static void test_limits_are_what_a_frame_can_carry(void)
     TEST_ASSERT_EQUAL(0, brace_can_pack_eigenvalues(&e, data));
     e.lambda_min_n_per_mm += 0.001f;
     TEST_ASSERT_EQUAL(1, brace_can_pack_eigenvalues(&e, data));
-    brace_can_stiffness_b_t b = {.age_ms = BRACE_CAN_STIFFNESS_B_AGE_MS_MOST};
-    TEST_ASSERT_EQUAL(0, brace_can_pack_stiffness_b(&b, data));
+    a = (brace_can_stiffness_a_t){.age_ms = BRACE_CAN_STIFFNESS_A_AGE_MS_MOST};
+    TEST_ASSERT_EQUAL(0, brace_can_pack_stiffness_a(&a, data));
 }
 
 /* Flags as a frame made from measured values carries them. */
 static uint32_t flags_in_plane(const brace_measured_t *measured)
 {
     uint8_t data[8];
-    brace_can_stiffness_a_t frame;
-    brace_can_make_stiffness_a(measured, 0.0f, data);
-    brace_can_unpack_stiffness_a(data, &frame);
+    brace_can_stiffness_b_t frame;
+    brace_can_make_stiffness_b(measured, 0.0f, data);
+    brace_can_unpack_stiffness_b(data, &frame);
     return frame.flags;
 }
 
@@ -158,7 +171,7 @@ static void test_a_value_that_any_frame_of_the_load_limits_is_flagged(void)
         {&measured.unloaded_k_xx_n_per_mm, BRACE_CAN_LOAD_0_UNLOADED_K_XX_N_PER_MM_MOST, false},
         {&measured.unloaded_k_xz_n_per_mm, BRACE_CAN_LOAD_0_UNLOADED_K_XZ_N_PER_MM_MOST, false},
         {&measured.unloaded_k_zz_n_per_mm, BRACE_CAN_LOAD_1_UNLOADED_K_ZZ_N_PER_MM_MOST, false},
-        {&measured.gravity_lean_rad, BRACE_CAN_LOAD_1_GRAVITY_LEAN_RAD_MOST, false},
+        {&measured.gravity_lean_rad, BRACE_CAN_LOAD_5_GRAVITY_LEAN_RAD_MOST, false},
         {&measured.counted_force_x_n, BRACE_CAN_LOAD_2_COUNTED_FORCE_X_N_MOST, false},
         {&measured.counted_force_z_n, BRACE_CAN_LOAD_2_COUNTED_FORCE_Z_N_MOST, false},
         {&measured.moved_x_mm, BRACE_CAN_LOAD_3_MOVED_X_MM_MOST, false},
@@ -182,14 +195,40 @@ static void test_a_value_that_any_frame_of_the_load_limits_is_flagged(void)
 static void test_a_frame_carries_the_measured_values(void)
 {
     uint8_t data[8];
-    brace_can_stiffness_b_t frame;
-    const brace_measured_t measured = {.sequence = 0x1234u, .play_tibia = UINT32_MAX, .parameter_crc = 0xabcdef01u};
+    brace_can_stiffness_a_t a;
+    brace_can_stiffness_b_t b;
+    brace_can_posture_t posture;
+    const brace_measured_t measured = {.sequence = 0x1234u, .play_tibia = UINT32_MAX, .parameter_crc = 0xabcdef01u,
+                                       .flags = 0x8001u};
+    brace_can_make_stiffness_a(&measured, 2.5f, data);
+    brace_can_unpack_stiffness_a(data, &a);
+    TEST_ASSERT_EQUAL_HEX32(0x34, a.sequence);
+    TEST_ASSERT_EQUAL_FLOAT(2.5f, a.age_ms);
     brace_can_make_stiffness_b(&measured, 2.5f, data);
-    brace_can_unpack_stiffness_b(data, &frame);
-    TEST_ASSERT_EQUAL_HEX32(0x34, frame.sequence);
-    TEST_ASSERT_EQUAL_HEX32(0xef01, frame.parameter_tag);
-    TEST_ASSERT_EQUAL_HEX32(0xf, frame.play_tibia);
-    TEST_ASSERT_EQUAL_FLOAT(2.5f, frame.age_ms);
+    brace_can_unpack_stiffness_b(data, &b);
+    TEST_ASSERT_EQUAL_HEX32(0x8001, b.flags);
+    TEST_ASSERT_EQUAL_HEX32(0xf, b.play_tibia);
+    brace_can_make_posture(&measured, 2.5f, data);
+    brace_can_unpack_posture(data, &posture);
+    TEST_ASSERT_EQUAL_HEX32(0xef01, posture.parameter_tag);
+}
+
+/* Sixteen flags and thirty-two faults: each bit arrives in the bit that it left in. */
+static void test_every_flag_and_every_fault_has_room(void)
+{
+    uint8_t data[64];
+    for (uint32_t bit = 0; bit < 32u; bit++) {
+        const brace_measured_t measured = {.flags = 1u << bit, .faults = 1u << bit};
+        brace_can_snapshot_fd_t whole;
+        brace_can_make_snapshot_fd(&measured, 0.0f, data);
+        brace_can_unpack_snapshot_fd(data, &whole);
+        TEST_ASSERT_EQUAL_HEX32(1u << bit, whole.faults);
+        TEST_ASSERT_EQUAL_HEX32(bit < 16u ? 1u << bit : UINT16_MAX, whole.flags);
+        brace_can_condition_t condition = {.faults = 1u << bit};
+        TEST_ASSERT_EQUAL(0, brace_can_pack_condition(&condition, data));
+        brace_can_unpack_condition(data, &condition);
+        TEST_ASSERT_EQUAL_HEX32(1u << bit, condition.faults);
+    }
 }
 
 static void test_an_answer_s_frames_carry_its_fields(void)
@@ -199,22 +238,24 @@ static void test_an_answer_s_frames_carry_its_fields(void)
                                              .stiff_axis_rad = -0.25f, .flags = BRACE_FLAG_STALE}};
     brace_can_k_at_tip_knee_up_answer_0_t first;
     brace_can_k_at_tip_knee_up_answer_1_t second;
-    brace_can_k_at_tip_knee_up_answer_2_t last;
+    brace_can_k_at_tip_knee_up_answer_2_t third;
+    brace_can_k_at_tip_knee_up_answer_3_t last;
     brace_can_pack_answer(BRACE_REQUEST_K_AT_TIP_KNEE_UP, &k, 0x1a5u, parts);
-    for (uint32_t part = 0; part < 3u; part++) {
-        TEST_ASSERT_EQUAL_HEX8(BRACE_REQUEST_K_AT_TIP_KNEE_UP + BRACE_ANSWER_PART * part, parts[part][0]);
+    for (uint32_t part = 0; part < 4u; part++) {
+        TEST_ASSERT_EQUAL_HEX8(BRACE_K_AT_TIP_KNEE_UP_ANSWER_0 + part, parts[part][0]);
         TEST_ASSERT_EQUAL_HEX8(0xa5, parts[part][1]);
     }
     brace_can_unpack_k_at_tip_knee_up_answer_0(parts[0], &first);
     brace_can_unpack_k_at_tip_knee_up_answer_1(parts[1], &second);
-    brace_can_unpack_k_at_tip_knee_up_answer_2(parts[2], &last);
+    brace_can_unpack_k_at_tip_knee_up_answer_2(parts[2], &third);
+    brace_can_unpack_k_at_tip_knee_up_answer_3(parts[3], &last);
     TEST_ASSERT_EQUAL_FLOAT(12.5f, first.k_xx_n_per_mm);
     TEST_ASSERT_TRUE(isnan(second.lambda_min_n_per_mm));
-    TEST_ASSERT_EQUAL_FLOAT(-0.25f, last.stiff_axis_rad);
+    TEST_ASSERT_EQUAL_FLOAT(-0.25f, third.stiff_axis_rad);
     TEST_ASSERT_EQUAL_HEX32(BRACE_FLAG_STALE, last.flags);
     k.k_at_tip_knee_up.k_xz_n_per_mm = -1e6f; /* more than part 0 can carry */
     brace_can_pack_answer(BRACE_REQUEST_K_AT_TIP_KNEE_UP, &k, 0, parts);
-    brace_can_unpack_k_at_tip_knee_up_answer_2(parts[2], &last);
+    brace_can_unpack_k_at_tip_knee_up_answer_3(parts[3], &last);
     TEST_ASSERT_EQUAL_HEX32(BRACE_FLAG_STALE | BRACE_FLAG_SATURATED, last.flags);
 }
 
@@ -326,7 +367,7 @@ static void test_a_question_is_its_request_s_fields(void)
 #define ROW(CODE, name) [CODE] = {sizeof(brace_##name##_request_t) / 4u, sizeof(brace_##name##_answer_t) / 4u},
     static const struct {
         uint32_t asked, answered;
-    } values_of[32] = {BRACE_REQUESTS(ROW)};
+    } values_of[256] = {BRACE_REQUESTS(ROW)};
 #undef ROW
     enum { COMMANDS = sizeof(brace_commands_t) / 4, ANSWERS = sizeof(brace_answered_t) / 4 };
     uint32_t questions_of[COMMANDS] = {0}, answers_of[ANSWERS] = {0};
@@ -385,6 +426,7 @@ int main(void)
     RUN_TEST(test_a_value_that_any_frame_of_the_snapshot_limits_is_flagged);
     RUN_TEST(test_a_value_that_any_frame_of_the_load_limits_is_flagged);
     RUN_TEST(test_a_frame_carries_the_measured_values);
+    RUN_TEST(test_every_flag_and_every_fault_has_room);
     RUN_TEST(test_an_answer_s_frames_carry_its_fields);
     RUN_TEST(test_a_request_s_frame_carries_its_fields);
     RUN_TEST(test_what_nobody_has_asked_is_not_known);

@@ -25,7 +25,7 @@ from brace.bus.session import Session
 from brace.bus.snapshot import Snapshot
 from brace.bus.space import SpaceAnswer, space_answer
 from brace.errors import DeviceFaultError, NoDeviceError, NotVerifiedError, VersionMismatchError
-from brace.wire.codes import FLAG, MODE, PARAMETER_ORIGIN
+from brace.wire.codes import FAULT, FLAG, MODE, PARAMETER_ORIGIN
 from brace.wire.layout import Value
 
 if TYPE_CHECKING:
@@ -53,6 +53,7 @@ class CanController:
         version = f"{answer['major']}.{answer['minor']}.{answer['patch']}"
         check_dictionary(answer["dictionary_hash"], self.session.where, version)
         self._schema_hash = answer["schema_hash"]
+        self.session.joiner.hear_faults(self.node, tuple(n.lower() for n in FAULT.names_of_bits(answer["faults"])))
         origin = PARAMETER_ORIGIN.word_of(int(answer["origin"] or 0))
         return Identity(self.node, version, answer["dictionary_hash"], answer["parameter_crc"], origin)
 

@@ -8,6 +8,7 @@ import secrets
 import time
 from collections.abc import Iterator, Mapping
 
+from brace.bus.controller import check_dictionary
 from brace.bus.entries import index_of
 from brace.bus.frame import NODE_MASK, Bus, EndOfLog, Frame
 from brace.bus.ownership import COMMANDS, EARLY, LIFE_S, UNKNOWN, Owner, Reopening, entry_of
@@ -17,11 +18,12 @@ from brace.errors import DeviceFaultError, NoDeviceError, UsageError
 from brace.wire.frames import (
     ANSWER_ID,
     ANSWERS,
+    FD_GROUPS,
     FD_MESSAGES,
+    GROUPS,
     MESSAGES,
-    MULTIPLEXED,
     REFUSAL,
-    REFUSED_PART,
+    REFUSED,
     REQUEST_ID,
     REQUESTS,
 )
@@ -40,7 +42,7 @@ GATHER_S = 0.25  # for the other nodes of a bus, once one is heard
 _SENT_BY_NODES = {
     ANSWER_ID,
     *(layout.identifier for layout in (*MESSAGES.values(), *FD_MESSAGES.values())),
-    *(parts[0].identifier for parts in MULTIPLEXED.values()),
+    *(parts[0].identifier for parts in (*GROUPS.values(), *FD_GROUPS.values())),
 }
 _NOT_REPEATED = frozenset(
     {"commit", "rollback", "loading_test_start", "take_up"}
@@ -54,7 +56,7 @@ _ABOUT_FORCE = frozenset(  # a controller counts the force that was told last, w
 
 
 class _Refused(Exception):
-    """Part 7 of an answer."""
+    """The answer is a refusal."""
 
     def __init__(self, status: int, detail: int) -> None:
         super().__init__(status)
@@ -94,7 +96,7 @@ class Session:
         if frame.node and frame.identifier & ~NODE_MASK in _SENT_BY_NODES:
             self.heard[frame.node] = frame.time_s
         if frame.identifier & ~NODE_MASK == REQUEST_ID and frame.data[:1]:  # another's: our own do not come back
-            self._force_is_taken |= frame.data[0] & 0x1F in _ABOUT_FORCE
+            self._force_is_taken |= frame.data[0] in _ABOUT_FORCE
         snapshot = self.joiner.add(frame)
         if snapshot is not None:
             self.newest[frame.node] = snapshot
@@ -274,7 +276,7 @@ class Session:
             ) from None
         for data in frames:
             self.bus.send(REQUEST_ID + self.node, data)
-        parts = ANSWERS[name]
+        parts = {layout.command: layout for layout in ANSWERS[name]}
         came: dict[int, dict[str, Value]] = {}
         until = time.monotonic() + timeout_s
         while (left := until - time.monotonic()) > 0:
@@ -283,25 +285,28 @@ class Session:
                 continue
             if frame.data[1] != self._token:
                 continue
-            part, command = frame.data[0] >> 5, frame.data[0] & 0x1F
-            if command != request.command:
-                continue
-            if part == REFUSED_PART:
+            number = frame.data[0]
+            if number == REFUSED:
                 refused = REFUSAL.decode(frame.data)
-                raise _Refused(int(refused["status"] or 0), int(refused["detail"] or 0))
-            if part < len(parts):
-                fields = parts[part].decode(frame.data)
+                if refused["code"] == request.command:
+                    raise _Refused(int(refused["status"] or 0), int(refused["detail"] or 0))
+            if number in parts:
+                fields = parts[number].decode(frame.data)
                 if fields.get("index", values.get("index")) != values.get("index"):
                     continue  # the answer to the seal, a write_entry too: it has the command's token
-                came[part] = fields
+                came[number] = fields
             if len(came) == len(parts):
-                return {key: value for index in sorted(came) for key, value in came[index].items()}
+                return {key: value for number in parts for key, value in came[number].items()}
         return None
 
     def _no_answer(self, name: str) -> NoDeviceError:
-        """Nothing heard at all, others heard, or this node heard and silent on this: three different things."""
-        if not self.heard:
+        """Nothing heard at all, others heard, or this node heard and silent on this: three different things.
+        VersionMismatchError: its heartbeat tells of another dictionary, so its answers have other numbers."""
+        if self.node not in self.heartbeats:
             self.listen(HEARTBEAT_S - ANSWER_S)
+        beat = self.heartbeats.get(self.node)
+        if beat is not None:
+            check_dictionary(beat.dictionary_hash, self.where)
         others = sorted(set(self.heard) - {self.node})
         if self.node in self.heard:
             why = f"it sends, and does not answer {name!r}"

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from functools import partial
 from typing import NamedTuple
 
 from brace.bus.frame import NODE_MASK, Frame
 from brace.bus.load import Load, load_of
+from brace.bus.sigma import Sigma, sigma_of
 from brace.bus.space import SpaceSnapshot, space_snapshot
-from brace.wire.frames import FD_MESSAGES, MESSAGES, MULTIPLEXED
+from brace.wire.frames import FD_GROUPS, FD_MESSAGES, GROUPS, MESSAGES
 from brace.wire.layout import Layout, Value
 
 # Halves with one number that lie further apart are of two rounds of the 8-bit counter: the shortest round is 256 ticks
@@ -19,8 +19,14 @@ PAIR_S = 0.040
 _STIFFNESS_A, _STIFFNESS_B = MESSAGES["stiffness_a"], MESSAGES["stiffness_b"]
 _EIGENVALUES, _POSTURE = MESSAGES["eigenvalues"], MESSAGES["posture"]
 _WHOLE = FD_MESSAGES["snapshot_fd"]
-_SPACE_FD = FD_MESSAGES["space_fd"]
-_LOAD_FD = FD_MESSAGES["load_fd"]
+(_CONDITION,) = GROUPS["condition"]
+_EMERGENCY, _HEARTBEAT = MESSAGES["emergency"], MESSAGES["heartbeat"]
+_DETAILS = _CONDITION.identifier
+_PART_BYTE = _CONDITION.part_at // 8
+# Number of a part -> its group, and its place there.
+_PARTS = {layout.part: (name, place) for name, group in GROUPS.items() for place, layout in enumerate(group)}
+_OF_SNAPSHOTS = frozenset(("space", "load", "load_across", "sigma"))
+_PARTS_FD = {layout.part: (name, layout) for name, group in FD_GROUPS.items() for layout in group}
 
 
 class Snapshot(NamedTuple):
@@ -35,18 +41,19 @@ class Snapshot(NamedTuple):
     flags: tuple[str, ...]
     age_ms: Value = None
     play: tuple[str, ...] = ()
-    parameter_tag: Value = None
+    mode: str = ""
     has_posture: bool = False  # the six below are of this snapshot
     lambda_min: Value = None  # N/mm
     lambda_max: Value = None
     stiff_axis: Value = None  # rad
     theta1: Value = None
     theta2: Value = None
-    mode: str = ""
-    faults: tuple[str, ...] = ()
+    parameter_tag: Value = None
+    faults: tuple[str, ...] | None = None  # as last heard: at a change, with each heartbeat; None: not yet
+    sigma: Sigma | None = None  # of this snapshot; None: it is not sent, or it has not come (yet)
     space: SpaceSnapshot | None = None  # of this snapshot; None: the limb has no coxa joint, or it has not come (yet)
     load: Load | None = None  # of this snapshot; None: it is not sent, or it has not come (yet)
-    adds: str = "stiffness"  # what has come last of it: stiffness, space, posture, load
+    adds: str = "stiffness"  # what has come last of it: stiffness, space, posture, load, sigma
 
     @property
     def is_valid(self) -> bool:
@@ -66,7 +73,11 @@ class Snapshot(NamedTuple):
             "flag_names": list(self.flags),
             "age_ms": self.age_ms,
             "play": list(self.play),
+            "mode": self.mode,
+            "faults": None if self.faults is None else list(self.faults),
         }
+        if self.sigma is not None:
+            entry |= self.sigma.as_json()
         if self.parameter_tag is not None:
             entry["parameter_tag"] = f"{self.parameter_tag:04x}"
         if self.has_posture:
@@ -76,8 +87,6 @@ class Snapshot(NamedTuple):
                 "stiff_axis_rad": self.stiff_axis,
                 "theta1_rad": self.theta1,
                 "theta2_rad": self.theta2,
-                "mode": self.mode,
-                "faults": list(self.faults),
             }
         if self.space is not None:
             entry["space"] = self.space.as_json()
@@ -94,8 +103,20 @@ class Heartbeat:
     time_s: float
     state: str
     mode: str
-    faults: tuple[str, ...]
+    setting: str
+    protocol: int
     dictionary_hash: int
+
+
+@dataclass(frozen=True)
+class Condition:
+    """What is wrong, behind each heartbeat."""
+
+    node: int
+    time_s: float
+    mode: str
+    setting: str
+    faults: tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -138,27 +159,28 @@ class Joiner:
         self._eigenvalues: dict[int, Frame] = {}
         self._parts: dict[tuple[str, int], _Parts] = {}  # by message and node
         self._newest: dict[int, Snapshot] = {}
+        self._faults: dict[int, tuple[str, ...]] = {}  # by node, as last heard
         self._seen: set[int] = set()
         self._sends_space: set[int] = set()
         self._sends_across: set[int] = set()  # the load across the plane, too
         self._whole_alone: dict[int, int] = {}  # of CAN FD: how many have come since K in space did
         self.unmatched = 0  # snapshots some of whose frames never came
         takers: list[tuple[Layout, Callable[[int, Frame], Snapshot | None]]] = [
+            (_EMERGENCY, self._take_emergency),
             (_STIFFNESS_A, self._take_stiffness_a),
             (_STIFFNESS_B, self._join_stiffness),
             (_EIGENVALUES, self._take_eigenvalues),
             (_POSTURE, self._join_posture),
-            *((MULTIPLEXED[name][0], partial(self._take_part, name)) for name in ("space", "load", "load_across")),
+            (_CONDITION, self._take_details),
             (_WHOLE, self._take_whole),
-            (_SPACE_FD, self._take_space_fd),
-            (_LOAD_FD, self._take_load_fd),
+            (FD_GROUPS["space_fd"][0], self._take_details_fd),
         ]
         self._takers = {layout.identifier: (layout.size, take) for layout, take in takers}
 
     def add(self, frame: Frame) -> Snapshot | None:
         """The snapshot that this frame completes or adds to: first with K alone, then, where they are sent, with K in
-        space, with its load, and with eigenvalues and posture. Over CAN FD one frame has all of it but K in space and
-        the load."""
+        space, with its load, with its uncertainty, and with eigenvalues and posture. Over CAN FD one frame has all of
+        it but K in space, the load and the uncertainty."""
         message, node = frame.identifier & ~NODE_MASK, frame.identifier & NODE_MASK
         taker = self._takers.get(message)
         if taker is None or len(frame.data) != taker[0] or node == 0:
@@ -172,6 +194,13 @@ class Joiner:
         may_follow = self._whole_alone.get(snapshot.node, 0) == 1
         return snapshot.node not in self._sends_space and not may_follow
 
+    def hear_faults(self, node: int, faults: tuple[str, ...]) -> None:
+        """What a controller has answered about its faults."""
+        self._faults[node] = faults
+
+    def _take_emergency(self, node: int, frame: Frame) -> None:
+        self._faults[node] = bit_names(_EMERGENCY, "faults", _EMERGENCY.decode(frame.data))
+
     def _take_stiffness_a(self, node: int, frame: Frame) -> None:
         self._seen.add(node)
         self.unmatched += node in self._stiffness_a
@@ -182,18 +211,22 @@ class Joiner:
 
     def _take_whole(self, node: int, frame: Frame) -> Snapshot:
         self._whole_alone[node] = self._whole_alone.get(node, 0) + 1
-        self._newest[node] = _whole(frame)
-        return self._newest[node]
+        self._newest[node] = newest = _whole(frame)
+        self._faults[node] = newest.faults or ()
+        return newest
 
-    def _take_space_fd(self, node: int, frame: Frame) -> Snapshot | None:
-        values = _SPACE_FD.decode(frame.data)
-        self._sends_space.add(node)
-        self._whole_alone[node] = 0
-        return self._add_space(node, frame.time_s, int(values["sequence"] or 0) & 0xFF, values)
-
-    def _take_load_fd(self, node: int, frame: Frame) -> Snapshot | None:
-        values = _LOAD_FD.decode(frame.data)
-        return self._add_load(node, frame.time_s, int(values["sequence"] or 0) & 0xFF, values, "load")
+    def _take_details_fd(self, node: int, frame: Frame) -> Snapshot | None:
+        name, layout = _PARTS_FD.get(frame.data[_PART_BYTE], ("", _WHOLE))
+        values = layout.decode(frame.data) if name else {}
+        if name == "space_fd":
+            self._sends_space.add(node)
+            self._whole_alone[node] = 0
+            return self._add_space(node, frame.time_s, values["sequence"], values)
+        if name == "load_fd":
+            return self._add_load(node, frame.time_s, values["sequence"], values, "load")
+        if name == "sigma_fd":
+            return self._add_sigma(node, frame.time_s, values["sequence"], values)
+        return None
 
     def _join_stiffness(self, node: int, frame: Frame) -> Snapshot | None:
         first = self._stiffness_a.pop(node, None)
@@ -208,14 +241,16 @@ class Joiner:
             k_xx=a["k_xx"],
             k_xz=a["k_xz"],
             k_zz=b["k_zz"],
-            flags=bit_names(_STIFFNESS_A, "flags", a),
-            age_ms=b["age"],
+            flags=bit_names(_STIFFNESS_B, "flags", b),
+            age_ms=a["age"],
             play=(name_of(_STIFFNESS_B, "play_femur", b), name_of(_STIFFNESS_B, "play_tibia", b)),
-            parameter_tag=b["parameter_tag"],
+            mode=name_of(_STIFFNESS_B, "mode", b),
+            faults=self._faults.get(node),
         )
-        # they came before: their identifiers are the lower ones
+        # they may have come before: their identifier is lower than that of stiffness_b
         self._join_load(node, adds="stiffness")
         self._join_space(node)
+        self._join_sigma(node, adds="stiffness")
         return self._newest[node]
 
     def _join_posture(self, node: int, frame: Frame) -> Snapshot | None:
@@ -232,17 +267,20 @@ class Joiner:
             stiff_axis=eigenvalues["stiff_axis"],
             theta1=posture["theta1"],
             theta2=posture["theta2"],
-            mode=name_of(_POSTURE, "mode", posture),
-            faults=bit_names(_POSTURE, "faults", posture),
+            parameter_tag=posture["parameter_tag"],
+            faults=self._faults.get(node),
         )
         return self._newest[node]
 
-    def _take_part(self, message: str, node: int, frame: Frame) -> Snapshot | None:
-        """One of the frames that carry K in space, the load, or the load across, together."""
-        layouts = MULTIPLEXED[message]
-        sequence, part = frame.data[0], frame.data[layouts[0].part_at // 8]
-        if part >= len(layouts):
+    def _take_details(self, node: int, frame: Frame) -> Snapshot | None:
+        """One of the frames that carry K in space, the load, or the uncertainty together; or the controller's
+        condition. A part that we do not know is another version's."""
+        message, part = _PARTS.get(frame.data[_PART_BYTE], ("", 0))
+        if message == "condition":
+            self._faults[node] = bit_names(_CONDITION, "faults", _CONDITION.decode(frame.data))
+        if message not in _OF_SNAPSHOTS:
             return None
+        layouts, sequence = GROUPS[message], frame.data[0]
         if message == "space":
             self._sends_space.add(node)
         if message == "load_across":
@@ -257,9 +295,8 @@ class Joiner:
         begun.parts[part] = frame.data
         if not begun.is_whole:
             return None
-        if message == "space":
-            return self._join_space(node)
-        return self._join_load(node)
+        return self._join_space(node) if message == "space" else self._join_sigma(node) if message == "sigma" else \
+            self._join_load(node)
 
     def _forget_across(self, node: int, load: _Parts, next_sequence: int) -> None:
         """A node that has sent a load without what is across does not send that any more: its coxa joint is gone."""
@@ -284,6 +321,10 @@ class Joiner:
         space = self._whole_of_newest("space", node)
         return None if space is None else self._add_space(node, space.time_s, space.sequence, space.values())
 
+    def _join_sigma(self, node: int, adds: str = "sigma") -> Snapshot | None:
+        sigma = self._whole_of_newest("sigma", node)
+        return None if sigma is None else self._add_sigma(node, sigma.time_s, sigma.sequence, sigma.values(), adds)
+
     def _whole_of_newest(self, message: str, node: int) -> _Parts | None:
         """What has come of a message, if it is whole and of the newest snapshot."""
         parts = self._parts.get((message, node))
@@ -307,6 +348,15 @@ class Joiner:
         self._newest[node] = newest._replace(adds="space", space=space_snapshot(values))
         return self._newest[node]
 
+    def _add_sigma(
+        self, node: int, time_s: float, sequence: Value, values: Mapping[str, Value], adds: str = "sigma"
+    ) -> Snapshot | None:
+        newest = self._of_newest(node, time_s, sequence)
+        if newest is None or newest.sigma is not None:
+            return None
+        self._newest[node] = newest._replace(adds=adds, sigma=sigma_of(values))
+        return self._newest[node]
+
     def _of_newest(self, node: int, time_s: float, sequence: Value) -> Snapshot | None:
         """The newest snapshot of a node, if a frame is of it."""
         newest = self._newest.get(node)
@@ -326,7 +376,7 @@ def _whole(frame: Frame) -> Snapshot:
         flags=bit_names(_WHOLE, "flags", values),
         age_ms=values["age"],
         play=(name_of(_WHOLE, "play_femur", values), name_of(_WHOLE, "play_tibia", values)),
-        parameter_tag=int(values["parameter_crc"] or 0) & 0xFFFF,
+        parameter_tag=values["parameter_tag"],
         adds="posture",
         has_posture=True,
         lambda_min=values["lambda_min"],
@@ -346,33 +396,47 @@ def _fit(first: Frame, second: Frame) -> bool:
 
 def heartbeat_of(frame: Frame) -> Heartbeat | None:
     """A heartbeat, or None."""
-    layout = MESSAGES["heartbeat"]
-    if frame.identifier & ~NODE_MASK != layout.identifier or len(frame.data) != 8 or frame.node == 0:
+    if frame.identifier & ~NODE_MASK != _HEARTBEAT.identifier or len(frame.data) != 8 or frame.node == 0:
         return None
-    values = layout.decode(frame.data)
+    values = _HEARTBEAT.decode(frame.data)
     return Heartbeat(
         frame.node,
         frame.time_s,
-        name_of(layout, "state", values),
-        name_of(layout, "mode", values),
-        bit_names(layout, "faults", values),
+        name_of(_HEARTBEAT, "state", values),
+        name_of(_HEARTBEAT, "mode", values),
+        name_of(_HEARTBEAT, "setting", values),
+        int(values["protocol"] or 0),
         int(values["dictionary_hash"] or 0),
+    )
+
+
+def condition_of(frame: Frame) -> Condition | None:
+    """A controller's condition, or None."""
+    is_part = frame.identifier & ~NODE_MASK == _DETAILS and len(frame.data) == 8 and frame.node != 0
+    if not is_part or frame.data[_PART_BYTE] != _CONDITION.part:
+        return None
+    values = _CONDITION.decode(frame.data)
+    return Condition(
+        frame.node,
+        frame.time_s,
+        name_of(_CONDITION, "mode", values),
+        name_of(_CONDITION, "setting", values),
+        bit_names(_CONDITION, "faults", values),
     )
 
 
 def emergency_of(frame: Frame) -> Emergency | None:
     """An emergency, or None."""
-    layout = MESSAGES["emergency"]
-    if frame.identifier & ~NODE_MASK != layout.identifier or len(frame.data) != 8 or frame.node == 0:
+    if frame.identifier & ~NODE_MASK != _EMERGENCY.identifier or len(frame.data) != 8 or frame.node == 0:
         return None
-    values = layout.decode(frame.data)
+    values = _EMERGENCY.decode(frame.data)
     return Emergency(
         frame.node,
         frame.time_s,
         int(values["error_code"] or 0),
-        name_of(layout, "mode", values),
-        bit_names(layout, "faults", values),
-        name_of(layout, "drift_cause", values),
+        name_of(_EMERGENCY, "mode", values),
+        bit_names(_EMERGENCY, "faults", values),
+        name_of(_EMERGENCY, "drift_cause", values),
     )
 
 

@@ -9,15 +9,28 @@ from operator import attrgetter
 
 from brace.bus.controller import check_dictionary
 from brace.bus.frame import NODE_MASK, Frame
-from brace.bus.snapshot import Emergency, Heartbeat, Joiner, Snapshot, emergency_of, heartbeat_of
-from brace.wire.frames import FD_MESSAGES, MESSAGES
+from brace.bus.snapshot import (
+    Condition,
+    Emergency,
+    Heartbeat,
+    Joiner,
+    Snapshot,
+    condition_of,
+    emergency_of,
+    heartbeat_of,
+)
+from brace.wire.frames import FD_MESSAGES, GROUPS, MESSAGES
 
 RATE_S = 2.0
-_READ = {MESSAGES["heartbeat"].identifier: heartbeat_of, MESSAGES["emergency"].identifier: emergency_of}
+_READ = {
+    MESSAGES["heartbeat"].identifier: heartbeat_of,
+    MESSAGES["emergency"].identifier: emergency_of,
+    GROUPS["condition"][0].identifier: condition_of,
+}
 _IDENTIFIER = attrgetter("identifier")
 _ENDS_K = (MESSAGES["stiffness_b"].identifier, FD_MESSAGES["snapshot_fd"].identifier)
 
-Event = Snapshot | Heartbeat | Emergency
+Event = Snapshot | Heartbeat | Condition | Emergency
 
 
 @dataclass
@@ -28,7 +41,10 @@ class NodeState:
     posture: Snapshot | None = None  # the newest with eigenvalues and posture
     space: Snapshot | None = None  # the newest with K in space
     load: Snapshot | None = None  # the newest with its load
+    sigma: Snapshot | None = None  # the newest with its uncertainty
     heartbeat: Heartbeat | None = None
+    mode: str = ""  # as last heard; empty: not heard yet
+    faults: tuple[str, ...] | None = None  # as last heard; None: not heard yet
     drift_cause: str = ""  # as the last emergency told it; empty: none has come
     snapshots: int = 0
     valid: int = 0
@@ -70,7 +86,9 @@ class Watch:
         node = frame.identifier & NODE_MASK
         if node == 0 or (self._only is not None and node != self._only):
             return None
-        event: Event | None = _READ.get(frame.identifier & ~NODE_MASK, self.joiner.add)(frame)
+        event: Event | None = self.joiner.add(frame)
+        if event is None and frame.identifier & ~NODE_MASK in _READ:
+            event = _READ[frame.identifier & ~NODE_MASK](frame)
         state = self.nodes.get(node)
         if state is None:
             if event is None:
@@ -87,8 +105,10 @@ class Watch:
             if not self._any_dictionary:
                 check_dictionary(event.dictionary_hash, f"{self._where}, node {node}")
             state.heartbeat = event
-        elif isinstance(event, Emergency):
-            state.drift_cause = event.drift_cause
+            state.mode = event.mode
+        else:
+            state.mode, state.faults = event.mode, event.faults
+            state.drift_cause = event.drift_cause if isinstance(event, Emergency) else state.drift_cause
         return event
 
     def count(self, frames: Sequence[Frame]) -> None:
@@ -108,6 +128,10 @@ class Watch:
         newest = state.snapshot
         is_more = newest is not None and (newest.sequence, newest.time_s) == (snapshot.sequence, snapshot.time_s)
         state.snapshot = snapshot
+        state.mode = snapshot.mode
+        state.faults = state.faults if snapshot.faults is None else snapshot.faults
+        if snapshot.sigma is not None:
+            state.sigma = snapshot
         if snapshot.has_posture:
             state.posture = snapshot
         if snapshot.load is not None:
@@ -133,8 +157,18 @@ def as_json(event: Event) -> dict[str, object]:
             "time_s": round(event.time_s, 6),
             "state": event.state,
             "mode": event.mode,
-            "faults": list(event.faults),
+            "setting": event.setting,
+            "protocol": event.protocol,
             "dictionary_hash": f"{event.dictionary_hash:08x}",
+        }
+    if isinstance(event, Condition):
+        return {
+            "event": "condition",
+            "node": event.node,
+            "time_s": round(event.time_s, 6),
+            "mode": event.mode,
+            "setting": event.setting,
+            "faults": list(event.faults),
         }
     return {
         "event": "emergency",

@@ -54,11 +54,7 @@ def end(arguments: argparse.Namespace, watch: Watch) -> int:
 def line_of(node: int, state: NodeState) -> str:
     """A node in a line."""
     parts = [f"node {node}:"]
-    parts.append(
-        state.heartbeat.mode
-        if state.heartbeat
-        else state.posture.mode if state.posture else "no heartbeat yet"
-    )
+    parts.append(state.mode or "no heartbeat yet")
     k = shown(state)
     if k is None:
         parts.append("K not sent")
@@ -96,8 +92,7 @@ def _load(state: NodeState) -> Load | None:
 
 def fault_words(state: NodeState) -> list[str]:
     """Names of the faults that are there, a drift with its cause where it has been told."""
-    told = state.heartbeat or state.posture
-    names = list(told.faults) if told else []
+    names = list(state.faults or ())
     cause = state.drift_cause
     return [f"{name} ({cause})" if name == "model_drift" and cause not in ("", "none") else name for name in names]
 
@@ -210,5 +205,6 @@ def _lines(state: NodeState) -> list[str]:
         lines.append(f"play {k.play[0]}, {k.play[1]}" if len(k.play) == 2 else "play not sent")
         lines += [f"flag {name}: {_FLAG_WORDS.get(name, located('docs/errors.md'))}" for name in k.flags] or ["flags none"]
     if beat is not None:
-        lines.append(f"{beat.mode} ({beat.state}), faults {' '.join(fault_words(state)) or 'none'}")
+        faults = "not heard yet" if state.faults is None else " ".join(fault_words(state)) or "none"
+        lines.append(f"{state.mode} ({beat.state}), faults {faults}")
     return lines

@@ -50,7 +50,7 @@ def _tell_drift(arguments: argparse.Namespace, device: ModbusController, state: 
     """The cause of a drift, when it comes, changes or goes."""
     from brace.bus.drift import cause_text
 
-    has_drifted = state.posture is not None and "model_drift" in state.posture.faults
+    has_drifted = "model_drift" in (state.faults or ())
     drift = device.drift() if has_drifted else None
     cause = drift.cause if drift is not None else "none"
     before = state.drift_cause or "none"

@@ -278,6 +278,7 @@ def _live(arguments: argparse.Namespace, device: Controller) -> int:
     }
     load = snapshot.load if snapshot.load is not None else device.load()
     drift, take_ups = device.drift(), device.take_ups()
+    faults = snapshot.faults or ()
     if arguments.json:
         common.print_json(entry | {"load": load.as_json(), "drift": drift.as_json(), "take_up": take_ups})
     else:
@@ -292,7 +293,7 @@ def _live(arguments: argparse.Namespace, device: Controller) -> int:
         age = "over 127 ms" if snapshot.age_ms is None else f"{snapshot.age_ms:g} ms"
         common.emit(f"age {age}; play femur {snapshot.play[0]}, tibia " f"{snapshot.play[1]}")
         common.emit(
-            f"faults {' '.join(snapshot.faults) or 'none'}; "
+            f"faults {' '.join(faults) or 'none'}; "
             f"parameters {identity.origin}, CRC {identity.parameter_crc:08x}"
         )
         if snapshot.space is not None:
@@ -301,8 +302,7 @@ def _live(arguments: argparse.Namespace, device: Controller) -> int:
         for line in [*take_up_lines(take_ups), *drift.lines()]:
             common.emit(line)
     if not snapshot.is_valid:
-        reasons = [f"mode {snapshot.mode}"] if snapshot.has_posture else []
-        _say_invalid(device, "K is not valid", ", ".join([*reasons, *snapshot.faults, *snapshot.flags]))
+        _say_invalid(device, "K is not valid", ", ".join([f"mode {snapshot.mode}", *faults, *snapshot.flags]))
     return EXIT_OK if snapshot.is_valid else EXIT_DEVICE_FAULT
 
 

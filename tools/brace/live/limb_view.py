@@ -90,15 +90,15 @@ class LimbNumbers(TypedDict):
 
 def limb_words(node: int, state: NodeState, card: Card) -> LimbWords:
     """An equal object from before, if there is one, so that its text need not be made again."""
-    k, told, load = _k(state), state.heartbeat or state.posture, _recent_load(state)
+    k, load = _k(state), _recent_load(state)
     return _words(
         node,
         card,
         state.space.space.play_coxa if state.space is not None and state.space.space is not None else "",
         () if k is None else k.play,
         () if k is None else k.flags,
-        "" if told is None else told.mode,
-        () if told is None else told.faults,
+        state.mode,
+        state.faults or (),
         _NO_LOAD_SENT if load is None else "" if load.is_counted else _NO_LOAD_COUNTED,
     )
 

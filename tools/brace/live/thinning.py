@@ -8,22 +8,32 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 
 from brace.bus.frame import NODE_MASK, Frame
-from brace.wire.frames import FD_MESSAGES, MESSAGES, MULTIPLEXED
+from brace.wire.frames import FD_GROUPS, FD_MESSAGES, GROUPS, MESSAGES
 
 _FIRST, _POSTURE = MESSAGES["stiffness_a"].identifier, MESSAGES["posture"].identifier  # of a snapshot in several frames
 _K = frozenset((_FIRST, MESSAGES["stiffness_b"].identifier))
 _WHOLE = FD_MESSAGES["snapshot_fd"].identifier
 _HAS_K = _K | {_WHOLE}
 _WITH_POSTURE = frozenset((_POSTURE, _WHOLE))
+# A message's kind: its identifier, of node 0; for frames that share one, with the group's number above it.
+_GROUP_BIT = 12
+_GROUPED = {
+    (layout.identifier, layout.part): layout.identifier | number << _GROUP_BIT
+    for number, group in enumerate((*GROUPS.values(), *FD_GROUPS.values()), 1)
+    for layout in group
+}
+_SHARED = frozenset(identifier for identifier, _ in _GROUPED)
+_PART_BYTE = GROUPS["condition"][0].part_at // 8
+_CONDITION = _GROUPED[GROUPS["condition"][0].identifier, GROUPS["condition"][0].part]
 _OF_SNAPSHOT = frozenset(
     (
         *_K,
         *(MESSAGES[name].identifier for name in ("eigenvalues", "posture")),
         *(layout.identifier for layout in FD_MESSAGES.values()),
-        *(MULTIPLEXED[name][0].identifier for name in ("space", "load", "load_across")),
+        *_GROUPED.values(),
     )
-)  # in all of them the first byte counts the snapshots
-_ALWAYS = frozenset((MESSAGES["heartbeat"].identifier, MESSAGES["emergency"].identifier))
+) - {_CONDITION}  # in all of them the first byte counts the snapshots
+_ALWAYS = frozenset((MESSAGES["heartbeat"].identifier, MESSAGES["emergency"].identifier, _CONDITION))
 
 
 
@@ -39,7 +49,8 @@ class Thinned:
 def thinned(frames: Sequence[Frame], may_hold: bool) -> Thinned:
     """A page shows K with its posture; K alone only of a limb that sends no posture. A snapshot that has begun, and may
     get its posture in the next period, is held until then."""
-    last = {frame.identifier: frame.data[:1] for frame in frames}
+    kinds = [_kind(frame) for frame in frames]
+    last = {kind: frame.data[:1] for kind, frame in zip(kinds, frames, strict=True)}
     by_node: dict[int, list[int]] = {}
     for identifier in last:
         by_node.setdefault(identifier & NODE_MASK, []).append(identifier & ~NODE_MASK)
@@ -52,8 +63,8 @@ def thinned(frames: Sequence[Frame], may_hold: bool) -> Thinned:
         if may_hold and begun is not None and last.get(_POSTURE | node) != begun:
             held |= {part | node: begun for part in _OF_SNAPSHOT.intersection(messages)}
     out = Thinned()
-    for frame in frames:
-        identifier, first = frame.identifier, frame.data[:1]
+    for identifier, frame in zip(kinds, frames, strict=True):
+        first = frame.data[:1]
         if held.get(identifier) == first:
             out.held.append(frame)
         elif first in needed[identifier] or identifier & ~NODE_MASK in _ALWAYS:
@@ -61,6 +72,14 @@ def thinned(frames: Sequence[Frame], may_hold: bool) -> Thinned:
         else:
             out.counted.append(frame)
     return out
+
+
+def _kind(frame: Frame) -> int:
+    """What kind of message it is, with its node."""
+    message = frame.identifier & ~NODE_MASK
+    if message not in _SHARED or len(frame.data) <= _PART_BYTE:
+        return frame.identifier
+    return _GROUPED.get((message, frame.data[_PART_BYTE]), message) | frame.identifier & NODE_MASK
 
 
 @lru_cache(maxsize=256)  # a node sends its messages in few different orders

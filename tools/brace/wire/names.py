@@ -6,7 +6,7 @@ from math import inf
 
 from brace.wire.parameter import Parameter
 
-SCHEMA_HASH = 0x8727EBD7
+SCHEMA_HASH = 0x4EEA2666
 
 PARAMETERS: tuple[Parameter, ...] = (
     Parameter(
@@ -540,37 +540,42 @@ PARAMETERS: tuple[Parameter, ...] = (
         description="how often the load that K counts and K without it go out on CAN, together with a K; 0 means never",
     ),
     Parameter(
-        106, 103, "controller.heartbeat_hz", "controller.heartbeat_hz",
+        106, 113, "controller.sigma_hz", "controller.sigma_hz",
+        unit="Hz", low=0, high=1000, default=10, safe=10, type="u32",
+        description="how often K's uncertainty goes out on CAN, together with a K; 0 means never",
+    ),
+    Parameter(
+        107, 103, "controller.heartbeat_hz", "controller.heartbeat_hz",
         unit="Hz", low=1, high=10, default=1, safe=1, type="u32",
         description="how often the heartbeat goes out",
     ),
     Parameter(
-        107, 104, "controller.bus_load_ratio", "controller.bus_load_ratio",
-        unit="", low=0.0, high=1.0, default=0.06, safe=0.06, open_low=True,
-        description="the share of the bus that K, eigenvalues, posture and load of this controller may take; the controller sends them less often where they would take more",
+        108, 104, "controller.bus_load_ratio", "controller.bus_load_ratio",
+        unit="", low=0.0, high=1.0, default=0.0625, safe=0.0625, open_low=True,
+        description="the share of the bus that K, its uncertainty, eigenvalues, posture and load of this controller may take; the controller sends them less often where they would take more",
     ),
     Parameter(
-        108, 105, "controller.can_fd_bit_rate", "controller.can_fd_bit_rate",
+        109, 105, "controller.can_fd_bit_rate", "controller.can_fd_bit_rate",
         unit="bit/s", low=0, high=8000000, default=0, safe=0, type="u32",
         description="the bit rate of a CAN FD snapshot's data; 0 means that classic frames are sent",
     ),
     Parameter(
-        109, 111, "controller.let_go_after_ms", "controller.let_go_after_ms",
+        110, 111, "controller.let_go_after_ms", "controller.let_go_after_ms",
         unit="", low=0, high=600000, default=0, safe=0, type="u32",
         description="how many milliseconds after its owner has fallen silent the limb lets go by itself; 0 means never: it holds its set-points",
     ),
     Parameter(
-        110, 112, "controller.stop_id", "controller.stop_id",
+        111, 112, "controller.stop_id", "controller.stop_id",
         unit="", low=1, high=127, default=1, safe=1, type="u32",
         description="the identifier of the CAN frame that stops every limb of the bus, whatever the frame carries; it wins over all other identifiers of a controller, and holds from the next start on",
     ),
     Parameter(
-        111, 106, "controller.modbus_address", "controller.modbus_address",
+        112, 106, "controller.modbus_address", "controller.modbus_address",
         unit="", low=1, high=247, default=1, safe=1, type="u32",
         description="the controller's address on Modbus",
     ),
     Parameter(
-        112, 107, "controller.modbus_baud", "controller.modbus_baud",
+        113, 107, "controller.modbus_baud", "controller.modbus_baud",
         unit="bit/s", low=1200, high=230400, default=115200, safe=115200, type="u32", numbers=(1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200, 230400,),
         description="the baud rate of Modbus RTU",
     ),

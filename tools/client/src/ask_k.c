@@ -9,16 +9,18 @@ static void take_k(const brace_question_t *question, brace_client_k_t *k)
     brace_can_k_at_posture_answer_0_t first;
     brace_can_k_at_posture_answer_1_t second;
     brace_can_k_at_posture_answer_2_t third;
+    brace_can_k_at_posture_answer_3_t fourth;
     brace_can_unpack_k_at_posture_answer_0(question->answers[0], &first);
     brace_can_unpack_k_at_posture_answer_1(question->answers[1], &second);
     brace_can_unpack_k_at_posture_answer_2(question->answers[2], &third);
+    brace_can_unpack_k_at_posture_answer_3(question->answers[3], &fourth);
     *k = (brace_client_k_t){.k_xx_n_per_mm = first.k_xx_n_per_mm,
                             .k_xz_n_per_mm = first.k_xz_n_per_mm,
                             .k_zz_n_per_mm = second.k_zz_n_per_mm,
                             .lambda_min_n_per_mm = second.lambda_min_n_per_mm,
                             .lambda_max_n_per_mm = third.lambda_max_n_per_mm,
                             .stiff_axis_rad = third.stiff_axis_rad,
-                            .flags = third.flags};
+                            .flags = fourth.flags};
 }
 
 static brace_client_status_t ask_modbus_for_k(brace_client_t *client, uint32_t first, const uint32_t *values,

@@ -37,16 +37,18 @@ static bool is_of_seal(const brace_bus_frame_t *frame, const waiting_t *waiting)
 
 static void take_answer(const brace_bus_frame_t *frame, waiting_t *waiting)
 {
-    if ((frame->data[0] & 31u) != waiting->code || frame->data[1] != waiting->token) {
+    if (frame->data[1] != waiting->token) {
         return;
     }
-    const uint32_t part = frame->data[0] >> 5;
-    if (part == 7u) {
-        brace_can_unpack_refusal(frame->data, &waiting->refusal);
-        waiting->is_refused = true;
-    } else if (part < brace_can_answer_parts[waiting->code] && !is_of_seal(frame, waiting)) {
-        memcpy(waiting->question->answers[part], frame->data, 8u);
-        waiting->parts_seen |= 1u << part;
+    const brace_can_answer_frame_t *is = &brace_can_answer_frames[frame->data[0]];
+    if (frame->data[0] == BRACE_ANSWER_REFUSED) {
+        brace_can_refusal_t refusal;
+        brace_can_unpack_refusal(frame->data, &refusal);
+        waiting->is_refused = refusal.code == waiting->code;
+        waiting->refusal = waiting->is_refused ? refusal : waiting->refusal;
+    } else if (is->parts > 0u && is->code == waiting->code && !is_of_seal(frame, waiting)) {
+        memcpy(waiting->question->answers[is->part], frame->data, 8u);
+        waiting->parts_seen |= 1u << is->part;
     }
 }
 
@@ -54,9 +56,8 @@ static bool is_from_controller(uint32_t base)
 {
     static const uint32_t bases[] = {BRACE_CAN_ID_EMERGENCY,   BRACE_CAN_ID_STIFFNESS_A, BRACE_CAN_ID_STIFFNESS_B,
                                      BRACE_CAN_ID_EIGENVALUES, BRACE_CAN_ID_POSTURE,     BRACE_CAN_ID_HEARTBEAT,
-                                     BRACE_CAN_ID_ANSWER,      BRACE_CAN_ID_SNAPSHOT_FD, BRACE_CAN_ID_SPACE,
-                                     BRACE_CAN_ID_SPACE_FD,    BRACE_CAN_ID_LOAD,        BRACE_CAN_ID_LOAD_FD,
-                                     BRACE_CAN_ID_LOAD_ACROSS};
+                                     BRACE_CAN_ID_ANSWER,      BRACE_CAN_ID_DETAILS,     BRACE_CAN_ID_SNAPSHOT_FD,
+                                     BRACE_CAN_ID_DETAILS_FD};
     for (size_t i = 0u; i < sizeof bases / sizeof bases[0]; i++) {
         if (base == bases[i]) {
             return true;
@@ -72,8 +73,7 @@ static void hear(brace_client_t *client, const brace_bus_frame_t *frame, waiting
     if (node != 0u && is_from_controller(base)) {
         client->heard[node >> 5] |= 1u << (node & 31u);
     }
-    const bool is_long =
-        base == BRACE_CAN_ID_SNAPSHOT_FD || base == BRACE_CAN_ID_SPACE_FD || base == BRACE_CAN_ID_LOAD_FD;
+    const bool is_long = base == BRACE_CAN_ID_SNAPSHOT_FD || base == BRACE_CAN_ID_DETAILS_FD;
     if (node != client->node || node == 0u || (frame->length != 8u && !is_long)) {
         return;
     }
@@ -88,10 +88,10 @@ static void hear(brace_client_t *client, const brace_bus_frame_t *frame, waiting
     } else if (base == BRACE_CAN_ID_ANSWER && waiting != NULL) {
         take_answer(frame, waiting);
     } else if (base == BRACE_CAN_ID_REQUEST) {
-        client->force_is_taken |= brace_client_is_about_force(frame->data[0] & 31u);
+        client->force_is_taken |= brace_client_is_about_force(frame->data[0]);
         client->foreign_us[frame->data[1]] = frame->received_us;
         if (waiting != NULL) {
-            waiting->is_taken |= !waiting->is_command && (frame->data[0] & 31u) == waiting->code &&
+            waiting->is_taken |= !waiting->is_command && frame->data[0] == waiting->code &&
                                  frame->data[1] == waiting->token;
         }
     } else {
@@ -513,6 +513,8 @@ static const char *part_in_words(uint32_t wanted)
     return (wanted & BRACE_PART_LOAD_ACROSS) != 0u
                ? "the load across the plane (only a limb with a coxa joint sends it, where controller.load_hz is not 0)"
            : (wanted & BRACE_PART_LOAD) != 0u ? "the load (it is sent where controller.load_hz is not 0)"
+           : (wanted & BRACE_PART_SIGMA) != 0u
+               ? "K's uncertainty (it is sent where controller.sigma_hz is not 0)"
            : (wanted & BRACE_PART_SPACE) != 0u
                ? "K in space (only a limb with a coxa joint sends it)"
                : "the wanted part of a snapshot (controller.stiffness_hz, posture_hz)";

@@ -98,6 +98,18 @@ static void take_load(const brace_measured_t *m, brace_client_load_t *load)
     };
 }
 
+static void take_sigma(const brace_measured_t *m, brace_client_sigma_t *sigma)
+{
+    *sigma = (brace_client_sigma_t){
+        .k_xx_n_per_mm = m->sigma_k_xx_n_per_mm,
+        .k_xz_n_per_mm = m->sigma_k_xz_n_per_mm,
+        .k_zz_n_per_mm = m->sigma_k_zz_n_per_mm,
+        .lambda_min_n_per_mm = m->sigma_lambda_min_n_per_mm,
+        .lambda_max_n_per_mm = m->sigma_lambda_max_n_per_mm,
+        .stiff_axis_rad = m->sigma_stiff_axis_rad,
+    };
+}
+
 /* unknown: a table of measured values of which none is known. */
 static void take(const brace_measured_t *m, uint64_t received_us, const brace_measured_t *unknown,
                  brace_client_snapshot_t *s)
@@ -125,6 +137,7 @@ static void take(const brace_measured_t *m, uint64_t received_us, const brace_me
     };
     take_space(unknown, &s->space);
     take_load(unknown, &s->load);
+    take_sigma(unknown, &s->sigma);
 }
 
 /* Reads some measured values at once, so that they are of one snapshot. The others stay unknown: NaN for a float, all
@@ -163,6 +176,18 @@ static brace_client_status_t read_space(brace_client_t *client, uint64_t deadlin
     if (status == BRACE_CLIENT_OK) {
         take_space(&measured, &snapshot->space);
         snapshot->parts |= BRACE_PART_SPACE;
+    }
+    return status;
+}
+
+static brace_client_status_t read_sigma(brace_client_t *client, uint64_t deadline_us, brace_client_snapshot_t *snapshot)
+{
+    enum { FIRST = PLACE_OF(sigma_k_xx_n_per_mm), COUNT = PLACE_OF(sigma_stiff_axis_rad) - FIRST + 1 };
+    brace_measured_t measured;
+    const brace_client_status_t status = read_measured(client, FIRST, COUNT, deadline_us, &measured);
+    if (status == BRACE_CLIENT_OK) {
+        take_sigma(&measured, &snapshot->sigma);
+        snapshot->parts |= BRACE_PART_SIGMA;
     }
     return status;
 }
@@ -227,6 +252,9 @@ brace_client_status_t brace_modbus_read(brace_client_t *client, uint32_t wanted,
     if (status == BRACE_CLIENT_OK && (wanted & (BRACE_PART_LOAD | BRACE_PART_LOAD_ACROSS)) != 0u) {
         status = brace_modbus_load(client, deadline_us, &taken.load);
         taken.parts |= BRACE_PART_LOAD | (is_in_space ? BRACE_PART_LOAD_ACROSS : 0u);
+    }
+    if (status == BRACE_CLIENT_OK && (wanted & BRACE_PART_SIGMA) != 0u) {
+        status = read_sigma(client, deadline_us, &taken);
     }
     if (status == BRACE_CLIENT_OK) {
         *snapshot = taken;

@@ -13,17 +13,18 @@ enum { BRACE_JOINER_SPAN_US = 40000, BRACE_JOINER_SLOTS = 2 };
 typedef struct {
     bool used;
     brace_client_snapshot_t snapshot;
-    uint32_t frames; /* bits 0 stiffness_a, 1 stiffness_b, 2 eigenvalues, 3 posture, 4 to 10 space, 11 to 15 load,
-                        16 and 17 load_across */
+    uint32_t frames; /* that have come, one bit each */
 } brace_joiner_slot_t;
 
 typedef struct {
     brace_joiner_slot_t slots[BRACE_JOINER_SLOTS]; /* two, because a new K may be sent before an older posture */
     uint32_t lost;
+    bool faults_are_known; /* since the last frame that was lost */
+    uint32_t faults;       /* as last heard */
 } brace_joiner_t;
 
-/* Takes one frame of process data (0x100, 0x180, 0x200, 0x280, 0x380, 0x400, 0x480 + node; with CAN FD, 0x300,
- * 0x500 and 0x680 + node), and ignores any other frame. lost: the bus' count of lost frames up to this one.
+/* Takes one frame of process data (0x180, 0x200, 0x280, 0x380, 0x480 + node; with CAN FD, 0x300 and 0x500 + node), or
+ * an emergency (0x080 + node), and ignores any other frame. lost: the bus' count of lost frames up to this one.
  * returns the snapshot to which this frame has completed a part, valid until the next call; null: there is none */
 const brace_client_snapshot_t *brace_joiner_add(brace_joiner_t *joiner, uint32_t node, const brace_bus_frame_t *frame,
                                                 uint32_t lost);

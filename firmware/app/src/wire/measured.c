@@ -24,6 +24,38 @@ static void take_stiffness(const brace_snapshot_t *snapshot, brace_measured_t *m
     m->engaged_lambda_max_n_per_mm = engaged->lambda_max_n_per_mm;
 }
 
+/* One sigma that is infinite says no more than one that is not known. */
+static float sigma_of(const brace_snapshot_t *snapshot, float sigma)
+{
+    return snapshot->sigma_is_known && __builtin_isfinite(sigma) ? sigma : __builtin_nanf("");
+}
+
+static void take_sigma(const brace_snapshot_t *snapshot, brace_measured_t *m)
+{
+    const brace_stiffness_sigma_t *sigma = &snapshot->sigma;
+    m->sigma_k_xx_n_per_mm = sigma_of(snapshot, sigma->k_xx_n_per_mm);
+    m->sigma_k_xz_n_per_mm = sigma_of(snapshot, sigma->k_xz_n_per_mm);
+    m->sigma_k_zz_n_per_mm = sigma_of(snapshot, sigma->k_zz_n_per_mm);
+    m->sigma_lambda_min_n_per_mm = sigma_of(snapshot, sigma->lambda_min_n_per_mm);
+    m->sigma_lambda_max_n_per_mm = sigma_of(snapshot, sigma->lambda_max_n_per_mm);
+    m->sigma_stiff_axis_rad = sigma_of(snapshot, sigma->stiff_axis_rad);
+}
+
+static void take_sigma_of_space(const brace_snapshot_t *snapshot, brace_measured_t *m)
+{
+    const brace_space_sigma_t *sigma = &snapshot->sigma_space;
+    m->sigma_space_k_xx_n_per_mm = sigma_of(snapshot, sigma->k_xx_n_per_mm);
+    m->sigma_space_k_xy_n_per_mm = sigma_of(snapshot, sigma->k_xy_n_per_mm);
+    m->sigma_space_k_xz_n_per_mm = sigma_of(snapshot, sigma->k_xz_n_per_mm);
+    m->sigma_space_k_yy_n_per_mm = sigma_of(snapshot, sigma->k_yy_n_per_mm);
+    m->sigma_space_k_yz_n_per_mm = sigma_of(snapshot, sigma->k_yz_n_per_mm);
+    m->sigma_space_k_zz_n_per_mm = sigma_of(snapshot, sigma->k_zz_n_per_mm);
+    m->sigma_space_lambda_1_n_per_mm = sigma_of(snapshot, sigma->lambda_n_per_mm[0]);
+    m->sigma_space_lambda_2_n_per_mm = sigma_of(snapshot, sigma->lambda_n_per_mm[1]);
+    m->sigma_space_lambda_3_n_per_mm = sigma_of(snapshot, sigma->lambda_n_per_mm[2]);
+    m->sigma_k_across_n_per_mm = sigma_of(snapshot, sigma->across_n_per_mm);
+}
+
 static void take_load(const brace_snapshot_t *snapshot, brace_measured_t *m)
 {
     const brace_snapshot_load_t *load = &snapshot->load;
@@ -211,6 +243,8 @@ void measured_take(const brace_app_t *app, const brace_app_counters_t *counters,
     m->mode = snapshot->mode;
     m->faults = snapshot->faults;
     take_stiffness(snapshot, m);
+    take_sigma(snapshot, m);
+    take_sigma_of_space(snapshot, m);
     take_load(snapshot, m);
     take_space(snapshot, m);
     take_posture(snapshot, m);

@@ -232,6 +232,9 @@ typedef struct {
     uint32_t schema_hash;
     uint32_t parameter_crc;
     uint32_t origin;
+    uint32_t faults;
+    uint32_t mode;
+    uint32_t setting;
 } brace_identify_answer_t;
 
 typedef struct {

@@ -14,8 +14,8 @@
 #include <stdint.h>
 
 /* Of every frame, entry and parameter, with types, steps and units: what two ends must agree on. */
-#define BRACE_DICTIONARY_HASH 0x3b348fceu
-#define BRACE_PROTOCOL 1u
+#define BRACE_DICTIONARY_HASH 0x4c6df23fu
+#define BRACE_PROTOCOL 2u
 
 /* Identifiers of node 0; a controller adds its node number, 1-127. */
 enum {
@@ -25,17 +25,14 @@ enum {
     BRACE_CAN_ID_EIGENVALUES = 0x380,
     BRACE_CAN_ID_POSTURE = 0x480,
     BRACE_CAN_ID_HEARTBEAT = 0x700,
-    BRACE_CAN_ID_SPACE = 0x200,
-    BRACE_CAN_ID_LOAD = 0x100,
-    BRACE_CAN_ID_LOAD_ACROSS = 0x400,
+    BRACE_CAN_ID_DETAILS = 0x200,
+    BRACE_CAN_ID_DETAILS_FD = 0x300,
     BRACE_CAN_ID_SNAPSHOT_FD = 0x500,
-    BRACE_CAN_ID_SPACE_FD = 0x300,
-    BRACE_CAN_ID_LOAD_FD = 0x680,
     BRACE_CAN_ID_REQUEST = 0x600,
     BRACE_CAN_ID_ANSWER = 0x580
 };
 
-/* First byte of a request; of an answer: plus 32 times its part. */
+/* First byte of a request. */
 enum {
     BRACE_REQUEST_READ_ENTRY = 1,
     BRACE_REQUEST_WRITE_ENTRY = 2,
@@ -68,24 +65,122 @@ enum {
     BRACE_REQUEST_K_UNDER_LOAD_AT_TIP_KNEE_UP = 29,
     BRACE_REQUEST_K_UNDER_LOAD_AT_TIP_KNEE_DOWN = 30,
     BRACE_REQUEST_TIP_FORCE_IN_SPACE = 31,
-    BRACE_ANSWER_PART = 32,
-    BRACE_ANSWER_REFUSED = 224
+};
+
+/* First byte of an answer: the number of this frame, which no other answer has. */
+enum {
+    BRACE_READ_ENTRY_ANSWER_0 = 1,
+    BRACE_WRITE_ENTRY_ANSWER_0 = 2,
+    BRACE_K_AT_POSTURE_ANSWER_0 = 3,
+    BRACE_K_AT_POSTURE_ANSWER_1 = 4,
+    BRACE_K_AT_POSTURE_ANSWER_2 = 5,
+    BRACE_K_AT_POSTURE_ANSWER_3 = 6,
+    BRACE_K_AT_TIP_KNEE_UP_ANSWER_0 = 7,
+    BRACE_K_AT_TIP_KNEE_UP_ANSWER_1 = 8,
+    BRACE_K_AT_TIP_KNEE_UP_ANSWER_2 = 9,
+    BRACE_K_AT_TIP_KNEE_UP_ANSWER_3 = 10,
+    BRACE_K_AT_TIP_KNEE_DOWN_ANSWER_0 = 11,
+    BRACE_K_AT_TIP_KNEE_DOWN_ANSWER_1 = 12,
+    BRACE_K_AT_TIP_KNEE_DOWN_ANSWER_2 = 13,
+    BRACE_K_AT_TIP_KNEE_DOWN_ANSWER_3 = 14,
+    BRACE_CONTACT_FORCE_ANSWER_0 = 15,
+    BRACE_CONTACT_FORCE_ANSWER_1 = 16,
+    BRACE_SAG_FOR_LOAD_ANSWER_0 = 17,
+    BRACE_FRICTION_MARGIN_ANSWER_0 = 18,
+    BRACE_SET_MODE_ANSWER_0 = 19,
+    BRACE_UPLOAD_BEGIN_ANSWER_0 = 20,
+    BRACE_UPLOAD_WORD_ANSWER_0 = 21,
+    BRACE_COMMIT_ANSWER_0 = 22,
+    BRACE_COMMIT_ANSWER_1 = 23,
+    BRACE_ROLLBACK_ANSWER_0 = 24,
+    BRACE_ROLLBACK_ANSWER_1 = 25,
+    BRACE_DOWNLOAD_WORD_ANSWER_0 = 26,
+    BRACE_TAKE_UP_ANSWER_0 = 27,
+    BRACE_LET_GO_ANSWER_0 = 28,
+    BRACE_LOADING_TEST_START_ANSWER_0 = 29,
+    BRACE_LOADING_TEST_STOP_ANSWER_0 = 30,
+    BRACE_FETCH_ROW_ANSWER_0 = 31,
+    BRACE_IDENTIFY_ANSWER_0 = 32,
+    BRACE_IDENTIFY_ANSWER_1 = 33,
+    BRACE_IDENTIFY_ANSWER_2 = 34,
+    BRACE_IDENTIFY_ANSWER_3 = 35,
+    BRACE_IDENTIFY_ANSWER_4 = 36,
+    BRACE_LOADING_TEST_RESULT_ANSWER_0 = 37,
+    BRACE_CLEAR_ANSWER_0 = 38,
+    BRACE_K_IN_SPACE_AT_POSTURE_ANSWER_0 = 39,
+    BRACE_K_IN_SPACE_AT_POSTURE_ANSWER_1 = 40,
+    BRACE_K_IN_SPACE_AT_POSTURE_ANSWER_2 = 41,
+    BRACE_K_IN_SPACE_AT_POSTURE_ANSWER_3 = 42,
+    BRACE_K_IN_SPACE_AT_POSTURE_ANSWER_4 = 43,
+    BRACE_K_IN_SPACE_AT_POSTURE_ANSWER_5 = 44,
+    BRACE_DRIFT_ANSWER_0 = 45,
+    BRACE_DRIFT_ANSWER_1 = 46,
+    BRACE_DRIFT_ANSWER_2 = 47,
+    BRACE_TAKE_UP_RESULT_ANSWER_0 = 48,
+    BRACE_SET_GRAVITY_ANSWER_0 = 49,
+    BRACE_TIP_FORCE_ANSWER_0 = 50,
+    BRACE_K_UNDER_LOAD_AT_POSTURE_ANSWER_0 = 51,
+    BRACE_K_UNDER_LOAD_AT_POSTURE_ANSWER_1 = 52,
+    BRACE_K_UNDER_LOAD_AT_POSTURE_ANSWER_2 = 53,
+    BRACE_K_UNDER_LOAD_AT_POSTURE_ANSWER_3 = 54,
+    BRACE_K_UNDER_LOAD_AT_POSTURE_ANSWER_4 = 55,
+    BRACE_K_UNDER_LOAD_AT_TIP_KNEE_UP_ANSWER_0 = 56,
+    BRACE_K_UNDER_LOAD_AT_TIP_KNEE_UP_ANSWER_1 = 57,
+    BRACE_K_UNDER_LOAD_AT_TIP_KNEE_UP_ANSWER_2 = 58,
+    BRACE_K_UNDER_LOAD_AT_TIP_KNEE_UP_ANSWER_3 = 59,
+    BRACE_K_UNDER_LOAD_AT_TIP_KNEE_UP_ANSWER_4 = 60,
+    BRACE_K_UNDER_LOAD_AT_TIP_KNEE_DOWN_ANSWER_0 = 61,
+    BRACE_K_UNDER_LOAD_AT_TIP_KNEE_DOWN_ANSWER_1 = 62,
+    BRACE_K_UNDER_LOAD_AT_TIP_KNEE_DOWN_ANSWER_2 = 63,
+    BRACE_K_UNDER_LOAD_AT_TIP_KNEE_DOWN_ANSWER_3 = 64,
+    BRACE_K_UNDER_LOAD_AT_TIP_KNEE_DOWN_ANSWER_4 = 65,
+    BRACE_TIP_FORCE_IN_SPACE_ANSWER_0 = 66,
+    BRACE_ANSWER_REFUSED = 255
 };
 
 /* Frames of the answer, by the request's code; 0: no such request. */
-extern const uint8_t brace_can_answer_parts[32];
+extern const uint8_t brace_can_answer_parts[256];
 
-/* The frames of one space, and which of them a frame is. */
-enum { BRACE_CAN_SPACE_PARTS = 7 };
-uint32_t brace_can_space_part(const uint8_t data[8]);
+/* Whose answer's frame a number is, and which of its frames, counted from 0; parts of 0: nobody's. */
+typedef struct {
+    uint8_t code, part, parts;
+} brace_can_answer_frame_t;
+extern const brace_can_answer_frame_t brace_can_answer_frames[256];
 
-/* The frames of one load, and which of them a frame is. */
-enum { BRACE_CAN_LOAD_PARTS = 5 };
-uint32_t brace_can_load_part(const uint8_t data[8]);
+/* Which frame of details it is: BRACE_CAN_PART_..., or a number that this list lacks. */
+enum {
+    BRACE_CAN_PART_CONDITION = 0,
+    BRACE_CAN_PART_SPACE_0 = 16,
+    BRACE_CAN_PART_SPACE_1 = 17,
+    BRACE_CAN_PART_SPACE_2 = 18,
+    BRACE_CAN_PART_SPACE_3 = 19,
+    BRACE_CAN_PART_SPACE_4 = 20,
+    BRACE_CAN_PART_SPACE_5 = 21,
+    BRACE_CAN_PART_SPACE_6 = 22,
+    BRACE_CAN_PART_LOAD_0 = 32,
+    BRACE_CAN_PART_LOAD_1 = 33,
+    BRACE_CAN_PART_LOAD_2 = 34,
+    BRACE_CAN_PART_LOAD_3 = 35,
+    BRACE_CAN_PART_LOAD_4 = 36,
+    BRACE_CAN_PART_LOAD_5 = 37,
+    BRACE_CAN_PART_LOAD_ACROSS_0 = 48,
+    BRACE_CAN_PART_LOAD_ACROSS_1 = 49,
+    BRACE_CAN_PART_SIGMA_0 = 64,
+    BRACE_CAN_PART_SIGMA_1 = 65,
+    BRACE_CAN_PART_SIGMA_SPACE_0 = 80,
+    BRACE_CAN_PART_SIGMA_SPACE_1 = 81,
+    BRACE_CAN_PART_SIGMA_SPACE_2 = 82,
+    BRACE_CAN_PART_SIGMA_SPACE_3 = 83,
+};
+uint32_t brace_can_details_part(const uint8_t *data);
 
-/* The frames of one load_across, and which of them a frame is. */
-enum { BRACE_CAN_LOAD_ACROSS_PARTS = 2 };
-uint32_t brace_can_load_across_part(const uint8_t data[8]);
+/* Which frame of details_fd it is: BRACE_CAN_PART_..., or a number that this list lacks. */
+enum {
+    BRACE_CAN_PART_SPACE_FD = 16,
+    BRACE_CAN_PART_LOAD_FD = 32,
+    BRACE_CAN_PART_SIGMA_FD = 64,
+};
+uint32_t brace_can_details_fd_part(const uint8_t *data);
 
 /* a fault has come or gone, or the likeliest cause of a drift is another one */
 typedef struct {
@@ -110,35 +205,35 @@ void brace_can_unpack_emergency(const uint8_t data[8], brace_can_emergency_t *me
 typedef struct {
     /* the number of the snapshot; the frames of one snapshot carry the same number */
     uint32_t sequence;
-    /* the quality of K */
-    uint32_t flags;
     /* the force along x per displacement along x [N/mm, -4194.3 to 4194.3] */
     float k_xx_n_per_mm;
     /* the force along x per displacement along z, and the reverse [N/mm, -4194.3 to 4194.3] */
     float k_xz_n_per_mm;
+    /* the age of the joints' samples when the frame was made; 127 ms stands for 127 ms and more [ms, 0 to 127] */
+    float age_ms;
 } brace_can_stiffness_a_t;
 #define BRACE_CAN_STIFFNESS_A_K_XX_N_PER_MM_MOST 4194.3035f
 #define BRACE_CAN_STIFFNESS_A_K_XZ_N_PER_MM_MOST 4194.3035f
+#define BRACE_CAN_STIFFNESS_A_AGE_MS_MOST 127.0f
 uint32_t brace_can_pack_stiffness_a(const brace_can_stiffness_a_t *message, uint8_t data[8]);
 void brace_can_unpack_stiffness_a(const uint8_t data[8], brace_can_stiffness_a_t *message);
 
-/* K at the tip, second half, and what it stands for */
+/* K at the tip, second half, and what it is worth */
 typedef struct {
     /* the number of the snapshot; the frames of one snapshot carry the same number */
     uint32_t sequence;
     /* the force along z per displacement along z [N/mm, -4194.3 to 4194.3] */
     float k_zz_n_per_mm;
-    /* the age of the joints' samples when the frame was made; 127 ms stands for 127 ms and more [ms, 0 to 127] */
-    float age_ms;
+    /* the quality of K */
+    uint32_t flags;
     /* which side of the femur joint's backlash is loaded */
     uint32_t play_femur;
     /* which side of the tibia joint's backlash is loaded */
     uint32_t play_tibia;
-    /* the low half of the CRC of the parameters in force */
-    uint32_t parameter_tag;
+    /* what the controller is doing */
+    uint32_t mode;
 } brace_can_stiffness_b_t;
 #define BRACE_CAN_STIFFNESS_B_K_ZZ_N_PER_MM_MOST 4194.3035f
-#define BRACE_CAN_STIFFNESS_B_AGE_MS_MOST 127.0f
 uint32_t brace_can_pack_stiffness_b(const brace_can_stiffness_b_t *message, uint8_t data[8]);
 void brace_can_unpack_stiffness_b(const uint8_t data[8], brace_can_stiffness_b_t *message);
 
@@ -159,7 +254,7 @@ typedef struct {
 uint32_t brace_can_pack_eigenvalues(const brace_can_eigenvalues_t *message, uint8_t data[8]);
 void brace_can_unpack_eigenvalues(const uint8_t data[8], brace_can_eigenvalues_t *message);
 
-/* true joint angles of the snapshot, and what the controller is doing */
+/* true joint angles of the snapshot, and the parameters in force */
 typedef struct {
     /* the number of the snapshot; the frames of one snapshot carry the same number */
     uint32_t sequence;
@@ -167,34 +262,46 @@ typedef struct {
     float theta1_rad;
     /* the true flexion of the knee [rad, -10.4857 to 10.4857] */
     float theta2_rad;
-    /* what the controller is doing */
-    uint32_t mode;
-    /* the faults that are there now */
-    uint32_t faults;
+    /* the low half of the CRC of the parameters in force */
+    uint32_t parameter_tag;
 } brace_can_posture_t;
 #define BRACE_CAN_POSTURE_THETA1_RAD_MOST 10.48574f
 #define BRACE_CAN_POSTURE_THETA2_RAD_MOST 10.48574f
 uint32_t brace_can_pack_posture(const brace_can_posture_t *message, uint8_t data[8]);
 void brace_can_unpack_posture(const uint8_t data[8], brace_can_posture_t *message);
 
-/* the controller lives, and speaks this dictionary */
+/* the controller lives, and speaks this dictionary; the part condition of details follows each heartbeat */
 typedef struct {
     /* the state as CANopen numbers it */
     uint32_t state;
     /* what the controller is doing */
     uint32_t mode;
-    /* the faults that are there now */
-    uint32_t faults;
     /* who may move the limb and write to this controller */
     uint32_t setting;
+    /* the version of these frames */
+    uint32_t protocol;
     /* a checksum over everything on the wire; two ends whose hashes differ cannot understand each other */
     uint32_t dictionary_hash;
 } brace_can_heartbeat_t;
 uint32_t brace_can_pack_heartbeat(const brace_can_heartbeat_t *message, uint8_t data[8]);
 void brace_can_unpack_heartbeat(const uint8_t data[8], brace_can_heartbeat_t *message);
 
+/* what is wrong, and who may move the limb; it follows each heartbeat */
+typedef struct {
+    /* the number of the snapshot; the frames of one snapshot carry the same number */
+    uint32_t sequence;
+    /* the faults that are there now */
+    uint32_t faults;
+    /* what the controller is doing */
+    uint32_t mode;
+    /* who may move the limb and write to this controller */
+    uint32_t setting;
+} brace_can_condition_t;
+uint32_t brace_can_pack_condition(const brace_can_condition_t *message, uint8_t data[8]);
+void brace_can_unpack_condition(const uint8_t data[8], brace_can_condition_t *message);
+
 /* K in space, in the robot's base frame; only a limb whose coxa joint is fitted sends it, each snapshot in all its
- * parts: part 0 */
+ * parts: frame 1 of 7 */
 typedef struct {
     /* the number of the snapshot; the frames of one snapshot carry the same number */
     uint32_t sequence;
@@ -209,7 +316,7 @@ uint32_t brace_can_pack_space_0(const brace_can_space_0_t *message, uint8_t data
 void brace_can_unpack_space_0(const uint8_t data[8], brace_can_space_0_t *message);
 
 /* K in space, in the robot's base frame; only a limb whose coxa joint is fitted sends it, each snapshot in all its
- * parts: part 1 */
+ * parts: frame 2 of 7 */
 typedef struct {
     /* the number of the snapshot; the frames of one snapshot carry the same number */
     uint32_t sequence;
@@ -224,7 +331,7 @@ uint32_t brace_can_pack_space_1(const brace_can_space_1_t *message, uint8_t data
 void brace_can_unpack_space_1(const uint8_t data[8], brace_can_space_1_t *message);
 
 /* K in space, in the robot's base frame; only a limb whose coxa joint is fitted sends it, each snapshot in all its
- * parts: part 2 */
+ * parts: frame 3 of 7 */
 typedef struct {
     /* the number of the snapshot; the frames of one snapshot carry the same number */
     uint32_t sequence;
@@ -239,7 +346,7 @@ uint32_t brace_can_pack_space_2(const brace_can_space_2_t *message, uint8_t data
 void brace_can_unpack_space_2(const uint8_t data[8], brace_can_space_2_t *message);
 
 /* K in space, in the robot's base frame; only a limb whose coxa joint is fitted sends it, each snapshot in all its
- * parts: part 3 */
+ * parts: frame 4 of 7 */
 typedef struct {
     /* the number of the snapshot; the frames of one snapshot carry the same number */
     uint32_t sequence;
@@ -254,7 +361,7 @@ uint32_t brace_can_pack_space_3(const brace_can_space_3_t *message, uint8_t data
 void brace_can_unpack_space_3(const uint8_t data[8], brace_can_space_3_t *message);
 
 /* K in space, in the robot's base frame; only a limb whose coxa joint is fitted sends it, each snapshot in all its
- * parts: part 4 */
+ * parts: frame 5 of 7 */
 typedef struct {
     /* the number of the snapshot; the frames of one snapshot carry the same number */
     uint32_t sequence;
@@ -264,8 +371,6 @@ typedef struct {
     uint32_t flags;
     /* the age of the joints' samples when the frame was made; 127 ms stands for 127 ms and more [ms, 0 to 127] */
     float age_ms;
-    /* which side of the coxa joint's backlash is loaded */
-    uint32_t play_coxa;
 } brace_can_space_4_t;
 #define BRACE_CAN_SPACE_4_LAMBDA_3_N_PER_MM_MOST 8388.607f
 #define BRACE_CAN_SPACE_4_AGE_MS_MOST 127.0f
@@ -273,7 +378,7 @@ uint32_t brace_can_pack_space_4(const brace_can_space_4_t *message, uint8_t data
 void brace_can_unpack_space_4(const uint8_t data[8], brace_can_space_4_t *message);
 
 /* K in space, in the robot's base frame; only a limb whose coxa joint is fitted sends it, each snapshot in all its
- * parts: part 5 */
+ * parts: frame 6 of 7 */
 typedef struct {
     /* the number of the snapshot; the frames of one snapshot carry the same number */
     uint32_t sequence;
@@ -291,21 +396,24 @@ uint32_t brace_can_pack_space_5(const brace_can_space_5_t *message, uint8_t data
 void brace_can_unpack_space_5(const uint8_t data[8], brace_can_space_5_t *message);
 
 /* K in space, in the robot's base frame; only a limb whose coxa joint is fitted sends it, each snapshot in all its
- * parts: part 6 */
+ * parts: frame 7 of 7 */
 typedef struct {
     /* the number of the snapshot; the frames of one snapshot carry the same number */
     uint32_t sequence;
-    /* the true angle of the coxa joint [rad, -8.38861 to 8.38861] */
+    /* the true angle of the coxa joint [rad, -10.4857 to 10.4857] */
     float theta0_rad;
     /* the force across the limb's plane per displacement across it [N/mm, 0 to 8388.61] */
     float k_across_n_per_mm;
+    /* which side of the coxa joint's backlash is loaded */
+    uint32_t play_coxa;
 } brace_can_space_6_t;
-#define BRACE_CAN_SPACE_6_THETA0_RAD_MOST 8.388607f
+#define BRACE_CAN_SPACE_6_THETA0_RAD_MOST 10.48574f
 #define BRACE_CAN_SPACE_6_K_ACROSS_N_PER_MM_MOST 8388.607f
 uint32_t brace_can_pack_space_6(const brace_can_space_6_t *message, uint8_t data[8]);
 void brace_can_unpack_space_6(const uint8_t data[8], brace_can_space_6_t *message);
 
-/* the load that K counts and what it does to the limb, and K without it; each snapshot in all its parts: part 0 */
+/* the load that K counts and what it does to the limb, and K without it; each snapshot in all its parts: frame 1
+ * of 6 */
 typedef struct {
     /* the number of the snapshot; the frames of one snapshot carry the same number */
     uint32_t sequence;
@@ -319,23 +427,22 @@ typedef struct {
 uint32_t brace_can_pack_load_0(const brace_can_load_0_t *message, uint8_t data[8]);
 void brace_can_unpack_load_0(const uint8_t data[8], brace_can_load_0_t *message);
 
-/* the load that K counts and what it does to the limb, and K without it; each snapshot in all its parts: part 1 */
+/* the load that K counts and what it does to the limb, and K without it; each snapshot in all its parts: frame 2
+ * of 6 */
 typedef struct {
     /* the number of the snapshot; the frames of one snapshot carry the same number */
     uint32_t sequence;
     /* k_zz with neither the force on the tip nor the weight counted, every gap closed [N/mm, -4194.3 to 4194.3] */
     float unloaded_k_zz_n_per_mm;
-    /* how far the weight's direction leans out of the limb's plane [rad, -3.2767 to 3.2767] */
-    float gravity_lean_rad;
     /* the quality of K */
     uint32_t flags;
 } brace_can_load_1_t;
 #define BRACE_CAN_LOAD_1_UNLOADED_K_ZZ_N_PER_MM_MOST 4194.3035f
-#define BRACE_CAN_LOAD_1_GRAVITY_LEAN_RAD_MOST 3.2767f
 uint32_t brace_can_pack_load_1(const brace_can_load_1_t *message, uint8_t data[8]);
 void brace_can_unpack_load_1(const uint8_t data[8], brace_can_load_1_t *message);
 
-/* the load that K counts and what it does to the limb, and K without it; each snapshot in all its parts: part 2 */
+/* the load that K counts and what it does to the limb, and K without it; each snapshot in all its parts: frame 3
+ * of 6 */
 typedef struct {
     /* the number of the snapshot; the frames of one snapshot carry the same number */
     uint32_t sequence;
@@ -349,7 +456,8 @@ typedef struct {
 uint32_t brace_can_pack_load_2(const brace_can_load_2_t *message, uint8_t data[8]);
 void brace_can_unpack_load_2(const uint8_t data[8], brace_can_load_2_t *message);
 
-/* the load that K counts and what it does to the limb, and K without it; each snapshot in all its parts: part 3 */
+/* the load that K counts and what it does to the limb, and K without it; each snapshot in all its parts: frame 4
+ * of 6 */
 typedef struct {
     /* the number of the snapshot; the frames of one snapshot carry the same number */
     uint32_t sequence;
@@ -363,7 +471,8 @@ typedef struct {
 uint32_t brace_can_pack_load_3(const brace_can_load_3_t *message, uint8_t data[8]);
 void brace_can_unpack_load_3(const uint8_t data[8], brace_can_load_3_t *message);
 
-/* the load that K counts and what it does to the limb, and K without it; each snapshot in all its parts: part 4 */
+/* the load that K counts and what it does to the limb, and K without it; each snapshot in all its parts: frame 5
+ * of 6 */
 typedef struct {
     /* the number of the snapshot; the frames of one snapshot carry the same number */
     uint32_t sequence;
@@ -377,8 +486,20 @@ typedef struct {
 uint32_t brace_can_pack_load_4(const brace_can_load_4_t *message, uint8_t data[8]);
 void brace_can_unpack_load_4(const uint8_t data[8], brace_can_load_4_t *message);
 
+/* the load that K counts and what it does to the limb, and K without it; each snapshot in all its parts: frame 6
+ * of 6 */
+typedef struct {
+    /* the number of the snapshot; the frames of one snapshot carry the same number */
+    uint32_t sequence;
+    /* how far the weight's direction leans out of the limb's plane [rad, -3.2767 to 3.2767] */
+    float gravity_lean_rad;
+} brace_can_load_5_t;
+#define BRACE_CAN_LOAD_5_GRAVITY_LEAN_RAD_MOST 3.2767f
+uint32_t brace_can_pack_load_5(const brace_can_load_5_t *message, uint8_t data[8]);
+void brace_can_unpack_load_5(const uint8_t data[8], brace_can_load_5_t *message);
+
 /* the load across the limb's plane, and K there without it, of the same snapshot as load; only a limb whose coxa
- * joint is fitted sends it, each snapshot in all its parts: part 0 */
+ * joint is fitted sends it, each snapshot in all its parts: frame 1 of 2 */
 typedef struct {
     /* the number of the snapshot; the frames of one snapshot carry the same number */
     uint32_t sequence;
@@ -394,7 +515,7 @@ uint32_t brace_can_pack_load_across_0(const brace_can_load_across_0_t *message, 
 void brace_can_unpack_load_across_0(const uint8_t data[8], brace_can_load_across_0_t *message);
 
 /* the load across the limb's plane, and K there without it, of the same snapshot as load; only a limb whose coxa
- * joint is fitted sends it, each snapshot in all its parts: part 1 */
+ * joint is fitted sends it, each snapshot in all its parts: frame 2 of 2 */
 typedef struct {
     /* the number of the snapshot; the frames of one snapshot carry the same number */
     uint32_t sequence;
@@ -408,13 +529,115 @@ typedef struct {
 uint32_t brace_can_pack_load_across_1(const brace_can_load_across_1_t *message, uint8_t data[8]);
 void brace_can_unpack_load_across_1(const uint8_t data[8], brace_can_load_across_1_t *message);
 
+/* one sigma of K at the tip, of its eigenvalues and of its direction, every gap closed, of the same snapshot:
+ * frame 1 of 2 */
+typedef struct {
+    /* the number of the snapshot; the frames of one snapshot carry the same number */
+    uint32_t sequence;
+    /* one sigma of k_xx [N/mm, 0 to 32.767] */
+    float k_xx_n_per_mm;
+    /* one sigma of k_xz [N/mm, 0 to 32.767] */
+    float k_xz_n_per_mm;
+    /* one sigma of k_zz [N/mm, 0 to 32.767] */
+    float k_zz_n_per_mm;
+} brace_can_sigma_0_t;
+#define BRACE_CAN_SIGMA_0_K_XX_N_PER_MM_MOST 32.767f
+#define BRACE_CAN_SIGMA_0_K_XZ_N_PER_MM_MOST 32.767f
+#define BRACE_CAN_SIGMA_0_K_ZZ_N_PER_MM_MOST 32.767f
+uint32_t brace_can_pack_sigma_0(const brace_can_sigma_0_t *message, uint8_t data[8]);
+void brace_can_unpack_sigma_0(const uint8_t data[8], brace_can_sigma_0_t *message);
+
+/* one sigma of K at the tip, of its eigenvalues and of its direction, every gap closed, of the same snapshot:
+ * frame 2 of 2 */
+typedef struct {
+    /* the number of the snapshot; the frames of one snapshot carry the same number */
+    uint32_t sequence;
+    /* one sigma of lambda_min [N/mm, 0 to 32.767] */
+    float lambda_min_n_per_mm;
+    /* one sigma of lambda_max [N/mm, 0 to 32.767] */
+    float lambda_max_n_per_mm;
+    /* one sigma of stiff_axis [rad, 0 to 6.5534] */
+    float stiff_axis_rad;
+} brace_can_sigma_1_t;
+#define BRACE_CAN_SIGMA_1_LAMBDA_MIN_N_PER_MM_MOST 32.767f
+#define BRACE_CAN_SIGMA_1_LAMBDA_MAX_N_PER_MM_MOST 32.767f
+#define BRACE_CAN_SIGMA_1_STIFF_AXIS_RAD_MOST 6.5534f
+uint32_t brace_can_pack_sigma_1(const brace_can_sigma_1_t *message, uint8_t data[8]);
+void brace_can_unpack_sigma_1(const uint8_t data[8], brace_can_sigma_1_t *message);
+
+/* one sigma of K in space, of its eigenvalues and of K across the limb's plane, every gap closed, of the same
+ * snapshot: frame 1 of 4 */
+typedef struct {
+    /* the number of the snapshot; the frames of one snapshot carry the same number */
+    uint32_t sequence;
+    /* one sigma of k_xx in space [N/mm, 0 to 32.767] */
+    float k_xx_n_per_mm;
+    /* one sigma of k_xy in space [N/mm, 0 to 32.767] */
+    float k_xy_n_per_mm;
+    /* one sigma of k_xz in space [N/mm, 0 to 32.767] */
+    float k_xz_n_per_mm;
+} brace_can_sigma_space_0_t;
+#define BRACE_CAN_SIGMA_SPACE_0_K_XX_N_PER_MM_MOST 32.767f
+#define BRACE_CAN_SIGMA_SPACE_0_K_XY_N_PER_MM_MOST 32.767f
+#define BRACE_CAN_SIGMA_SPACE_0_K_XZ_N_PER_MM_MOST 32.767f
+uint32_t brace_can_pack_sigma_space_0(const brace_can_sigma_space_0_t *message, uint8_t data[8]);
+void brace_can_unpack_sigma_space_0(const uint8_t data[8], brace_can_sigma_space_0_t *message);
+
+/* one sigma of K in space, of its eigenvalues and of K across the limb's plane, every gap closed, of the same
+ * snapshot: frame 2 of 4 */
+typedef struct {
+    /* the number of the snapshot; the frames of one snapshot carry the same number */
+    uint32_t sequence;
+    /* one sigma of k_yy in space [N/mm, 0 to 32.767] */
+    float k_yy_n_per_mm;
+    /* one sigma of k_yz in space [N/mm, 0 to 32.767] */
+    float k_yz_n_per_mm;
+    /* one sigma of k_zz in space [N/mm, 0 to 32.767] */
+    float k_zz_n_per_mm;
+} brace_can_sigma_space_1_t;
+#define BRACE_CAN_SIGMA_SPACE_1_K_YY_N_PER_MM_MOST 32.767f
+#define BRACE_CAN_SIGMA_SPACE_1_K_YZ_N_PER_MM_MOST 32.767f
+#define BRACE_CAN_SIGMA_SPACE_1_K_ZZ_N_PER_MM_MOST 32.767f
+uint32_t brace_can_pack_sigma_space_1(const brace_can_sigma_space_1_t *message, uint8_t data[8]);
+void brace_can_unpack_sigma_space_1(const uint8_t data[8], brace_can_sigma_space_1_t *message);
+
+/* one sigma of K in space, of its eigenvalues and of K across the limb's plane, every gap closed, of the same
+ * snapshot: frame 3 of 4 */
+typedef struct {
+    /* the number of the snapshot; the frames of one snapshot carry the same number */
+    uint32_t sequence;
+    /* one sigma of lambda_1 in space [N/mm, 0 to 32.767] */
+    float lambda_1_n_per_mm;
+    /* one sigma of lambda_2 in space [N/mm, 0 to 32.767] */
+    float lambda_2_n_per_mm;
+    /* one sigma of lambda_3 in space [N/mm, 0 to 32.767] */
+    float lambda_3_n_per_mm;
+} brace_can_sigma_space_2_t;
+#define BRACE_CAN_SIGMA_SPACE_2_LAMBDA_1_N_PER_MM_MOST 32.767f
+#define BRACE_CAN_SIGMA_SPACE_2_LAMBDA_2_N_PER_MM_MOST 32.767f
+#define BRACE_CAN_SIGMA_SPACE_2_LAMBDA_3_N_PER_MM_MOST 32.767f
+uint32_t brace_can_pack_sigma_space_2(const brace_can_sigma_space_2_t *message, uint8_t data[8]);
+void brace_can_unpack_sigma_space_2(const uint8_t data[8], brace_can_sigma_space_2_t *message);
+
+/* one sigma of K in space, of its eigenvalues and of K across the limb's plane, every gap closed, of the same
+ * snapshot: frame 4 of 4 */
+typedef struct {
+    /* the number of the snapshot; the frames of one snapshot carry the same number */
+    uint32_t sequence;
+    /* one sigma of k_across [N/mm, 0 to 32.767] */
+    float k_across_n_per_mm;
+} brace_can_sigma_space_3_t;
+#define BRACE_CAN_SIGMA_SPACE_3_K_ACROSS_N_PER_MM_MOST 32.767f
+uint32_t brace_can_pack_sigma_space_3(const brace_can_sigma_space_3_t *message, uint8_t data[8]);
+void brace_can_unpack_sigma_space_3(const uint8_t data[8], brace_can_sigma_space_3_t *message);
+
 /* a whole snapshot, in place of stiffness_a, stiffness_b, eigenvalues and posture, where
  * controller.can_fd_bit_rate is set and the bus can do it */
 typedef struct {
     /* the number of the snapshot */
     uint32_t sequence;
-    /* the CRC of the parameters in force */
-    uint32_t parameter_crc;
+    /* the low half of the CRC of the parameters in force */
+    uint32_t parameter_tag;
     /* the age of the joints' samples when the frame was made; 32767 ms stands for 32767 ms and more [ms, 0 to
      * 32767] */
     float age_ms;
@@ -460,19 +683,27 @@ void brace_can_unpack_snapshot_fd(const uint8_t data[64], brace_can_snapshot_fd_
 /* K in space of the same snapshot as snapshot_fd, in the robot's base frame; in place of space, sent only by a
  * limb whose coxa joint is fitted */
 typedef struct {
-    /* the number of the snapshot */
+    /* the number of the snapshot; the frames of one snapshot carry the same number */
     uint32_t sequence;
     /* the age of the joints' samples when the frame was made; 32767 ms stands for 32767 ms and more [ms, 0 to
      * 32767] */
     float age_ms;
-    /* the low half of the CRC of the parameters in force */
-    uint32_t parameter_tag;
     /* the quality of K in space */
     uint32_t flags;
+    /* the low half of the CRC of the parameters in force */
+    uint32_t parameter_tag;
     /* what the controller is doing */
     uint32_t mode;
     /* which side of the coxa joint's backlash is loaded */
     uint32_t play_coxa;
+    /* the x component of the unit vector along which K in space is largest [, -1.63835 to 1.63835] */
+    float stiff_axis_x;
+    /* the y component of the unit vector along which K in space is largest [, -1.63835 to 1.63835] */
+    float stiff_axis_y;
+    /* the z component of the unit vector along which K in space is largest [, -1.63835 to 1.63835] */
+    float stiff_axis_z;
+    /* the true angle of the coxa joint */
+    float theta0_rad;
     /* the force across the limb's plane per displacement across it */
     float k_across_n_per_mm;
     /* the force along x per displacement along x */
@@ -493,14 +724,6 @@ typedef struct {
     float lambda_2_n_per_mm;
     /* the largest eigenvalue of K in space */
     float lambda_3_n_per_mm;
-    /* the true angle of the coxa joint */
-    float theta0_rad;
-    /* the x component of the unit vector along which K in space is largest [, -1.63835 to 1.63835] */
-    float stiff_axis_x;
-    /* the y component of the unit vector along which K in space is largest [, -1.63835 to 1.63835] */
-    float stiff_axis_y;
-    /* the z component of the unit vector along which K in space is largest [, -1.63835 to 1.63835] */
-    float stiff_axis_z;
 } brace_can_space_fd_t;
 #define BRACE_CAN_SPACE_FD_AGE_MS_MOST 32767.0f
 #define BRACE_CAN_SPACE_FD_STIFF_AXIS_X_MOST 1.63835f
@@ -511,13 +734,15 @@ void brace_can_unpack_space_fd(const uint8_t data[64], brace_can_space_fd_t *mes
 
 /* the load that K counts and what it does to the limb, and K without it, of one snapshot; in place of load */
 typedef struct {
-    /* the number of the snapshot */
+    /* the number of the snapshot; the frames of one snapshot carry the same number */
     uint32_t sequence;
     /* the age of the joints' samples when the frame was made; 32767 ms stands for 32767 ms and more [ms, 0 to
      * 32767] */
     float age_ms;
     /* the quality of K */
     uint32_t flags;
+    /* the low half of the CRC of the parameters in force */
+    uint32_t parameter_tag;
     /* k_xx with neither the force on the tip nor the weight counted, every gap closed */
     float unloaded_k_xx_n_per_mm;
     /* k_xz with neither the force on the tip nor the weight counted, every gap closed */
@@ -550,6 +775,47 @@ typedef struct {
 #define BRACE_CAN_LOAD_FD_AGE_MS_MOST 32767.0f
 uint32_t brace_can_pack_load_fd(const brace_can_load_fd_t *message, uint8_t data[64]);
 void brace_can_unpack_load_fd(const uint8_t data[64], brace_can_load_fd_t *message);
+
+/* one sigma of K of the same snapshot as snapshot_fd; in place of sigma and sigma_space */
+typedef struct {
+    /* the number of the snapshot; the frames of one snapshot carry the same number */
+    uint32_t sequence;
+    /* one sigma of stiff_axis [rad, 0 to 6.5534] */
+    float stiff_axis_rad;
+    /* one sigma of k_xx */
+    float k_xx_n_per_mm;
+    /* one sigma of k_xz */
+    float k_xz_n_per_mm;
+    /* one sigma of k_zz */
+    float k_zz_n_per_mm;
+    /* one sigma of lambda_min */
+    float lambda_min_n_per_mm;
+    /* one sigma of lambda_max */
+    float lambda_max_n_per_mm;
+    /* one sigma of k_xx in space; not known of a limb without a coxa joint */
+    float space_k_xx_n_per_mm;
+    /* one sigma of k_xy in space; not known of a limb without a coxa joint */
+    float space_k_xy_n_per_mm;
+    /* one sigma of k_xz in space; not known of a limb without a coxa joint */
+    float space_k_xz_n_per_mm;
+    /* one sigma of k_yy in space; not known of a limb without a coxa joint */
+    float space_k_yy_n_per_mm;
+    /* one sigma of k_yz in space; not known of a limb without a coxa joint */
+    float space_k_yz_n_per_mm;
+    /* one sigma of k_zz in space; not known of a limb without a coxa joint */
+    float space_k_zz_n_per_mm;
+    /* one sigma of lambda_1 in space */
+    float space_lambda_1_n_per_mm;
+    /* one sigma of lambda_2 in space */
+    float space_lambda_2_n_per_mm;
+    /* one sigma of lambda_3 in space */
+    float space_lambda_3_n_per_mm;
+    /* one sigma of k_across */
+    float k_across_n_per_mm;
+} brace_can_sigma_fd_t;
+#define BRACE_CAN_SIGMA_FD_STIFF_AXIS_RAD_MOST 6.5534f
+uint32_t brace_can_pack_sigma_fd(const brace_can_sigma_fd_t *message, uint8_t data[64]);
+void brace_can_unpack_sigma_fd(const uint8_t data[64], brace_can_sigma_fd_t *message);
 
 typedef struct {
     uint32_t token;
@@ -625,11 +891,17 @@ typedef struct {
     float lambda_max_n_per_mm;
     /* the direction of lambda_max, measured from +x [rad, -3.2767 to 3.2767] */
     float stiff_axis_rad;
-    /* the quality of K */
-    uint32_t flags;
 } brace_can_k_at_posture_answer_2_t;
 uint32_t brace_can_pack_k_at_posture_answer_2(const brace_can_k_at_posture_answer_2_t *message, uint8_t data[8]);
 void brace_can_unpack_k_at_posture_answer_2(const uint8_t data[8], brace_can_k_at_posture_answer_2_t *message);
+
+typedef struct {
+    uint32_t token;
+    /* the quality of K */
+    uint32_t flags;
+} brace_can_k_at_posture_answer_3_t;
+uint32_t brace_can_pack_k_at_posture_answer_3(const brace_can_k_at_posture_answer_3_t *message, uint8_t data[8]);
+void brace_can_unpack_k_at_posture_answer_3(const uint8_t data[8], brace_can_k_at_posture_answer_3_t *message);
 
 typedef struct {
     uint32_t token;
@@ -669,12 +941,19 @@ typedef struct {
     float lambda_max_n_per_mm;
     /* the direction of lambda_max, measured from +x [rad, -3.2767 to 3.2767] */
     float stiff_axis_rad;
-    /* the quality of K */
-    uint32_t flags;
 } brace_can_k_at_tip_knee_up_answer_2_t;
 uint32_t brace_can_pack_k_at_tip_knee_up_answer_2(const brace_can_k_at_tip_knee_up_answer_2_t *message,
     uint8_t data[8]);
 void brace_can_unpack_k_at_tip_knee_up_answer_2(const uint8_t data[8], brace_can_k_at_tip_knee_up_answer_2_t *message);
+
+typedef struct {
+    uint32_t token;
+    /* the quality of K */
+    uint32_t flags;
+} brace_can_k_at_tip_knee_up_answer_3_t;
+uint32_t brace_can_pack_k_at_tip_knee_up_answer_3(const brace_can_k_at_tip_knee_up_answer_3_t *message,
+    uint8_t data[8]);
+void brace_can_unpack_k_at_tip_knee_up_answer_3(const uint8_t data[8], brace_can_k_at_tip_knee_up_answer_3_t *message);
 
 typedef struct {
     uint32_t token;
@@ -718,13 +997,21 @@ typedef struct {
     float lambda_max_n_per_mm;
     /* the direction of lambda_max, measured from +x [rad, -3.2767 to 3.2767] */
     float stiff_axis_rad;
-    /* the quality of K */
-    uint32_t flags;
 } brace_can_k_at_tip_knee_down_answer_2_t;
 uint32_t brace_can_pack_k_at_tip_knee_down_answer_2(const brace_can_k_at_tip_knee_down_answer_2_t *message,
     uint8_t data[8]);
 void brace_can_unpack_k_at_tip_knee_down_answer_2(const uint8_t data[8],
     brace_can_k_at_tip_knee_down_answer_2_t *message);
+
+typedef struct {
+    uint32_t token;
+    /* the quality of K */
+    uint32_t flags;
+} brace_can_k_at_tip_knee_down_answer_3_t;
+uint32_t brace_can_pack_k_at_tip_knee_down_answer_3(const brace_can_k_at_tip_knee_down_answer_3_t *message,
+    uint8_t data[8]);
+void brace_can_unpack_k_at_tip_knee_down_answer_3(const uint8_t data[8],
+    brace_can_k_at_tip_knee_down_answer_3_t *message);
 
 typedef struct {
     uint32_t token;
@@ -1083,6 +1370,18 @@ typedef struct {
 } brace_can_identify_answer_3_t;
 uint32_t brace_can_pack_identify_answer_3(const brace_can_identify_answer_3_t *message, uint8_t data[8]);
 void brace_can_unpack_identify_answer_3(const uint8_t data[8], brace_can_identify_answer_3_t *message);
+
+typedef struct {
+    uint32_t token;
+    /* the faults that are there now */
+    uint32_t faults;
+    /* what the controller is doing */
+    uint32_t mode;
+    /* who may move the limb and write to this controller */
+    uint32_t setting;
+} brace_can_identify_answer_4_t;
+uint32_t brace_can_pack_identify_answer_4(const brace_can_identify_answer_4_t *message, uint8_t data[8]);
+void brace_can_unpack_identify_answer_4(const uint8_t data[8], brace_can_identify_answer_4_t *message);
 
 typedef struct {
     uint32_t token;
@@ -1570,6 +1869,8 @@ void brace_can_unpack_tip_force_in_space_answer_0(const uint8_t data[8],
 
 typedef struct {
     uint32_t token;
+    /* the code of the request */
+    uint32_t code;
     /* why: docs/errors.md, statuses and refusals */
     int32_t status;
     /* what more there is to say: an index, a mode, a hash */

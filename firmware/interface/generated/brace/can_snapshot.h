@@ -27,10 +27,18 @@ void brace_can_make_load_1(const brace_measured_t *measured, float age_ms, uint8
 void brace_can_make_load_2(const brace_measured_t *measured, float age_ms, uint8_t *data);
 void brace_can_make_load_3(const brace_measured_t *measured, float age_ms, uint8_t *data);
 void brace_can_make_load_4(const brace_measured_t *measured, float age_ms, uint8_t *data);
+void brace_can_make_load_5(const brace_measured_t *measured, float age_ms, uint8_t *data);
 void brace_can_make_load_across_0(const brace_measured_t *measured, float age_ms, uint8_t *data);
 void brace_can_make_load_across_1(const brace_measured_t *measured, float age_ms, uint8_t *data);
+void brace_can_make_sigma_0(const brace_measured_t *measured, float age_ms, uint8_t *data);
+void brace_can_make_sigma_1(const brace_measured_t *measured, float age_ms, uint8_t *data);
+void brace_can_make_sigma_space_0(const brace_measured_t *measured, float age_ms, uint8_t *data);
+void brace_can_make_sigma_space_1(const brace_measured_t *measured, float age_ms, uint8_t *data);
+void brace_can_make_sigma_space_2(const brace_measured_t *measured, float age_ms, uint8_t *data);
+void brace_can_make_sigma_space_3(const brace_measured_t *measured, float age_ms, uint8_t *data);
 void brace_can_make_snapshot_fd(const brace_measured_t *measured, float age_ms, uint8_t *data);
 void brace_can_make_space_fd(const brace_measured_t *measured, float age_ms, uint8_t *data);
 void brace_can_make_load_fd(const brace_measured_t *measured, float age_ms, uint8_t *data);
+void brace_can_make_sigma_fd(const brace_measured_t *measured, float age_ms, uint8_t *data);
 
 #endif

@@ -284,9 +284,41 @@ typedef struct {
     uint32_t questions_busy;
     /* how many requests over CAN and Modbus TCP found no room, or their answers did not, counted since start */
     uint32_t requests_lost;
+    /* one sigma of k_xx, every gap closed; not known while K is not valid, and until it has been worked out */
+    float sigma_k_xx_n_per_mm;
+    /* one sigma of k_xz, every gap closed; not known while K is not valid, and until it has been worked out */
+    float sigma_k_xz_n_per_mm;
+    /* one sigma of k_zz, every gap closed; not known while K is not valid, and until it has been worked out */
+    float sigma_k_zz_n_per_mm;
+    /* one sigma of lambda_min, every gap closed; not known while K is not valid, and until it has been worked out */
+    float sigma_lambda_min_n_per_mm;
+    /* one sigma of lambda_max, every gap closed; not known while K is not valid, and until it has been worked out */
+    float sigma_lambda_max_n_per_mm;
+    /* one sigma of stiff_axis, every gap closed */
+    float sigma_stiff_axis_rad;
+    /* one sigma of space_k_xx; not known of a limb without a coxa joint */
+    float sigma_space_k_xx_n_per_mm;
+    /* one sigma of space_k_xy; not known of a limb without a coxa joint */
+    float sigma_space_k_xy_n_per_mm;
+    /* one sigma of space_k_xz; not known of a limb without a coxa joint */
+    float sigma_space_k_xz_n_per_mm;
+    /* one sigma of space_k_yy; not known of a limb without a coxa joint */
+    float sigma_space_k_yy_n_per_mm;
+    /* one sigma of space_k_yz; not known of a limb without a coxa joint */
+    float sigma_space_k_yz_n_per_mm;
+    /* one sigma of space_k_zz; not known of a limb without a coxa joint */
+    float sigma_space_k_zz_n_per_mm;
+    /* one sigma of space_lambda_1 */
+    float sigma_space_lambda_1_n_per_mm;
+    /* one sigma of space_lambda_2 */
+    float sigma_space_lambda_2_n_per_mm;
+    /* one sigma of space_lambda_3 */
+    float sigma_space_lambda_3_n_per_mm;
+    /* one sigma of k_across */
+    float sigma_k_across_n_per_mm;
 } brace_measured_t;
 
-enum { BRACE_MEASURED_COUNT = 128 };
+enum { BRACE_MEASURED_COUNT = 144 };
 #ifndef __cplusplus
 _Static_assert(sizeof(brace_measured_t) == 4 * BRACE_MEASURED_COUNT, "32 bits each");
 #endif

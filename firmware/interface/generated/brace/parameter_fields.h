@@ -100,10 +100,12 @@ typedef struct {
     /* how often the load that K counts and K without it go out on CAN, together with a K; 0 means never [Hz, 0 to
      * 1000] */
     uint32_t load_hz;
+    /* how often K's uncertainty goes out on CAN, together with a K; 0 means never [Hz, 0 to 1000] */
+    uint32_t sigma_hz;
     /* how often the heartbeat goes out [Hz, 1 to 10] */
     uint32_t heartbeat_hz;
-    /* the share of the bus that K, eigenvalues, posture and load of this controller may take; the controller sends
-     * them less often where they would take more [above 0 to 1] */
+    /* the share of the bus that K, its uncertainty, eigenvalues, posture and load of this controller may take; the
+     * controller sends them less often where they would take more [above 0 to 1] */
     float bus_load_ratio;
     /* the bit rate of a CAN FD snapshot's data; 0 means that classic frames are sent [bit/s, 0 to 8e+06] */
     uint32_t can_fd_bit_rate;

@@ -11,9 +11,9 @@ _HEARTBEAT = MESSAGES["heartbeat"]
 # Signals by message. All else that a controller sends is computed with its model.
 MEASURED = {
     "posture": frozenset(("theta1", "theta2")),
-    "load": frozenset(("counted_force_x", "counted_force_z")),
+    "details": frozenset(("load_counted_force_x", "load_counted_force_z")),
     "snapshot_fd": frozenset(("theta1", "theta2")),
-    "load_fd": frozenset(("counted_force_x", "counted_force_z")),
+    "details_fd": frozenset(("load_counted_force_x", "load_counted_force_z")),
 }
 WHY_NOT = (
     "of our controller's frames only the joint angles and the force that K counts with are taken: stiffness and "

@@ -48,13 +48,14 @@ typedef struct brace_client brace_client_t;
 
 /* Parts of a snapshot. A CAN FD frame carries all of them. */
 enum {
-    BRACE_PART_K = 1,           /* K, flags, play states: in every snapshot, 200 Hz (controller.stiffness_hz) */
+    BRACE_PART_K = 1,           /* K, flags, play states, mode: in every snapshot, 200 Hz (controller.stiffness_hz) */
     BRACE_PART_EIGENVALUES = 2, /* lambda_min, lambda_max, stiff axis: 20 Hz (controller.posture_hz) */
-    BRACE_PART_POSTURE = 4,     /* joint angles, mode, faults: 20 Hz */
+    BRACE_PART_POSTURE = 4,     /* joint angles, parameter tag: 20 Hz */
     BRACE_PART_ALL = 7,         /* the three parts above, which every limb has */
     BRACE_PART_SPACE = 8,       /* K in space of a limb whose coxa joint is fitted: in every snapshot */
     BRACE_PART_LOAD = 16,       /* the load that K counts: at controller.load_hz, which is 0 at first */
-    BRACE_PART_LOAD_ACROSS = 32 /* its y and K across without load, of a limb whose coxa joint is fitted: beside it */
+    BRACE_PART_LOAD_ACROSS = 32, /* its y and K across without load, of a limb whose coxa joint is fitted: beside it */
+    BRACE_PART_SIGMA = 64       /* how sure K is: 10 Hz (controller.sigma_hz) */
 };
 
 /* K in the robot's base frame. */
@@ -72,6 +73,12 @@ typedef struct {
     float k_across_n_per_mm; /* K across the limb's plane */
     uint32_t play_coxa;      /* state of the coxa joint's backlash, numbered as play_femur */
 } brace_client_space_t;
+
+/* One sigma of each value of K in the limb's plane; NaN: not known. */
+typedef struct {
+    float k_xx_n_per_mm, k_xz_n_per_mm, k_zz_n_per_mm;
+    float lambda_min_n_per_mm, lambda_max_n_per_mm, stiff_axis_rad;
+} brace_client_sigma_t;
 
 /* The load that K counts, and what it does to the limb. x and z in the limb's plane, y across it, to the left: NaN for
  * a limb in its plane, and over CAN in a snapshot without BRACE_PART_LOAD_ACROSS. */
@@ -99,7 +106,9 @@ typedef struct {
     float lambda_min_n_per_mm, lambda_max_n_per_mm, stiff_axis_rad;
     float theta1_rad, theta2_rad;
     uint32_t mode;   /* 0 start, 1 monitor, 2 configuration, 3 taking up, 4 loading test, 5 fault */
-    uint32_t faults; /* bits as docs/protocol.md lists them */
+    uint32_t faults; /* bits as docs/protocol.md lists them; all ones: not heard yet. Over CAN they come at a change and
+                        with each heartbeat (controller.heartbeat_hz), so these are the newest that were heard */
+    brace_client_sigma_t sigma;
     brace_client_space_t space;
     brace_client_load_t load;
 } brace_client_snapshot_t;
@@ -181,9 +190,10 @@ void brace_client_identity(const brace_client_t *client, brace_client_identity_t
 /* The newest snapshot that has all wanted parts (BRACE_PART_..., added) and was not read before. If there is none, the
  * call waits for the next one; where none comes in time, it gives one that came up to a second before the call. Its
  * frames are of one tick: they carry one number, came together, and nothing was lost between them. Over Modbus the
- * parts of BRACE_PART_ALL are always there, and each call reads anew. BRACE_PART_SPACE and BRACE_PART_LOAD are a second
- * and a third read, each of one tick, which may be later than that of the other parts. For K in space of a limb without
- * a coxa joint the call returns E_TIMEOUT over CAN, where no such frame comes, and E_UNSUPPORTED over Modbus.
+ * parts of BRACE_PART_ALL are always there, and each call reads anew. BRACE_PART_SPACE, BRACE_PART_LOAD and
+ * BRACE_PART_SIGMA are further reads, each of one tick, which may be later than that of the other parts. For K in space
+ * of a limb without a coxa joint the call returns E_TIMEOUT over CAN, where no such frame comes, and E_UNSUPPORTED over
+ * Modbus.
  * BRACE_PART_LOAD over CAN returns E_TIMEOUT while controller.load_hz is 0; brace_client_load then asks.
  * returns OK, E_USAGE (wanted), E_TIMEOUT, E_SILENT, E_BIT_RATE, E_NODE, E_DOWN, E_VERSION, E_UNSUPPORTED,
  * E_REFUSED (an exception over Modbus) */

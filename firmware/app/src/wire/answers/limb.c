@@ -158,7 +158,10 @@ int32_t answer_identify(request_t *request, const brace_identify_request_t *aske
                                             .dictionary_hash = BRACE_DICTIONARY_HASH,
                                             .schema_hash = BRACE_SCHEMA_HASH,
                                             .parameter_crc = snapshot->parameter_crc,
-                                            .origin = snapshot->parameter_origin};
+                                            .origin = snapshot->parameter_origin,
+                                            .faults = brace_app_faults(request->app),
+                                            .mode = brace_app_mode(request->app),
+                                            .setting = brace_app_setting(request->app)};
     return BRACE_OK;
 }
 

@@ -67,12 +67,22 @@ bool announce_next(const announce_t *announce, const wire_tick_t *tick, brace_ca
                                                                 .faults = faults}, frame->data);
         return true;
     }
+    if (announce->owes_condition) {
+        frame->id = BRACE_CAN_ID_DETAILS;
+        const uint32_t sequence = brace_app_snapshot(tick->app)->sequence & 0xffu;
+        (void)brace_can_pack_condition(&(brace_can_condition_t){.sequence = sequence,
+                                                                .faults = faults,
+                                                                .mode = mode,
+                                                                .setting = brace_app_setting(tick->app)},
+                                       frame->data);
+        return true;
+    }
     if (mode != announce->mode_told || heart_beats(announce, tick)) {
         frame->id = BRACE_CAN_ID_HEARTBEAT;
         (void)brace_can_pack_heartbeat(&(brace_can_heartbeat_t){.state = state_of(mode),
                                                                 .mode = mode,
-                                                                .faults = faults,
                                                                 .setting = brace_app_setting(tick->app),
+                                                                .protocol = BRACE_PROTOCOL,
                                                                 .dictionary_hash = BRACE_DICTIONARY_HASH},
                                        frame->data);
         return true;
@@ -85,9 +95,12 @@ void announce_sent(announce_t *announce, const wire_tick_t *tick, uint32_t funct
     if (function == (uint32_t)BRACE_CAN_ID_EMERGENCY) {
         announce->faults_told = brace_app_faults(tick->app);
         announce->cause_told = drift_cause(tick, announce->faults_told);
+    } else if (function == (uint32_t)BRACE_CAN_ID_DETAILS) {
+        announce->owes_condition = false;
     } else {
         announce->mode_told = brace_app_mode(tick->app);
         announce->beat_us = tick->now_us;
+        announce->owes_condition = true;
     }
 }
 

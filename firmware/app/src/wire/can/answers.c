@@ -5,8 +5,6 @@
 
 #include "brace/can_messages.h"
 
-#define CODE_MASK 31u /* of an answer's first byte; the bits above tell its part */
-
 bool can_answers_have_room(const can_answers_t *answers, uint32_t frames)
 {
     return answers->count + frames <= (uint32_t)CAN_ANSWERS_ROOM;
@@ -24,8 +22,7 @@ void can_answers_add(can_answers_t *answers, uint8_t (*parts)[8], uint32_t count
 void can_answers_refuse(can_answers_t *answers, uint32_t code, uint32_t token, int32_t status, uint32_t detail)
 {
     uint8_t part[1][8];
-    (void)brace_can_pack_refusal(&(brace_can_refusal_t){token, status, detail}, part[0]);
-    part[0][0] = (uint8_t)(part[0][0] | (code & CODE_MASK));
+    (void)brace_can_pack_refusal(&(brace_can_refusal_t){token, code, status, detail}, part[0]);
     can_answers_add(answers, part, 1);
 }
 

@@ -12,7 +12,7 @@
 #define DATA_WAIT_MOST 16u /* ticks with answers in a row, in which no process data leave */
 #define ANSWERS_PER_TICK ((uint32_t)BRACE_CAN_ANSWER_PARTS_MOST + STORING_PARTS) /* frames that a tick can add */
 #define ROOM_FOR_REFUSALS 8u /* frames of room that refusals of questions leave to other answers */
-#define TEXT_ANSWERS_PER_TICK 4u /* frames as text, which cost twice as much: all of an answer, if it is not about K */
+#define TEXT_ANSWERS_PER_TICK 5u /* frames as text, which cost twice as much: all of an answer, if it is not about K */
 
 typedef enum { ON_BUS, AS_TEXT } way_t;
 
@@ -34,7 +34,7 @@ bool can_is_bus_off(const can_t *can)
 /* Identifiers that the other nodes of a bus use among themselves. Their frames are for others, and nothing strange. */
 static bool is_known_function(uint32_t id)
 {
-#define FUNCTION_OF_RATE(ID, name, rate) | 1u << (ID >> 7)
+#define FUNCTION_OF_RATE(ID, name, rate, coxa) | 1u << (ID >> 7)
 #define FUNCTION_BY_HAND(ID, name) | 1u << (ID >> 7)
     const uint32_t known = 1u << (BRACE_CAN_ID_REQUEST >> 7) | 1u << (BRACE_CAN_ID_ANSWER >> 7)
         BRACE_CAN_PROCESS(FUNCTION_OF_RATE) BRACE_CAN_PROCESS_FD(FUNCTION_OF_RATE) BRACE_CAN_BY_HAND(FUNCTION_BY_HAND);
@@ -52,7 +52,7 @@ static bool is_request(const can_t *can, const wire_tick_t *tick, const brace_ca
         }
         return false;
     }
-    if (frame->length != 8u || frame->fd || frame->data[0] >= BRACE_ANSWER_PART) {
+    if (frame->length != 8u || frame->fd) {
         brace_count(&tick->counters->frames_unknown);
         return false;
     }

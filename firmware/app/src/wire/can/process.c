@@ -18,35 +18,30 @@
 
 /* One frame of process data: what it is called on the bus, and who makes it from a snapshot. */
 typedef struct {
-    uint32_t id; /* of node 0 */
+    uint16_t id; /* of node 0 */
     bool is_fd;
-    uint8_t rate; /* process_rate_t */
+    bool needs_coxa; /* only a limb whose coxa joint is fitted sends it */
+    uint8_t rate;    /* process_rate_t */
     void (*make)(const brace_measured_t *of, float age_ms, uint8_t *data);
 } process_frame_t;
 
 /* Every message of measured values, in the order in which they are sent. A frame's place is its bit in
  * process_t.due. */
-#define CLASSIC(ID, name, rate) CLASSIC_AT_##rate(ID, name)
-#define CLASSIC_AT_stiffness_hz(ID, name) {ID, false, PROCESS_STIFFNESS, brace_can_make_##name},
-#define CLASSIC_AT_posture_hz(ID, name) {ID, false, PROCESS_POSTURE, brace_can_make_##name},
-#define CLASSIC_AT_load_hz(ID, name) {ID, false, PROCESS_LOAD, brace_can_make_##name},
-#define FD(ID, name, rate) FD_AT_##rate(ID, name)
-#define FD_AT_stiffness_hz(ID, name) {ID, true, PROCESS_STIFFNESS, brace_can_make_##name},
-#define FD_AT_posture_hz(ID, name) {ID, true, PROCESS_POSTURE, brace_can_make_##name},
-#define FD_AT_load_hz(ID, name) {ID, true, PROCESS_LOAD, brace_can_make_##name},
+#define RATE_stiffness_hz PROCESS_STIFFNESS
+#define RATE_posture_hz PROCESS_POSTURE
+#define RATE_load_hz PROCESS_LOAD
+#define RATE_sigma_hz PROCESS_SIGMA
+#define CLASSIC(ID, name, rate, coxa) {ID, false, coxa != 0, RATE_##rate, brace_can_make_##name},
+#define FD(ID, name, rate, coxa) {ID, true, coxa != 0, RATE_##rate, brace_can_make_##name},
 static const process_frame_t frames[] = {BRACE_CAN_PROCESS(CLASSIC) BRACE_CAN_PROCESS_FD(FD)};
 enum { FRAME_COUNT = sizeof frames / sizeof *frames };
-_Static_assert(FRAME_COUNT <= 32, "a bit for each frame");
+_Static_assert(FRAME_COUNT <= 64, "a bit for each frame");
 
-/* Does this limb send the frame on this bus? Frames of CAN FD take the place of the classic ones; K in space and the
- * load across the plane are told of a limb whose coxa joint is fitted. */
+/* Does this limb send the frame on this bus? Frames of CAN FD take the place of the classic ones. */
 static bool is_sent(const process_frame_t *frame, const process_bus_t *bus, const wire_tick_t *tick)
 {
-    const bool is_of_space = frame->id == (uint32_t)BRACE_CAN_ID_SPACE ||
-                             frame->id == (uint32_t)BRACE_CAN_ID_SPACE_FD ||
-                             frame->id == (uint32_t)BRACE_CAN_ID_LOAD_ACROSS;
     return frame->is_fd == (bus->fd_bit_rate != 0u) &&
-           (!is_of_space || brace_app_snapshot(tick->app)->space.is_fitted);
+           (!frame->needs_coxa || brace_app_snapshot(tick->app)->space.is_fitted);
 }
 
 /* The frames that follow one of the rates. */
@@ -55,7 +50,7 @@ static process_share_t frames_of(uint32_t rate, const process_bus_t *bus, const 
     process_share_t share = {.frames = 0};
     for (uint32_t i = 0; i < (uint32_t)FRAME_COUNT; i++) {
         if (frames[i].rate == rate && is_sent(&frames[i], bus, tick)) {
-            share.frames |= 1u << i;
+            share.frames |= UINT64_C(1) << i;
             share.count++;
         }
     }
@@ -89,7 +84,8 @@ static void configure(process_t *process, const process_bus_t *bus, const wire_t
     process->parameter_crc = brace_app_snapshot(tick->app)->parameter_crc;
     process->period_us = 0;
     process->due = 0;
-    uint32_t rate_hz[PROCESS_RATES] = {wanted->stiffness_hz, wanted->posture_hz, wanted->load_hz}, base_hz = 0;
+    uint32_t rate_hz[PROCESS_RATES] = {wanted->stiffness_hz, wanted->posture_hz, wanted->load_hz, wanted->sigma_hz};
+    uint32_t base_hz = 0;
     for (uint32_t i = 0; i < (uint32_t)PROCESS_RATES; i++) {
         process->share[i] = frames_of(i, bus, tick);
         rate_hz[i] = process->share[i].count > 0u ? rate_hz[i] : 0u;
@@ -104,9 +100,12 @@ static void configure(process_t *process, const process_bus_t *bus, const wire_t
         process->share[i].every = every_of(base_hz, rate_hz[i]);
         wanted_per_s += frames_per_s(&process->share[i], bus, base);
     }
-    /* Heartbeats are never thinned, so their part of the bus is taken off first. */
+    /* K's uncertainty leaves with other snapshots than the posture does, where K leaves with each. */
+    const bool k_is_in_each = process->share[PROCESS_STIFFNESS].every == 1u;
+    process->share[PROCESS_SIGMA].left = k_is_in_each ? process->share[PROCESS_SIGMA].every / 4u : 0u;
+    /* Heartbeats and the frame behind each are never thinned, so their part of the bus is taken off first. */
     const float share_per_s = wanted->bus_load_ratio * (float)bus->bit_rate / (float)PROCESS_FRAME_BITS -
-                              (float)wanted->heartbeat_hz;
+                              2.0f * (float)wanted->heartbeat_hz;
     const float allowed_per_s = share_per_s > FRAMES_PER_S_LEAST ? share_per_s : FRAMES_PER_S_LEAST;
     const float thinned = allowed_per_s >= wanted_per_s ? 1.0f : wanted_per_s / allowed_per_s;
     const float period_us = 1e6f * thinned / base;
@@ -115,7 +114,7 @@ static void configure(process_t *process, const process_bus_t *bus, const wire_t
 }
 
 /* The frames of a share that this snapshot has to tell. */
-static uint32_t come_round(process_share_t *share)
+static uint64_t come_round(process_share_t *share)
 {
     if (share->every == 0u) {
         return 0;
@@ -165,7 +164,7 @@ bool process_next(const process_t *process, const wire_tick_t *tick, brace_can_f
     if (process->due == 0u) {
         return false;
     }
-    const uint32_t first = (uint32_t)__builtin_ctz(process->due); /* the lowest bit that is set */
+    const uint32_t first = (uint32_t)__builtin_ctzll(process->due); /* the lowest bit that is set */
     const uint32_t age_us = process->snapshot.age_us + (tick->now_us - process->taken_us);
     frame->id = frames[first].id;
     frame->length = frames[first].is_fd ? FD_BYTES : CLASSIC_BYTES;

@@ -1,6 +1,6 @@
-/* Process data: K, its eigenvalues, the posture and the load of one snapshot, at the parameters' rates; K in space and
- * the load across the plane too where the limb's coxa joint is fitted; over CAN FD in one frame to three. One for each
- * port.
+/* Process data: K, its eigenvalues, the posture, the load and K's uncertainty of one snapshot, at the parameters' rates; of
+ * a limb whose coxa joint is fitted also K in space and the load across the plane; over CAN FD in one frame to four. One
+ * for each port.
  *
  * All frames of a snapshot are made from one copy of it, so nothing is ever mixed from two. The next snapshot is taken
  * when the last frame of this one has left, so a busy bus thins the data and never splits them. Rates are lowered in
@@ -30,12 +30,12 @@ typedef struct {
     uint32_t fd_bit_rate; /* [bit/s]; 0: snapshots leave in classic frames */
 } process_bus_t;
 
-/* Rates that frames follow: controller.stiffness_hz, posture_hz, load_hz. */
-typedef enum { PROCESS_STIFFNESS = 0, PROCESS_POSTURE, PROCESS_LOAD, PROCESS_RATES } process_rate_t;
+/* Rates that frames follow: controller.stiffness_hz, posture_hz, load_hz, sigma_hz. */
+typedef enum { PROCESS_STIFFNESS = 0, PROCESS_POSTURE, PROCESS_LOAD, PROCESS_SIGMA, PROCESS_RATES } process_rate_t;
 
 /* The frames that follow one rate: every so many snapshots. */
 typedef struct {
-    uint32_t frames; /* as bits */
+    uint64_t frames; /* as bits */
     uint32_t count;  /* of them */
     uint32_t every;  /* 0: never */
     uint32_t left;   /* snapshots until the next one that is told */
@@ -47,7 +47,7 @@ typedef struct {
     uint32_t period_us;        /* from snapshot to snapshot; 0: none is ever sent */
     uint32_t next_us;          /* when the next snapshot is due */
     process_share_t share[PROCESS_RATES];
-    uint32_t due;              /* frames of the snapshot that have still to be sent, as bits */
+    uint64_t due;              /* frames of the snapshot that have still to be sent, as bits */
     uint32_t taken_us;         /* when the snapshot was taken */
     brace_measured_t snapshot; /* the one whose frames are due */
 } process_t;

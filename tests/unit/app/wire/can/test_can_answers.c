@@ -80,14 +80,16 @@ static void test_a_refusal_says_of_which_request_and_why(void)
     brace_can_refusal_t refusal;
     can_answers_refuse(&answers, BRACE_REQUEST_TAKE_UP, 0x5a, -7, 123);
     const uint8_t *next = can_answers_next(&answers);
-    TEST_ASSERT_EQUAL_HEX8(0xe0u | (uint32_t)BRACE_REQUEST_TAKE_UP, next[0]);
+    TEST_ASSERT_EQUAL_HEX8(BRACE_ANSWER_REFUSED, next[0]);
     brace_can_unpack_refusal(next, &refusal);
     TEST_ASSERT_EQUAL_HEX8(0x5a, refusal.token);
+    TEST_ASSERT_EQUAL(BRACE_REQUEST_TAKE_UP, refusal.code);
     TEST_ASSERT_EQUAL(-7, refusal.status);
     TEST_ASSERT_EQUAL(123, refusal.detail);
     can_answers_sent(&answers);
-    can_answers_refuse(&answers, 255, 1, -1, 0); /* of a code that is none, its low bits */
-    TEST_ASSERT_EQUAL_HEX8(0xffu, can_answers_next(&answers)[0]);
+    can_answers_refuse(&answers, 255, 1, -1, 0); /* of a code that is none */
+    brace_can_unpack_refusal(can_answers_next(&answers), &refusal);
+    TEST_ASSERT_EQUAL(255, refusal.code);
 }
 
 int main(void)

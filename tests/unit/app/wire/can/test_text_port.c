@@ -39,7 +39,7 @@ static void test_questions_of_a_host_that_does_not_read_wait(void)
     (void)heard();
     (void)snprintf(line, sizeof line, "t6058%02X01000000000000\r", (unsigned)BRACE_REQUEST_IDENTIFY);
     char part[16];
-    (void)snprintf(part, sizeof part, "t5858%02X01", (unsigned)(BRACE_REQUEST_IDENTIFY + 96u));
+    (void)snprintf(part, sizeof part, "t5858%02X01", (unsigned)BRACE_IDENTIFY_ANSWER_4);
     uint32_t sent = 0;
     for (int i = 0; i < 400 && sent < ASKED; i++) {
         const uint32_t length = (uint32_t)strlen(line);
@@ -91,8 +91,10 @@ static void test_a_channel_that_is_opened_again_begins_anew(void)
     asks_who(2);
     ticks(4);
     text = heard();
+    char first[16];
+    (void)snprintf(first, sizeof first, "t5858%02X01", (unsigned)BRACE_IDENTIFY_ANSWER_0);
     TEST_ASSERT_NOT_NULL(strstr(text, "t5858"));
-    TEST_ASSERT_NULL(strstr(text, "t58581401"));
+    TEST_ASSERT_NULL(strstr(text, first));
     fake.joint[BRACE_FEMUR].not_newer = false;
     bool is_told = false;
     for (int i = 0; i < 200; i++) {
@@ -122,7 +124,7 @@ static void test_a_told_force_ends_with_its_channel(void)
     brace_can_pack_tip_force_request(&(brace_can_tip_force_request_t){7, 5.0f, -10.0f}, force);
     brace_can_pack_k_under_load_at_posture_request(&(brace_can_k_under_load_at_posture_request_t){8, 0.8f, 1.1f},
                                                    question);
-    (void)snprintf(answer, sizeof answer, "t5858%02X08", (unsigned)(BRACE_REQUEST_K_UNDER_LOAD_AT_POSTURE + 96u));
+    (void)snprintf(answer, sizeof answer, "t5858%02X08", (unsigned)BRACE_K_UNDER_LOAD_AT_POSTURE_ANSWER_3);
     for (int closes = 0; closes < 3; closes++) {
         say("C\rO\r");
         ticks(2);
@@ -163,7 +165,7 @@ static void test_a_commit_as_text_is_answered_as_text(void)
     (void)snprintf(line + at, sizeof line - at, "\r");
     say(line);
     char part[16];
-    (void)snprintf(part, sizeof part, "t5858%02X10", (unsigned)BRACE_REQUEST_COMMIT);
+    (void)snprintf(part, sizeof part, "t5858%02X10", (unsigned)BRACE_COMMIT_ANSWER_0);
     bool is_answered = false;
     for (int i = 0; i < 400; i++) {
         ticks(1);

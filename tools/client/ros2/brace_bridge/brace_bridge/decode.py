@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from brace.bus.frame import Frame
 from brace.bus.drift import cause_text
 from brace.bus.load import Load
-from brace.bus.snapshot import Heartbeat, Joiner, Snapshot, emergency_of, heartbeat_of
+from brace.bus.snapshot import Heartbeat, Joiner, Snapshot, condition_of, emergency_of, heartbeat_of
 from brace.bus.space import SpaceSnapshot
 from brace.wire.codes import FAULT, PLAY
 from brace.wire.frames import DICTIONARY_HASH, MESSAGES
@@ -105,6 +105,7 @@ class LimbHealth:
 
 Message = LimbStiffness | LimbStiffnessInSpace | LimbLoad | LimbHealth
 OK, WARN, ERROR = range(3)
+_NOT_HEARD = 0xFFFFFFFF
 _NO_K = {"sensor_femur", "sensor_tibia", "encoder_stuck"}
 _DRIFT = "model_drift"
 
@@ -121,7 +122,7 @@ class Decoder:
 
     def add(self, frame: Frame) -> list[Message]:
         """What this frame completes: K alone; K in space; its load; K with eigenvalues and posture once more; with a
-        heartbeat or an emergency the limb's health. Of a controller whose heartbeat tells of another dictionary: that
+        condition or an emergency the limb's health. Of a controller whose heartbeat tells of another dictionary: that
         it does, and nothing else."""
         heartbeat = heartbeat_of(frame)
         if heartbeat is not None:
@@ -129,15 +130,20 @@ class Decoder:
                 self._strangers.add(heartbeat.node)
                 return [_stranger(heartbeat)]
             self._strangers.discard(heartbeat.node)
-            return [self._health(heartbeat.time_s, heartbeat.node, heartbeat.faults)]
+            return []
         if frame.node in self._strangers:
             return []
+        snapshot = self._joiner.add(frame)
+        if snapshot is not None:
+            return self._messages_of(snapshot)
+        condition = condition_of(frame)
+        if condition is not None:
+            return [self._health(condition.time_s, condition.node, condition.faults)]
         emergency = emergency_of(frame)
         if emergency is not None:
             self._cause[emergency.node] = emergency.drift_cause
             return [self._health(emergency.time_s, emergency.node, emergency.faults)]
-        snapshot = self._joiner.add(frame)
-        return [] if snapshot is None else self._messages_of(snapshot)
+        return []
 
     def _messages_of(self, snapshot: Snapshot) -> list[Message]:
         messages: list[Message] = []
@@ -179,7 +185,7 @@ def message_of(snapshot: Snapshot) -> LimbStiffness:
         node=snapshot.node,
         sequence=snapshot.sequence,
         k_is_valid=snapshot.is_valid,
-        flags=_bits("stiffness_a", "flags", snapshot.flags),
+        flags=_bits("stiffness_b", "flags", snapshot.flags),
         k_xx=_per_m(snapshot.k_xx),
         k_xz=_per_m(snapshot.k_xz),
         k_zz=_per_m(snapshot.k_zz),
@@ -191,8 +197,8 @@ def message_of(snapshot: Snapshot) -> LimbStiffness:
         stiff_axis=_or_nan(snapshot.stiff_axis),
         theta1=_or_nan(snapshot.theta1),
         theta2=_or_nan(snapshot.theta2),
-        mode=_code("posture", "mode", snapshot.mode) if has_posture else 0,
-        faults=_bits("posture", "faults", snapshot.faults),
+        mode=_code("stiffness_b", "mode", snapshot.mode),
+        faults=_NOT_HEARD if snapshot.faults is None else _bits("emergency", "faults", snapshot.faults),
     )
 
 
@@ -204,7 +210,7 @@ def space_message_of(snapshot: Snapshot, space: SpaceSnapshot) -> LimbStiffnessI
         snapshot.node,
         snapshot.sequence,
         space.is_valid,
-        _bits("stiffness_a", "flags", space.flags),
+        _bits("stiffness_b", "flags", space.flags),
         *map(_per_m, space.k),
         *map(_per_m, space.eigenvalues),
         *map(_or_nan, space.stiff_axis),

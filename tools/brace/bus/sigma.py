@@ -1,0 +1,39 @@
+"""How sure a controller is of its K: one sigma of each value."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from brace.wire.layout import Value
+
+SIGMA_ENTRIES = ("k_xx", "k_xz", "k_zz", "lambda_min", "lambda_max", "stiff_axis")
+
+
+@dataclass(frozen=True)
+class Sigma:
+    """One sigma of K in the limb's plane; None: not known."""
+
+    values: Mapping[str, Value]  # by SIGMA_ENTRIES: N/mm, stiff_axis in rad
+
+    @property
+    def k(self) -> tuple[Value, Value, Value]:
+        """Of the entries of K: xx, xz, zz [N/mm]."""
+        return (self.values["k_xx"], self.values["k_xz"], self.values["k_zz"])
+
+    @property
+    def is_known(self) -> bool:
+        """The entries of K have one."""
+        return None not in self.k
+
+    def as_json(self) -> dict[str, object]:
+        """Names with units."""
+        units = ("n_per_mm",) * 5 + ("rad",)
+        return {f"sigma_{name}_{unit}": self.values[name] for name, unit in zip(SIGMA_ENTRIES, units, strict=True)}
+
+
+def sigma_of(values: Mapping[str, Value], prefix: str = "") -> Sigma:
+    """From the fields of frames, or from measured values, whose names begin with a prefix."""
+    found = {name: values[prefix + name] for name in SIGMA_ENTRIES}
+    return Sigma({name: None if isinstance(v, float) and math.isnan(v) else v for name, v in found.items()})
