@@ -1,5 +1,5 @@
-"""The controller images at serial lines that echo, BRACE_ECHO_S seconds long (default 2): no restart, no self-test, no byte
-of memory changes, and the board says once that it hears itself.
+"""The controller images at serial lines that echo, BRACE_ECHO_S seconds long (default 2): no restart, no self-test, no
+byte of memory changes, and the board says once that it hears itself.
 
     BRACE_ECHO_S=60 .venv/bin/python -m pytest -q tests/emulated/test_echo.py
 """

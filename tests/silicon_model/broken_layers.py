@@ -65,7 +65,7 @@ BREAKS = [  # file, what stands there, what stands there instead
     ("clock.c", "    report.crystal_was_lost = true;\n", ""),
     ("clock.c", "    change(RCC_CR, RCC_CR_PLLON, 0u); /* its", "    /* its"),
     ("crystal.c", "    REGISTER(RCC_BASE, RCC_CIR) |= RCC_CIR_CSSC;", "   "),
-    ("crystal.c", "    can_stop();\n", ""),
+    ("crystal.c", "    can_leave_bus();\n", ""),
     ("crystal.c", "        processor_restart(0);", "       "),
     ("can.c", "    if (stopped) {\n        return BRACE_HAL_E_DEVICE;\n    }\n", ""),
     ("can.c", "return stopped || recovering", "return recovering"),

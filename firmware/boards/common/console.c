@@ -216,6 +216,7 @@ static void hear_itself(console_t *console)
     key_entry_refuse_echo(&console->key_entry, &console->text);
     if (!console->has_told_of_echo) {
         console->has_told_of_echo = true;
+        text_again(&console->text); /* what sends it back listens */
         say(&console->text,
             "this terminal echoes: input is ignored until none has come for 2 s; try picocom, or stty -echo");
     }

@@ -87,7 +87,7 @@ static void restart_controller(void)
     processor_barrier();
 }
 
-void can_stop(void)
+void can_leave_bus(void)
 {
     if (!silent) {
         stopped = true;
@@ -142,7 +142,7 @@ int32_t can_setup(void *context, const brace_can_setup_t *setup)
     running = true;
     interrupt_enable(CAN1_RX0_IRQ);
     if (!clock_report()->crystal && !silent) { /* lost since it was looked at */
-        can_stop();
+        can_leave_bus();
         return BRACE_HAL_E_DEVICE;
     }
     set_mode(manner); /* it leaves initialisation by itself after 11 recessive bits */

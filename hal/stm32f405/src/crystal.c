@@ -9,7 +9,7 @@
 void nmi_handler(void)
 {
     REGISTER(RCC_BASE, RCC_CIR) |= RCC_CIR_CSSC; /* else the handler is called again at once */
-    can_stop();
+    can_leave_bus();
     if (!clock_goes_on_without_crystal()) {
         processor_restart(0); /* nothing keeps time at 16 MHz; after the reset everything is set up for that */
     }

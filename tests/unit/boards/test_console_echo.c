@@ -100,6 +100,17 @@ static void test_it_hears_again_when_it_has_been_quiet_for_2_s(void)
     TEST_ASSERT_EQUAL_UINT32(1u, fake.calls[BRACE_FAKE_RESTART]);
 }
 
+/* The line took nothing for a while, as without a cable; then somebody plugs an echo in. */
+static void test_an_echo_is_told_where_nobody_has_listened(void)
+{
+    start_at(SILENT);
+    console.text.gone = true;
+    forget_said();
+    far_end_types("# brace\r\n");
+    passes_ms(100u, TICK_EVERY_MS);
+    TEST_ASSERT_EQUAL_UINT32(1u, count_of("\r\n# this terminal echoes"));
+}
+
 static void test_random_bytes_change_nothing(void)
 {
     start_at(SILENT);
@@ -200,6 +211,7 @@ int main(void)
     RUN_TEST(test_a_terminal_that_echoes_changes_nothing_and_is_told_once);
     RUN_TEST(test_whatever_a_person_types_at_an_echoing_terminal);
     RUN_TEST(test_it_hears_again_when_it_has_been_quiet_for_2_s);
+    RUN_TEST(test_an_echo_is_told_where_nobody_has_listened);
     RUN_TEST(test_random_bytes_change_nothing);
     RUN_TEST(test_random_words_change_nothing);
     RUN_TEST(test_its_own_words_without_their_beginnings_change_nothing);
