@@ -73,7 +73,10 @@ def changed_files(since: str) -> list[Path]:
 def long_lines(since: str) -> list[str]:
     """Lines that are new since the commit and too long, as FILE:LINE. Generated files and tables may have them."""
     found, name, line = [], "", 0
-    for text in git("diff", "-U0", "--no-color", since).splitlines():
+    texts = git("diff", "-U0", "--no-color", since).splitlines()
+    for new in git("ls-files", "-o", "--exclude-standard").splitlines():
+        texts += git("diff", "-U0", "--no-color", "--no-index", "/dev/null", new).splitlines()
+    for text in texts:
         if text.startswith("+++ "):
             name = text[6:]
         elif head := re.match(r"@@ -\S+ \+(\d+)", text):

@@ -142,7 +142,8 @@ static void stands(motion_t motion, way_t way, later_t later)
         for (int i = 0; i < BRACE_LINK_COUNT; i++) {
             snprintf(what, sizeof what, "%s, stopped by way %d, then %d: joint %d after %d ms", motion_name[motion],
                      (int)way, (int)later, i, ms);
-            TEST_ASSERT_TRUE_MESSAGE(memcmp(&stood_rad[i], &fake.joint[i].command.offset_rad, sizeof(float)) == 0, what);
+            const float offset_rad = fake.joint[i].command.offset_rad;
+            TEST_ASSERT_TRUE_MESSAGE(memcmp(&stood_rad[i], &offset_rad, sizeof offset_rad) == 0, what);
         }
     }
 }
