@@ -187,3 +187,20 @@ def test_play_of_the_coxa_joint_is_told(brace: Callable[..., Outcome], model: Li
     for load in ((), ("--fy", 5)):
         assert "backlash  joint.coxa 0.004 rad" in brace(*asked, *load).out
     assert "backlash" not in brace("k", "--model", path, "--theta1", 0.9, "--theta2", 1.3).out
+
+
+def test_sigma_in_space_is_the_plane_s_where_both_say_the_same(
+    brace: Callable[..., Outcome], paper_limb: Path, tmp_path: Path
+) -> None:
+    """At zero yaw and without a load in space, the entries of the plane are as uncertain as in it; across it, K is as
+    uncertain as the compliances across. tests/engine judges sigma under loads."""
+    path = tmp_path / "trusted.toml"
+    values = {"joint.coxa.compliance_rad_per_n_mm": 8e-6, "gravity.tibia_n": 3.0}
+    path.write_text(load_limb(paper_limb).with_values(values).to_toml())
+    given = ("k", "--model", path, "--theta1", 1.0, "--theta2", 1.4, "--json")
+    plane, space = json.loads(brace(*given).out), json.loads(brace(*given, "--theta0", 0).out)
+    for name in ("k_xx", "k_xz", "k_zz"):
+        wanted = plane[f"sigma_{name}_n_per_mm"]
+        assert space[f"sigma_{name}_n_per_mm"] == pytest.approx(wanted, rel=0.03)  # a difference, not a derivative
+    assert 0.03 < space["sigma_k_yy_n_per_mm"] / space["k_yy_n_per_mm"] < 0.06
+    assert "+- one sigma" in brace(*given[:-1], "--theta0", 0).out

@@ -222,3 +222,26 @@ def test_tables_that_are_refused(
     path.write_text(table)
     outcome = brace("k", "--model", paper_limb, "--csv", path, "--out", out, *options)
     assert outcome.code in (2, 3) and said in outcome.err and not out.exists()
+
+
+def test_sigma_under_load_is_the_spread_of_k(brace: Callable[..., Outcome], paper_limb: Path) -> None:
+    """The limb's parameters drawn from its [uncertainty], K by the reference: the spread is what is printed."""
+    draw, model, keys = np.random.default_rng(3), load_limb(paper_limb), dict[str, float]()
+    values = json.loads(brace("k", "--model", paper_limb, "--theta1", 1.0, "--theta2", 1.4, "--fz", 20, "--json").out)
+    names = ("length_mm", "angle_rad", "compliance_rel", "gain_rel")
+    trust = {name: model.number(f"uncertainty.{name}") for name in names}
+    found = []
+    for _ in range(1000):
+        gain = 1.0 + trust["gain_rel"] * draw.normal()
+        for link in ("femur", "tibia"):
+            keys[f"geometry.{link}_mm"] = model.number(f"geometry.{link}_mm") + trust["length_mm"] * draw.normal()
+            parts = (f"link.{link}.axial_mm_per_n", f"link.{link}.bending_mm_per_n")
+            for name in (*parts, f"joint.{link}.compliance_rad_per_n_mm"):
+                keys[name] = model.number(name) * (1.0 + trust["compliance_rel"] * draw.normal()) / gain
+        theta = np.array([1.0, 1.4]) + trust["angle_rad"] * draw.normal(size=2)
+        drawn = loaded.under_force(model.with_values(keys), *theta.tolist(), [[0.0, 20.0]])
+        found.append([float(drawn[name][0]) for name in ("k_xx", "k_xz", "k_zz")])
+    # 1,000 draws know a spread to 2.2 % (one sigma); first order is good to some per cent
+    for name, spread in zip(("xx", "xz", "zz"), np.std(found, axis=0)):
+        assert values[f"sigma_k_{name}_n_per_mm"] == pytest.approx(spread, rel=0.1)
+    assert values["sigma_lambda_min_n_per_mm"] > 0 and values["sigma_stiff_axis_rad"] > 0

@@ -8,6 +8,7 @@ from brace.hardening import Spring, settle
 from brace.model import LimbModel
 from brace.native import library
 from brace.native.limb import firmware_limb, status_text
+from brace.sigma import sigma_in_space
 from brace.stiffness import (
     E_SINGULAR,
     SPATIAL_K,
@@ -32,14 +33,14 @@ class LoadedLimbInSpace:
     """A limb ready to give K in space under forces on its tip; the weights of [gravity] and the springs' hardening
     count too."""
 
-    def __init__(self, model: LimbModel) -> None:
+    def __init__(self, model: LimbModel, is_weightless: bool = False) -> None:
         require_yield_across(model)
         native = library()
         ffi, lib = native.ffi, native.lib
         limb, weights = firmware_limb(native, model), ffi.new("brace_gravity_t *")
         for part in ("femur_n", "knee_n", "tibia_n"):
-            setattr(weights, part, model.number(f"gravity.{part}"))
-        self._native = native
+            setattr(weights, part, 0.0 if is_weightless else model.number(f"gravity.{part}"))
+        self._native, self._limb, self._weights = native, limb, weights
         self._loaded, self._load = ffi.new("brace_loaded_space_t *"), ffi.new("brace_space_load_t *")
         self._rest, self._found = ffi.new("brace_space_rest_t *"), ffi.new("brace_space_result_t *")
         self._turned = ffi.new("brace_stiffness_spatial_t *")
@@ -62,8 +63,7 @@ class LoadedLimbInSpace:
         K, eigenvalues, stiff axis and C are in the robot's frame; tip_dx_mm, tip_dy_mm, tip_dz_mm, how far force and
         weight move the tip, in the plane's. buckling_factor: infinite where it is above 16, and where it may be above
         11. Raises PostureError for the first posture that is refused."""
-        true_rad = np.asarray(theta_rad, float) + self._offset_rad
-        true_rad[:, 1] = within_half_turn(true_rad[:, 1])
+        true_rad = self._true(theta_rad)
         hardens = any(spring.hardens for spring in self._springs)
         rows = []
         for index, (theta, force) in enumerate(zip(true_rad.tolist(), np.asarray(force_n, float).tolist())):
@@ -75,6 +75,18 @@ class LoadedLimbInSpace:
             rows.append(found)
         result = np.concatenate([np.empty(0, _RESULT), *rows])
         return joined(result[[*SPATIAL_K, *LOADED_SPACE_REST, "flags"]], spatial_compliance(result))
+
+    def _true(self, theta_rad: np.ndarray) -> np.ndarray:
+        true_rad = np.asarray(theta_rad, float) + self._offset_rad
+        true_rad[:, 1] = within_half_turn(true_rad[:, 1])
+        return true_rad
+
+    def sigma(self, theta_rad: np.ndarray, force_n: np.ndarray) -> dict[str, float | None]:
+        """One sigma of K, from the model's [uncertainty], at the one row of theta_rad and force_n."""
+        self.stiffness(theta_rad, force_n)  # springs harden so
+        load = self._load
+        load.tip_n.x, load.tip_n.y, load.tip_n.z = (float(part) for part in force_n[0])
+        return sigma_in_space(self._native, self._limb, self._weights, self._true(theta_rad)[0].tolist(), load)
 
     def _one(self, theta_rad: list[float], force_n: list[float]) -> np.ndarray:
         """One posture; where it is refused, a status."""

@@ -8,6 +8,7 @@ from brace.hardening import Spring, settle
 from brace.model import LimbModel
 from brace.native import library
 from brace.native.limb import firmware_limb, status_text
+from brace.sigma import sigma_in_plane
 from brace.stiffness import E_SINGULAR, PLANAR_C, PLANAR_K, PLANAR_REST, PostureError
 
 DISPLACEMENT = ("tip_dx_mm", "tip_dz_mm")
@@ -36,7 +37,7 @@ class LoadedLimb:
         limb, weights = firmware_limb(native, model), ffi.new("brace_gravity_t *")
         for part in ("femur_n", "knee_n", "tibia_n"):
             setattr(weights, part, model.number(f"gravity.{part}"))
-        self._native = native
+        self._native, self._limb, self._weights = native, limb, weights
         self._loaded, self._joints = ffi.new("brace_loaded_t *"), ffi.new("brace_load_t *")
         lib.brace_loaded_collapse(limb, weights, self._loaded)
         direction_rad, in_plane = model.number("gravity.direction_rad"), np.cos(model.number("gravity.lean_rad"))
@@ -58,6 +59,12 @@ class LoadedLimb:
         rows = ([column[row : row + 1] for column in columns] for row in range(len(columns[0])))
         settled = [settle(self._springs, lambda row=row: self._batch(row)) for row in rows]  # type: ignore[misc]
         return _with_compliance(np.concatenate([np.empty(0, _RESULT), *settled]))
+
+    def sigma(self, theta1_rad: float, theta2_rad: float, fx_n: float, fz_n: float) -> dict[str, float | None]:
+        """One sigma of K at a posture and load, from the model's [uncertainty]."""
+        self.stiffness(*(np.array([value]) for value in (theta1_rad, theta2_rad, fx_n, fz_n)))  # springs harden so
+        self._joints.tip.x_n, self._joints.tip.z_n = fx_n, fz_n
+        return sigma_in_plane(self._native, self._limb, self._weights, theta1_rad, theta2_rad, self._joints)
 
     def _batch(self, columns: list[np.ndarray]) -> np.ndarray:
         ffi = self._native.ffi

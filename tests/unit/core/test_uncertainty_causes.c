@@ -41,8 +41,8 @@ static brace_space_load_t space_load_of(float x_n, float y_n, float z_n)
                                 spring_of(BRACE_TIBIA)};
 }
 
-/* The formula of brace/uncertainty.h is a derivative; here it is a quarter of a sigma's change, to first order the same:
- * the second order of a cause of 4 % is 1 % of it. */
+/* The formula of brace/uncertainty.h is a derivative; here it is a quarter of a sigma's change, to first order the
+ * same. The second order of a cause of 4 % is 1 % of it. */
 static void test_at_no_load_it_agrees_with_the_formula(void)
 {
     for (int i = 0; i < 200; i++) {
@@ -145,7 +145,8 @@ static void test_what_has_no_K_or_is_no_limb_has_no_sigma(void)
     TEST_ASSERT_EQUAL(0, memcmp(&before, &sigma, sizeof sigma));
     TEST_ASSERT_EQUAL(BRACE_E_RANGE, brace_uncertainty_loaded_space(&limb, &weightless, too_far_rad, &good_in_space,
                                                                     &in_space));
-    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_uncertainty_loaded_space(&limb, &weightless, NULL, &good_in_space, &in_space));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL,
+                      brace_uncertainty_loaded_space(&limb, &weightless, NULL, &good_in_space, &in_space));
     limb.femur_mm = 0.0f;
     TEST_ASSERT_EQUAL(BRACE_E_PARAMETER, brace_uncertainty_loaded(&limb, &weightless, 0.4f, 1.2f, &good, &sigma));
     TEST_ASSERT_EQUAL(BRACE_E_PARAMETER,

@@ -12,6 +12,8 @@ from brace.cli.subcommands import SUBCOMMANDS
 from brace.errors import UsageError
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from brace.model import LimbModel
     from brace.stiffness import PostureError
 
@@ -144,7 +146,7 @@ def _run_single(arguments: argparse.Namespace, model: LimbModel) -> int:
     from brace import stiffness
     from brace.cli.k_flags import flags_of_postures, outside
     from brace.stiffness_in_space_under_load import LoadedLimbInSpace
-    from brace.stiffness_under_load import stiffness_under_load
+    from brace.stiffness_under_load import LoadedLimb, stiffness_under_load
     from brace.stiffness_with_gap import gaps_rad
 
     limb = stiffness.planar_limb(model, arguments.arith)
@@ -158,16 +160,21 @@ def _run_single(arguments: argparse.Namespace, model: LimbModel) -> int:
             true1, true2 = (float(a[0]) for a in limb.true_angles(np.array([theta1]), np.array([theta2])))
             true1 = stiffness.within_half_turn(true1)
         r_mm, phi_rad = limb.polar(true1, true2)
-        sigma: dict[str, float] = {}
+        sigma: Mapping[str, float | None]
         if arguments.theta0 is not None and arguments.is_loaded:
-            force_n = [[arguments.fx, arguments.fy or 0.0, arguments.fz]]
+            theta_rad = np.array([[arguments.theta0, theta1, theta2]])
+            force_n = np.array([[arguments.fx, arguments.fy or 0.0, arguments.fz]])
             in_space = LoadedLimbInSpace(model)
-            result = in_space.stiffness(np.array([[arguments.theta0, theta1, theta2]]), np.array(force_n))
+            result = in_space.stiffness(theta_rad, force_n)
+            sigma = in_space.sigma(theta_rad, force_n)
         elif arguments.theta0 is not None:
             result = stiffness.spatial_stiffness(model, *(np.array([a]) for a in (arguments.theta0, theta1, theta2)))
+            theta_rad = np.array([[arguments.theta0, theta1, theta2]])
+            sigma = LoadedLimbInSpace(model, is_weightless=True).sigma(theta_rad, np.zeros((1, 3)))
         elif arguments.is_loaded:
             given = (true1, true2, arguments.fx, arguments.fz)
             result = stiffness_under_load(model, *(np.array([value]) for value in given))
+            sigma = LoadedLimb(model).sigma(*given)
         else:
             result = limb.stiffness(np.array([true1]), np.array([true2]))
             sigma = limb.sigma(true1, true2)
@@ -314,10 +321,27 @@ def _refused(error: PostureError, arguments: argparse.Namespace, model: LimbMode
     )
 
 
+def _plus_minus(sigma: float | None, unit: str) -> str:
+    return "" if sigma is None else f" +- {sigma:.2g}{unit}"
+
+
+def _sigma_text(sigma: Mapping[str, float | None]) -> list[str]:
+    """Of the entries of K; what +- means, in words. Nothing where K itself is nearly singular."""
+    entries = {
+        name.removeprefix("sigma_k_").removesuffix("_n_per_mm"): value
+        for name, value in sigma.items()
+        if name.startswith("sigma_k_")
+    }
+    if None in entries.values():
+        return ["  one sigma is not known: a limb that differs by a quarter of a sigma has no K here"]
+    told = ", ".join(f"{name} {value:.2g}" for name, value in entries.items())
+    return [f"  +- one sigma, from [uncertainty]: {told}"] if entries else []
+
+
 def _text(
     name: str,
     values: dict[str, float],
-    sigma: dict[str, float],
+    sigma: Mapping[str, float | None],
     posture: dict[str, float | str],
     path: str,
     flags: list[str],
@@ -347,10 +371,10 @@ def _text(
             + (f"{factor:.3g}" if math.isfinite(factor) else "above 11")
             + (": the load makes the limb much softer" if factor < k_load.SOFTENED else "")
         )
-    lines += ["K [N/mm]", *matrix("k", "n_per_mm"), "C [mm/N]", *matrix("c", "mm_per_n")]
+    lines += ["K [N/mm]", *matrix("k", "n_per_mm"), *_sigma_text(sigma), "C [mm/N]", *matrix("c", "mm_per_n")]
     eigen = [
         f"lambda_{which} {values[f'lambda_{which}_n_per_mm']:.6g}"
-        + (f" +- {sigma[f'sigma_lambda_{which}_n_per_mm']:.2g}" if sigma else "")
+        + _plus_minus(sigma.get(f"sigma_lambda_{which}_n_per_mm"), "")
         for which in (("min", "mid", "max") if spatial else ("min", "max"))
     ]
     lines.append("eigenvalues [N/mm]  " + "   ".join(eigen))
@@ -360,7 +384,7 @@ def _text(
         axis = values["stiff_axis_rad"]
         lines.append(
             f"stiff axis {axis:.6g} rad ({math.degrees(axis):.2f} deg)"
-            + (f" +- {sigma['sigma_stiff_axis_rad']:.2g} rad" if sigma else "")
+            + _plus_minus(sigma.get("sigma_stiff_axis_rad"), " rad")
         )
     lines.append("flags  " + (", ".join(flags) if flags else "none"))
     return "\n".join(lines)

@@ -126,7 +126,7 @@ static void test_a_load_that_grows_has_the_sigma_of_its_tick_or_none(void)
 static void test_after_a_jump_sigma_is_not_known_until_a_round_has_ended(void)
 {
     start_in_plane();
-    fake.joint[BRACE_TIBIA].sample.motor_rad += 0.049f; /* a millisecond at the bound on speed: a sample that is believed */
+    fake.joint[BRACE_TIBIA].sample.motor_rad += 0.049f; /* nearly at the bound on speed: it is believed */
     fake.joint[BRACE_FEMUR].sample.motor_rad -= 0.049f;
     ticks(1);
     TEST_ASSERT_TRUE(now()->k_is_valid);
