@@ -238,8 +238,8 @@ def test_sigma_under_load_is_the_spread_of_k(brace: Callable[..., Outcome], pape
             parts = (f"link.{link}.axial_mm_per_n", f"link.{link}.bending_mm_per_n")
             for name in (*parts, f"joint.{link}.compliance_rad_per_n_mm"):
                 keys[name] = model.number(name) * (1.0 + trust["compliance_rel"] * draw.normal()) / gain
-        theta = np.array([1.0, 1.4]) + trust["angle_rad"] * draw.normal(size=2)
-        drawn = loaded.under_force(model.with_values(keys), *theta.tolist(), [[0.0, 20.0]])
+        theta1, theta2 = np.array([1.0, 1.4]) + trust["angle_rad"] * draw.normal(size=2)
+        drawn = loaded.under_force(model.with_values(keys), float(theta1), float(theta2), [[0.0, 20.0]])
         found.append([float(drawn[name][0]) for name in ("k_xx", "k_xz", "k_zz")])
     # 1,000 draws know a spread to 2.2 % (one sigma); first order is good to some per cent
     for name, spread in zip(("xx", "xz", "zz"), np.std(found, axis=0)):

@@ -5,10 +5,10 @@ from __future__ import annotations
 
 from brace.native import Library
 from brace.native.c_data import CData
-from brace.stiffness import SPATIAL_K
 
+_ENTRIES = tuple(f"k_{axes}_n_per_mm" for axes in ("xx", "xy", "xz", "yy", "yz", "zz"))
 SIGMA_IN_SPACE = (
-    *(f"sigma_{name}" for name in SPATIAL_K),
+    *(f"sigma_{name}" for name in _ENTRIES),
     *(f"sigma_lambda_{which}_n_per_mm" for which in ("min", "mid", "max")),
 )
 SIGMA_UNDER_LOAD = (
@@ -37,5 +37,5 @@ def sigma_in_space(
     if native.lib.brace_uncertainty_loaded_space(limb, weights, ffi.new("float[3]", theta_rad), load, sigma):
         return dict.fromkeys(SIGMA_IN_SPACE)
     space = sigma.space
-    entries = [float(getattr(space, name)) for name in SPATIAL_K]
+    entries = [float(getattr(space, name)) for name in _ENTRIES]
     return dict(zip(SIGMA_IN_SPACE, [*entries, *(float(value) for value in space.lambda_n_per_mm)], strict=True))
