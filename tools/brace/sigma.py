@@ -1,5 +1,5 @@
-"""One sigma of K from a model's [uncertainty], by the firmware's own C (brace/uncertainty_causes.h): under a load, and in
-space."""
+"""One sigma of K under a load and in space, from a model's [uncertainty], by the firmware's own C
+(brace/uncertainty_causes.h)."""
 
 from __future__ import annotations
 

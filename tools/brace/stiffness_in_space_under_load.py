@@ -77,7 +77,7 @@ class LoadedLimbInSpace:
         return joined(result[[*SPATIAL_K, *LOADED_SPACE_REST, "flags"]], spatial_compliance(result))
 
     def _true(self, theta_rad: np.ndarray) -> np.ndarray:
-        true_rad = np.asarray(theta_rad, float) + self._offset_rad
+        true_rad: np.ndarray = np.asarray(theta_rad, float) + self._offset_rad
         true_rad[:, 1] = within_half_turn(true_rad[:, 1])
         return true_rad
 
