@@ -1,7 +1,7 @@
 /* A stop is anybody's, always: in every phase of every motion, over every port, from a stranger. From then on every
  * set-point stays where it is, whatever comes later without an owner's new command: the owner's signs of life or its
- * silence, the time after which a limb lets go by itself, a take-up's own time-out, a joint whose sensor fails, a
- * sensor at the tip that goes.
+ * silence, the time after which a limb lets go by itself, a take-up's own time-out, strangers' requests, a joint whose
+ * sensor fails, a sensor at the tip that goes.
  *
  *     build/host/tests/test_stop [TRIALS]     default: each motion, each way once */
 #include <stdlib.h>
@@ -119,7 +119,28 @@ static void stop(way_t way)
 
 /* ------------------------------------------------------------------------------------- what comes later -- */
 
-typedef enum { OWNER_LIVES, OWNER_IS_SILENT, A_JOINT_FAILS, THE_TIP_S_SENSOR_GOES, LATERS } later_t;
+typedef enum { OWNER_LIVES, OWNER_IS_SILENT, A_JOINT_FAILS, THE_TIP_S_SENSOR_GOES, STRANGERS_ASK, LATERS } later_t;
+
+/* Any request but one that commands a motion: questions, writes, modes, commits, roll-backs, clears. */
+static void a_stranger_asks(void)
+{
+    uint8_t data[8];
+    for (int i = 0; i < 8; i++) {
+        data[i] = (uint8_t)below(256);
+    }
+    data[0] = (uint8_t)(1u + below(40));
+    data[1] &= 0x0fu; /* not the operator */
+    const uint32_t entry = (uint32_t)data[2] | (uint32_t)data[3] << 8;
+    const bool commands = data[0] == BRACE_REQUEST_TAKE_UP || data[0] == BRACE_REQUEST_LET_GO ||
+                          data[0] == BRACE_REQUEST_LOADING_TEST_START ||
+                          (data[0] == BRACE_REQUEST_WRITE_ENTRY && entry >= FIRST_COMMAND);
+    if (!commands) {
+        if (data[0] == BRACE_REQUEST_SET_MODE) {
+            make_set_mode(below(6), data);
+        }
+        says(data);
+    }
+}
 
 /* The set-points, each tick; the first that differs from where the limb stood is named. */
 static void stands(motion_t motion, way_t way, later_t later)
@@ -136,6 +157,9 @@ static void stands(motion_t motion, way_t way, later_t later)
         }
         if (ms == LATER_MS && later == THE_TIP_S_SENSOR_GOES) {
             brace_fake_without_force(&fake);
+        }
+        if (later == STRANGERS_ASK) {
+            a_stranger_asks();
         }
         pass(1);
         drain();
