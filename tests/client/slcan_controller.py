@@ -16,6 +16,10 @@ import cantools
 from brace.wire.frames import DICTIONARY_HASH, PROTOCOL, REQUESTS
 
 IDENTIFY, READ_ENTRY, CONTACT_FORCE = 20, 1, 6
+# The numbers of the frames that answer a request, by its code. No frame of write_entry's answer is one of them.
+ANSWER_NUMBERS = {IDENTIFY: (32, 33, 34, 35, 36), READ_ENTRY: (1,), CONTACT_FORCE: (15, 16), 2: (2,), 15: (27,),
+                  16: (28,), 18: (30,)}  # fmt: skip
+REFUSED = 255
 COMMANDS = [REQUESTS[name].command for name in ("take_up", "let_go", "write_entry", "loading_test_stop")]
 DATABASE = Path(__file__).resolve().parents[2] / "firmware" / "interface" / "brace.dbc"
 STREAM_S = 0.02
@@ -39,13 +43,15 @@ class SlcanController:
         noise_first: bytes = b"",
         entries: Callable[[int], int | None] | None = None,
         streams: Callable[[float], int | None] | None = None,
+        numbers_answers: bool = True,
     ) -> None:
         """entries: values of entries, which else are 12345.5; None: no answer. streams: numbers of the snapshots whose
-        K is sent every 20 ms, from the seconds since a client has come; None: nothing is sent."""
+        K is sent every 20 ms, from the seconds since a client has come; None: nothing is sent. numbers_answers: as
+        protocol 2 does; else an answer's first byte is the code and 32 times its part, as protocol 1 did."""
         self.node, self.hash, self.speaks, self.answers, self.errors = node, hash_, speaks, answers, errors
         self.garbage, self.flood, self.hangs_up, self.echo_first = garbage, flood, hangs_up, echo_first
         self.refuses_force, self.noise_first = refuses_force, noise_first  # status and detail; sent once
-        self.entries, self.streams = entries, streams
+        self.entries, self.streams, self.numbers_answers = entries, streams, numbers_answers
         self.database = cantools.database.load_file(DATABASE) if streams else None
         self.requests: list[bytes] = []
         self.heard_s: list[float] = []
@@ -91,7 +97,7 @@ class SlcanController:
             if time.monotonic() >= beat:
                 beat = time.monotonic() + 0.1
                 if self.speaks:
-                    self._frame(line, 0x700 + self.node, struct.pack("<BBHI", 5, 1, 0, self.hash))
+                    self._frame(line, 0x700 + self.node, struct.pack("<BBBBI", 5, 1, 1, PROTOCOL, self.hash))
                 if self.garbage:
                     line.sendall(self.garbage)
             if self.streams and time.monotonic() >= sent:
@@ -120,8 +126,8 @@ class SlcanController:
         code, token = data[0], data[1]
         if self.echo_first and len(self.requests) == 2:  # another client asks the same; the answer is to it
             self._frame(line, 0x600 + self.node, data)
-            self._answer(line, code, 0, token, b"\x11" * 6)
-            self._answer(line, code, 1, token, b"\x11" * 6)
+            for part in range(len(ANSWER_NUMBERS[code])):
+                self._answer(line, code, part, token, b"\x11" * 6)
             return
         if code == IDENTIFY:
             for part, fields in enumerate((
@@ -129,6 +135,7 @@ class SlcanController:
                 struct.pack("<IH", self.hash, 0),
                 struct.pack("<IH", 0xAABBCCDD, 0),
                 struct.pack("<IBB", 0x12345678, 2, 0),
+                struct.pack("<IBB", 0, 1, 1),
             )):  # fmt: skip
                 self._answer(line, code, part, token, fields)
         elif code == READ_ENTRY:
@@ -138,7 +145,7 @@ class SlcanController:
                 if value is not None:
                     self._answer(line, code, 0, token, struct.pack("<HI", index, value))
             elif index == 77:
-                self._answer(line, code, 7, token, struct.pack("<bI", -3, index) + b"\0")
+                self._refuse(line, code, token, -3, index)
             elif index == 78:  # an older answer of another token comes first, then a foreign code
                 self._answer(line, code, 0, (token - 1) & 255, struct.pack("<HI", index, 111))
                 self._answer(line, 2, 0, token, struct.pack("<HI", index, 222))
@@ -146,7 +153,7 @@ class SlcanController:
             else:
                 self._answer(line, code, 0, token, struct.pack("<Hf", index, 12345.5))
         elif code == CONTACT_FORCE and self.refuses_force:
-            self._answer(line, code, 7, token, struct.pack("<bI", *self.refuses_force) + b"\0")
+            self._refuse(line, code, token, *self.refuses_force)
         elif code == CONTACT_FORCE:  # each try is another tick; of the first, half an answer
             tick = len(self.forced) + 1.0
             self.forced.append(tick)
@@ -166,7 +173,11 @@ class SlcanController:
             self._frame(line, message.frame_id + self.node - 1, message.encode(values, strict=False))
 
     def _answer(self, line: socket.socket, code: int, part: int, token: int, fields: bytes) -> None:
-        self._frame(line, 0x580 + self.node, bytes((code + 32 * part, token)) + fields)
+        number = ANSWER_NUMBERS[code][part] if self.numbers_answers else code + 32 * part
+        self._frame(line, 0x580 + self.node, bytes((number, token)) + fields)
+
+    def _refuse(self, line: socket.socket, code: int, token: int, status: int, detail: int) -> None:
+        self._frame(line, 0x580 + self.node, bytes((REFUSED, token, code)) + struct.pack("<bI", status, detail))
 
     @staticmethod
     def _frame(line: socket.socket, identifier: int, data: bytes) -> None:

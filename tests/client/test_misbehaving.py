@@ -50,6 +50,13 @@ def test_another_dictionary_that_only_the_heartbeat_tells(probe: Probe) -> None:
         assert probe(controller.url, "identity").code == VERSION
 
 
+def test_a_controller_of_protocol_1(probe: Probe) -> None:
+    """Its answers have the numbers of other answers; its heartbeat says so."""
+    with SlcanController(hash_=0x1234ABCD, numbers_answers=False) as controller:
+        answer = probe(controller.url, "identity")
+        assert answer.code == VERSION and "0x1234abcd" in answer.err
+
+
 def test_wrong_node(probe: Probe) -> None:
     with SlcanController(node=3) as controller:
         answer = probe(controller.url, "identity", node=7)

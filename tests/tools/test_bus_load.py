@@ -174,11 +174,11 @@ def test_a_log_keeps_the_load(brace: Callable[..., Outcome], ports: dict[str, An
     database = cantools.database.load_file(PROJECT / "firmware" / "interface" / "brace.dbc")
     theirs: list[dict[str, float]] = [{}]
     for message in can.CanutilsLogReader(str(tmp_path / "a.log")):
-        if message.arbitration_id == 0x101:
-            values = database.decode_message(0x101, message.data, decode_choices=False)
-            if "unloaded_k_xx" in values:
+        if message.arbitration_id == 0x201:
+            values = database.decode_message(0x201, message.data, decode_choices=False)
+            if "load_unloaded_k_xx" in values:
                 theirs.append({})
-            theirs[-1] |= values
+            theirs[-1] |= {name.removeprefix("load_"): value for name, value in values.items()}
     whole = [one for one in theirs if {"unloaded_k_xx", "counted_force_x", "moved_x", "buckling_factor"} <= one.keys()]
     ours = {(load["unloaded_k_xx_n_per_mm"], load["force_x_n"], load["moved_x_mm"]) for load in loads}
     found = {(one["unloaded_k_xx"], one["counted_force_x"], one["moved_x"]) for one in whole}

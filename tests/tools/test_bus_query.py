@@ -68,6 +68,7 @@ def test_values_are_those_of_physics(brace: Callable[..., Outcome], limb: Path, 
         assert abs(live["theta1_rad"] - 0.9) < 2e-3 and abs(live["theta2_rad"] - 1.5) < 2e-3
         assert_k(live, live["theta1_rad"], live["theta2_rad"], 2e-3, force_noise(tmp_path, 0.9, 1.5))
         assert live["dictionary_hash"] == f"{DICTIONARY_HASH:08x}"
+        assert 0.0 < live["sigma_k_xx_n_per_mm"] < live["k_xx_n_per_mm"] and 0.0 < live["sigma_stiff_axis_rad"] < 0.91
         for theta1, theta2 in ((0.2, 0.8), (1.3, 2.1), (-0.4, -1.0)):
             asked = brace("query", "--bus", url, "--theta1", theta1, "--theta2", theta2, "--json")
             assert asked.code == 0, asked.err
@@ -92,7 +93,8 @@ def test_values_are_those_of_physics(brace: Callable[..., Outcome], limb: Path, 
         )
         values = {name: entry["value"] for name, entry in json.loads(entries.out)["entries"].items()}
         assert values == {"probe_f32": 12345.5, "geometry.tibia_mm": 313.5, "mode": "monitor"}
-        assert "K = [" in brace("query", "--bus", url).out
+        shown = brace("query", "--bus", url).out
+        assert "K = [" in shown and re.search(r"^k_xx \S+ \+- \S+, k_xz .* N/mm \(one sigma\)$", shown, re.MULTILINE)
 
 
 def test_sag_and_force_are_k_s(brace: Callable[..., Outcome], limb: Path, tmp_path: Path) -> None:
@@ -278,7 +280,7 @@ def test_another_bit_rate_and_another_node(limb: Path) -> None:
 
 def test_a_bus_that_goes_away(limb: Path) -> None:
     beat = MESSAGES["heartbeat"].encode(
-        {"state": 5, "mode": 1, "faults": 0, "setting": 1, "dictionary_hash": DICTIONARY_HASH}
+        {"state": 5, "mode": 1, "setting": 1, "protocol": 2, "dictionary_hash": DICTIONARY_HASH}
     )
     with adapter(obliging, sends=b"t7058" + beat.hex().encode() + b"\r") as url:
         said = told_in_time(4, "query", "--bus", url)  # it beats, and answers nothing
@@ -310,6 +312,20 @@ def test_another_dictionary_is_6_with_both(limb: Path) -> None:
             said = told_in_time(6, *command, "--bus", url)
             assert f"{other:08x}" in said and f"{DICTIONARY_HASH:08x}" in said
         assert "9.8.7" in told_in_time(6, "query", "--bus", url)
+
+
+def test_a_controller_of_protocol_1_is_6() -> None:
+    """Its answer to identify, code 20, as protocol 1 had it: the first byte is the code and 32 times the part."""
+    parts = ("140100010001050000", "34010dd0fe0a0000", "5401000000000000", "7401000000000000")
+
+    def answer(line: bytes) -> bytes:
+        if not line.startswith(b"t605"):
+            return obliging(line)
+        token = line[7:9]
+        return b"z\r" + b"".join(b"t5858" + part[:2].encode() + token + part[4:16].encode() + b"\r" for part in parts)
+
+    with adapter(answer, sends=b"t7058" + b"05010040" + b"0dd0fe0a" + b"\r") as url:
+        assert "0afed00d" in told_in_time(6, "query", "--bus", url)
 
 
 @pytest.mark.parametrize(

@@ -11,8 +11,9 @@ from typing import Protocol, TypedDict, TypeVar
 
 from interface.c_answering import answer_signals
 from interface.dictionary import DictionaryError
-from interface.measured import QUESTION, UNIT_SUFFIX, Measured, Values
+from interface.measured import QUESTION, Measured, Values
 from interface.messages import Request, Signal, Wire
+from interface.units import UNIT_SUFFIX
 
 _MADE = "/* Written by tools/interface from dictionary.toml; do not edit. */\n"
 _HEAD = """

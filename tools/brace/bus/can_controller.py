@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import struct
 import time
+from collections.abc import Iterable
 from contextlib import AbstractContextManager
 from typing import TYPE_CHECKING
 
@@ -22,6 +23,7 @@ from brace.bus.drift import TAKE_UPS, Drift, drift_of, take_up_of
 from brace.bus.entries import index_of
 from brace.bus.load import ACROSS_ENTRIES, LOAD_ENTRIES, Load, load_of
 from brace.bus.session import Session
+from brace.bus.sigma import SIGMA_ENTRIES, Sigma, sigma_of
 from brace.bus.snapshot import Snapshot
 from brace.bus.space import SpaceAnswer, space_answer
 from brace.errors import DeviceFaultError, NoDeviceError, NotVerifiedError, VersionMismatchError
@@ -74,10 +76,10 @@ class CanController:
                 continue
             if self.session.joiner.is_complete(newest):
                 del self.session.newest[self.node]
-                return newest
+                return newest._replace(faults=self.session.joiner.faults_of(self.node))
             alone = newest
         if alone is not None:
-            return alone
+            return alone._replace(faults=self.session.joiner.faults_of(self.node))
         raise NoDeviceError(
             "no K comes",
             where=self.session.where,
@@ -97,9 +99,15 @@ class CanController:
 
     def load(self) -> Load:
         """Entry by entry, so of several snapshots."""
-        words = {name: struct.pack("<I", self.read_entry(name)) for name in (*LOAD_ENTRIES, *ACROSS_ENTRIES)}
-        values = {name: float(struct.unpack("<f", word)[0]) for name, word in words.items()}
-        return load_of(values)
+        return load_of(self._entries((*LOAD_ENTRIES, *ACROSS_ENTRIES)))
+
+    def sigma(self) -> Sigma:
+        """Entry by entry, as the load."""
+        return sigma_of(self._entries([f"sigma_{name}" for name in SIGMA_ENTRIES]), "sigma_")
+
+    def _entries(self, names: Iterable[str]) -> dict[str, Value]:
+        words = {name: struct.pack("<I", self.read_entry(name)) for name in names}
+        return {name: float(struct.unpack("<f", word)[0]) for name, word in words.items()}
 
     def set_gravity(self, direction_rad: float, lean_rad: float) -> tuple[Value, Value]:
         """Volatile."""

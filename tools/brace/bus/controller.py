@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Protocol
 
 from brace.bus.drift import Drift
 from brace.bus.load import Load
+from brace.bus.sigma import Sigma
 from brace.bus.snapshot import Snapshot
 from brace.bus.space import SpaceAnswer
 from brace.errors import VersionMismatchError
@@ -90,6 +91,9 @@ class Controller(Protocol):
 
     def load(self) -> Load:
         """What the K of now counts."""
+
+    def sigma(self) -> Sigma:
+        """How sure the controller is of the K of now."""
 
     def set_gravity(self, direction_rad: float, lean_rad: float) -> tuple[Value, Value]:
         """Where down is, until the controller's next start; NaN for both: as the parameters say. returns what holds."""

@@ -30,6 +30,7 @@ from brace.bus.modbus_values import (
     BY_NAME,
     DRIFT,
     LOAD,
+    SIGMA,
     SPACE,
     TAKE_UP_OF,
     bit_names,
@@ -38,6 +39,7 @@ from brace.bus.modbus_values import (
 )
 from brace.bus.ownership import LIFE_S, NOT_OPEN, Owner, Reopening, register_of
 from brace.bus.refusal import STORE, error_of, no_coxa_joint, no_equilibrium
+from brace.bus.sigma import Sigma, sigma_of
 from brace.bus.snapshot import Snapshot
 from brace.bus.space import SpaceAnswer, SpaceSnapshot, space_answer, space_snapshot
 from brace.bus.url import BusUrl
@@ -211,6 +213,10 @@ class ModbusController:
     def load(self) -> Load:
         """Of one read."""
         return load_of(self._values_of(LOAD))
+
+    def sigma(self) -> Sigma:
+        """Of one read."""
+        return sigma_of(self._values_of(SIGMA), "sigma_")
 
     def set_gravity(self, direction_rad: float, lean_rad: float) -> tuple[Value, Value]:
         """Volatile."""

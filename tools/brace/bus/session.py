@@ -276,7 +276,7 @@ class Session:
             ) from None
         for data in frames:
             self.bus.send(REQUEST_ID + self.node, data)
-        parts = {layout.command: layout for layout in ANSWERS[name]}
+        parts = {layout.command or 0: layout for layout in ANSWERS[name]}
         came: dict[int, dict[str, Value]] = {}
         until = time.monotonic() + timeout_s
         while (left := until - time.monotonic()) > 0:

@@ -27,6 +27,22 @@ class Sigma:
         """The entries of K have one."""
         return None not in self.k
 
+    def words(self, is_open: bool = False) -> str:
+        """One sigma of the entries of K, in a line.
+        is_open: a gap takes stiffness away from this K, and the uncertainty is that of K once it has closed"""
+        if not self.is_known:
+            return "one sigma of K not known"
+        closed = " with every gap closed" if is_open else ""
+        return "one sigma of K{} {:.4f} {:.4f} {:.4f} N/mm".format(closed, *self.k)
+
+    def line(self, k: tuple[Value, Value, Value], is_open: bool = False) -> str:
+        """K with it, for people.
+        k: in the order xx, xz, zz"""
+        if None in k or is_open or not self.is_known:
+            return self.words(is_open)
+        told = zip(SIGMA_ENTRIES, k, self.k, strict=False)
+        return ", ".join(f"{name} {value:.4f} +- {sigma:.4f}" for name, value, sigma in told) + " N/mm (one sigma)"
+
     def as_json(self) -> dict[str, object]:
         """Names with units."""
         units = ("n_per_mm",) * 5 + ("rad",)

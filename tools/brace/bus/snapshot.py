@@ -198,6 +198,10 @@ class Joiner:
         """What a controller has answered about its faults."""
         self._faults[node] = faults
 
+    def faults_of(self, node: int) -> tuple[str, ...] | None:
+        """As last heard."""
+        return self._faults.get(node)
+
     def _take_emergency(self, node: int, frame: Frame) -> None:
         self._faults[node] = bit_names(_EMERGENCY, "faults", _EMERGENCY.decode(frame.data))
 

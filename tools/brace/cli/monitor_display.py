@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from rich.live import Live
 
     from brace.bus.load import Load
+    from brace.bus.sigma import Sigma
     from brace.bus.snapshot import Emergency, Snapshot
     from brace.bus.watch import NodeState, Watch
 
@@ -62,6 +63,9 @@ def line_of(node: int, state: NodeState) -> str:
         parts.append(f"K {k.k_xx:.4f} {k.k_xz:.4f} {k.k_zz:.4f} N/mm")
     else:
         parts.append("K not valid")
+    sigma = _sigma(state)
+    if k is not None and k.is_valid and sigma is not None:
+        parts.append(f"({sigma.words('GAP_OPEN' in k.flags)})")
     if k is not None and k.space is not None:
         from brace.cli.space_text import space_words
 
@@ -88,6 +92,14 @@ def _load(state: NodeState) -> Load | None:
     if told is None or newest is None or newest.time_s - told.time_s > _LOAD_LATE_S:
         return None
     return told.load
+
+
+def _sigma(state: NodeState) -> Sigma | None:
+    """The newest uncertainty; None: none has come lately."""
+    told, newest = state.sigma, state.snapshot
+    if told is None or newest is None or newest.time_s - told.time_s > _LOAD_LATE_S:
+        return None
+    return told.sigma
 
 
 def fault_words(state: NodeState) -> list[str]:
@@ -185,6 +197,8 @@ def _lines(state: NodeState) -> list[str]:
         from brace.cli.ellipse import ellipse
 
         lines += [f"K  {k.k_xx:10.4f} {k.k_xz:10.4f}", f"   {k.k_xz:10.4f} {k.k_zz:10.4f}  N/mm"]
+        sigma = _sigma(state)
+        lines += [] if sigma is None else [sigma.words("GAP_OPEN" in k.flags)]
         lines += ellipse(k.k_xx, k.k_xz, k.k_zz)
     if k is not None and k.space is not None:
         from brace.cli.space_text import coxa_lines, space_lines

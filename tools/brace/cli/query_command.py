@@ -277,6 +277,8 @@ def _live(arguments: argparse.Namespace, device: Controller) -> int:
         "parameter_crc": f"{identity.parameter_crc:08x}",
     }
     load = snapshot.load if snapshot.load is not None else device.load()
+    sigma = snapshot.sigma if snapshot.sigma is not None else device.sigma()
+    entry |= sigma.as_json()
     drift, take_ups = device.drift(), device.take_ups()
     faults = snapshot.faults or ()
     if arguments.json:
@@ -286,6 +288,8 @@ def _live(arguments: argparse.Namespace, device: Controller) -> int:
             f"node {snapshot.node}, firmware {identity.version}: {entry.get('mode', 'mode not sent')}"
         )
         _emit_k(entry, snapshot.is_valid)
+        if snapshot.is_valid:
+            common.emit(sigma.line((snapshot.k_xx, snapshot.k_xz, snapshot.k_zz), "GAP_OPEN" in snapshot.flags))
         if snapshot.has_posture and None not in (snapshot.theta1, snapshot.theta2):
             common.emit(f"theta1 {snapshot.theta1:.5f} rad, theta2 {snapshot.theta2:.5f} rad")
         for line in load.lines((snapshot.k_xx, snapshot.k_xz, snapshot.k_zz), "GAP_OPEN" in snapshot.flags):

@@ -7,6 +7,7 @@ from functools import lru_cache
 from typing import TypedDict
 
 from brace.bus.load import Load
+from brace.bus.sigma import Sigma
 from brace.bus.snapshot import Snapshot
 from brace.bus.watch import NodeState
 from brace.live.card import Card
@@ -79,9 +80,10 @@ class LimbNumbers(TypedDict):
     age_ms: Value
     is_valid: bool
     k_n_per_mm: list[Value]  # xx, xz, zz
+    sigma_k_n_per_mm: list[Value] | None  # one sigma of each, as the controller says
     lambda_n_per_mm: list[Value]  # least, greatest
     stiff_axis_rad: Value
-    relative_sigma: list[float] | None  # of the two eigenvalues
+    relative_sigma: list[float] | None  # of the two eigenvalues: the controller's, else the limb's model's
     theta_rad: list[Value]  # coxa, femur, tibia
     k_space_n_per_mm: list[Value] | None  # xx xy xz yy yz zz, in the robot's frame
     lambda_space_n_per_mm: list[Value] | None
@@ -107,7 +109,10 @@ def limb_numbers(node: int, state: NodeState, card: Card, now_s: float) -> LimbN
     """The newest of a limb. Everything of K is of one snapshot, the newest that came with its posture."""
     k = _k(state)
     theta1, theta2 = (k.theta1, k.theta2) if k is not None else (None, None)
-    sigmas = None if theta1 is None or theta2 is None else card.relative_sigmas(theta1, theta2)
+    told = _recent_sigma(state)
+    sigmas = _relative(told, k)
+    if sigmas is None and theta1 is not None and theta2 is not None:
+        sigmas = card.relative_sigmas(theta1, theta2)
     space = state.space.space if state.space is not None else None
     silent_s = now_s - state.last_s
     return {
@@ -116,6 +121,7 @@ def limb_numbers(node: int, state: NodeState, card: Card, now_s: float) -> LimbN
         "rate_hz": round(state.rate_hz, 1),
         "age_ms": k.age_ms if k is not None else None,
         "is_valid": k is not None and k.is_valid,
+        "sigma_k_n_per_mm": list(told.k) if told is not None and told.is_known else None,
         "k_n_per_mm": [k.k_xx, k.k_xz, k.k_zz] if k is not None else [None, None, None],
         "lambda_n_per_mm": [k.lambda_min, k.lambda_max] if k is not None else [None, None],
         "stiff_axis_rad": k.stiff_axis if k is not None else None,
@@ -135,6 +141,24 @@ def _recent_load(state: NodeState) -> Load | None:
     told, newest = state.load, state.snapshot
     is_recent = told is not None and newest is not None and newest.time_s - told.time_s <= LOAD_LATE_S
     return told.load if told is not None and is_recent else None
+
+
+def _recent_sigma(state: NodeState) -> Sigma | None:
+    told, newest = state.sigma, state.snapshot
+    is_recent = told is not None and newest is not None and newest.time_s - told.time_s <= LOAD_LATE_S
+    return told.sigma if told is not None and is_recent else None
+
+
+def _relative(sigma: Sigma | None, k: Snapshot | None) -> tuple[float, float] | None:
+    """One sigma of the two eigenvalues, as a fraction of each. None: not known."""
+    if sigma is None or k is None:
+        return None
+    shares = [
+        None if one is None or not of else float(one) / float(of)
+        for one, of in ((sigma.values["lambda_min"], k.lambda_min), (sigma.values["lambda_max"], k.lambda_max))
+    ]
+    least, most = shares
+    return None if least is None or most is None else (least, most)
 
 
 def _load_view(load: Load | None) -> LoadView | None:

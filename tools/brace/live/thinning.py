@@ -18,13 +18,13 @@ _WITH_POSTURE = frozenset((_POSTURE, _WHOLE))
 # A message's kind: its identifier, of node 0; for frames that share one, with the group's number above it.
 _GROUP_BIT = 12
 _GROUPED = {
-    (layout.identifier, layout.part): layout.identifier | number << _GROUP_BIT
+    (layout.identifier, bytes([layout.part or 0])): layout.identifier | number << _GROUP_BIT
     for number, group in enumerate((*GROUPS.values(), *FD_GROUPS.values()), 1)
     for layout in group
 }
 _SHARED = frozenset(identifier for identifier, _ in _GROUPED)
 _PART_BYTE = GROUPS["condition"][0].part_at // 8
-_CONDITION = _GROUPED[GROUPS["condition"][0].identifier, GROUPS["condition"][0].part]
+_CONDITION = _GROUPED[GROUPS["condition"][0].identifier, bytes([GROUPS["condition"][0].part or 0])]
 _OF_SNAPSHOT = frozenset(
     (
         *_K,
@@ -49,7 +49,9 @@ class Thinned:
 def thinned(frames: Sequence[Frame], may_hold: bool) -> Thinned:
     """A page shows K with its posture; K alone only of a limb that sends no posture. A snapshot that has begun, and may
     get its posture in the next period, is held until then."""
-    kinds = [_kind(frame) for frame in frames]
+    kinds = [
+        frame.identifier if frame.identifier & ~NODE_MASK not in _SHARED else _kind(frame) for frame in frames
+    ]
     last = {kind: frame.data[:1] for kind, frame in zip(kinds, frames, strict=True)}
     by_node: dict[int, list[int]] = {}
     for identifier in last:
@@ -75,11 +77,9 @@ def thinned(frames: Sequence[Frame], may_hold: bool) -> Thinned:
 
 
 def _kind(frame: Frame) -> int:
-    """What kind of message it is, with its node."""
-    message = frame.identifier & ~NODE_MASK
-    if message not in _SHARED or len(frame.data) <= _PART_BYTE:
-        return frame.identifier
-    return _GROUPED.get((message, frame.data[_PART_BYTE]), message) | frame.identifier & NODE_MASK
+    """What kind of message a frame of a shared identifier is, with its node."""
+    message, parts = frame.identifier & ~NODE_MASK, frame.data[_PART_BYTE : _PART_BYTE + 1]
+    return _GROUPED.get((message, parts), message) | frame.identifier & NODE_MASK
 
 
 @lru_cache(maxsize=256)  # a node sends its messages in few different orders

@@ -456,9 +456,11 @@ static brace_client_status_t identify(brace_client_t *client, uint64_t deadline_
     brace_can_identify_answer_0_t version;
     brace_can_identify_answer_1_t dictionary;
     brace_can_identify_answer_3_t parameters;
+    brace_can_identify_answer_4_t condition;
     brace_can_unpack_identify_answer_0(question.answers[0], &version);
     brace_can_unpack_identify_answer_1(question.answers[1], &dictionary);
     brace_can_unpack_identify_answer_3(question.answers[3], &parameters);
+    brace_can_unpack_identify_answer_4(question.answers[4], &condition);
     if (dictionary.dictionary_hash != BRACE_DICTIONARY_HASH || version.protocol != BRACE_PROTOCOL) {
         return brace_client_fail_version(client, client->node, dictionary.dictionary_hash);
     }
@@ -469,6 +471,7 @@ static brace_client_status_t identify(brace_client_t *client, uint64_t deadline_
         .parameter_crc = parameters.parameter_crc,
         .parameter_origin = parameters.origin,
     };
+    brace_joiner_hear_faults(&client->joiner, condition.faults, brace_bus_lost(client->bus));
     return BRACE_CLIENT_OK;
 }
 

@@ -320,6 +320,13 @@ static const kind_t *kind_of(const brace_bus_frame_t *frame, uint32_t node)
     return NULL;
 }
 
+void brace_joiner_hear_faults(brace_joiner_t *joiner, uint32_t faults, uint32_t lost)
+{
+    joiner->lost = lost;
+    joiner->faults = faults;
+    joiner->faults_are_known = true;
+}
+
 /* Faults come when they change and with each heartbeat; in a snapshot over CAN FD alone they are its own. */
 static bool take_faults(brace_joiner_t *joiner, uint32_t node, const brace_bus_frame_t *frame)
 {

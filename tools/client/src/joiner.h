@@ -23,6 +23,9 @@ typedef struct {
     uint32_t faults;       /* as last heard */
 } brace_joiner_t;
 
+/* What the controller has answered about its faults. lost: as below. */
+void brace_joiner_hear_faults(brace_joiner_t *joiner, uint32_t faults, uint32_t lost);
+
 /* Takes one frame of process data (0x180, 0x200, 0x280, 0x380, 0x480 + node; with CAN FD, 0x300 and 0x500 + node), or
  * an emergency (0x080 + node), and ignores any other frame. lost: the bus' count of lost frames up to this one.
  * returns the snapshot to which this frame has completed a part, valid until the next call; null: there is none */

@@ -105,6 +105,8 @@ export class Limb {
     this.row("softest", view.is_valid ? `${number(least)}${trust(least, ofLeast)} N/mm` : "K is not valid");
     this.row("stiffest", view.is_valid ? `${number(most)}${trust(most, ofMost)} N/mm` : null);
     this.row("K xx xz zz", view.is_valid ? numbers(view.k_n_per_mm, "N/mm") : null);
+    const sigma = view.sigma_k_n_per_mm;
+    this.row("one sigma of K", view.is_valid && sigma !== null ? numbers(sigma, "N/mm") : null);
     const space = view.lambda_space_n_per_mm;
     this.row("eigenvalues in space", space === null ? null : numbers(space, "N/mm"));
     const load = view.load;
