@@ -53,6 +53,7 @@ void port_test_run(text_t *text, const brace_app_t *app, port_test_t kind)
         .report = finding,
         .report_context = text,
         .scratch_slot = kind == PORT_TEST_SLOT ? (int32_t)port_test_slot(app) : BRACE_SELFTEST_KEEP_NVM,
+        .serve = board_serve,
         .limb_is_free = kind == PORT_TEST_DRIVES,
         .reference_count = second_clock_count,
         .reference_hz = board_core_hz(),

@@ -37,6 +37,10 @@ typedef struct {
     /* Slot that may be erased and written; it ends erased. BRACE_SELFTEST_KEEP_NVM: memory is only read. */
     int32_t scratch_slot;
 
+    /* What the board's own drivers do between ticks (the bytes of a servo line); called again and again while a check
+     * waits, so that joints behind such a line have new samples. Null: nothing. */
+    void (*serve)(void);
+
     /* The limb hangs free, on a bench: joint_command is called, for no offset. Else no joint is commanded. */
     bool limb_is_free;
 

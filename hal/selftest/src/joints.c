@@ -17,6 +17,12 @@ typedef struct {
 
 static const char *const names[JOINT_COUNT] = {"joint_read(0)", "joint_read(1)", "joint_read(2)"};
 
+/* The angle by the encoder that there is: a joint may have one behind its gear alone. */
+static float angle_rad(const brace_hal_joint_t *joint)
+{
+    return isnan(joint->motor_rad) ? joint->link_rad : joint->motor_rad;
+}
+
 static void look(const selftest_t *test, seen_t *seen, const brace_hal_joint_t *joint)
 {
     const uint32_t age_us = test->hal->now_us(test->hal->context) - joint->taken_us;
@@ -24,12 +30,12 @@ static void look(const selftest_t *test, seen_t *seen, const brace_hal_joint_t *
         seen->first = *joint;
     }
     seen->fresh++;
-    seen->finite = seen->finite && isfinite(joint->motor_rad) && isfinite(joint->torque_n_mm) &&
+    seen->finite = seen->finite && isfinite(angle_rad(joint)) && isfinite(joint->torque_n_mm) &&
         !isinf(joint->link_rad) && !isinf(joint->temp_degc);
     seen->possible = seen->possible && !(fabsf(joint->motor_rad) > angle_max_rad) &&
         !(fabsf(joint->torque_n_mm) > torque_max_n_mm) && !(fabsf(joint->link_rad) > angle_max_rad);
     seen->aged += age_us > AGE_MAX_US;
-    seen->changed = seen->changed || joint->motor_rad != seen->first.motor_rad;
+    seen->changed = seen->changed || angle_rad(joint) != angle_rad(&seen->first);
     seen->time_changed = seen->time_changed || joint->taken_us != seen->first.taken_us;
 }
 
@@ -55,7 +61,7 @@ static seen_t watch(selftest_t *test, int32_t index)
 static void judge_samples(selftest_t *test, const char *name, const seen_t *seen)
 {
     if (!selftest_expect(test, seen->finite, name, "finite",
-            "an angle, torque or temperature is not finite: NaN is for link_rad and temp_degc only")) {
+            "an angle, torque or temperature is not finite: NaN is for one of the two encoders and for temp_degc only")) {
         return;
     }
     selftest_expect(test, seen->possible, name, "within what a joint can be",

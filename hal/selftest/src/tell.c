@@ -36,6 +36,9 @@ selftest_wait_t selftest_wait(const selftest_t *test, uint32_t window_us)
 bool selftest_waiting(const selftest_t *test, selftest_wait_t *wait)
 {
     wait->asked++;
+    if (test->setup->serve != 0) {
+        test->setup->serve();
+    }
     if (!test->clock_runs && wait->asked > QUESTIONS_MAX / 100) {
         return false;
     }

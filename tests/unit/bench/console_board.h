@@ -24,6 +24,8 @@ uint32_t board_core_hz(void)
     return 1000000u;
 }
 
+void board_serve(void) {}
+
 uint32_t stack_bytes(void)
 {
     return 8192u;

@@ -20,6 +20,8 @@ typedef struct {
     brace_can_frame_t frames[FRAMES_MAX];
     uint32_t queued, taken;
     bool loopback, moves, limb_is_free;
+    bool is_line;           /* the joints' samples come by a line that is served */
+    uint32_t served;
     uint32_t filter_id, filter_mask;
 } world_t;
 
@@ -51,6 +53,10 @@ static inline int32_t joint_read(void *context, int32_t index, brace_hal_joint_t
     if (index < 1 || index >= JOINTS) { /* a limb in a plane: no coxa */
         return BRACE_HAL_E_UNSUPPORTED;
     }
+    if (world.is_line && world.served == 0u) {
+        return BRACE_HAL_AGAIN;
+    }
+    world.served = 0u;
     *joint = (brace_hal_joint_t){.motor_rad = 1.0f, .link_rad = NAN, .temp_degc = NAN, .taken_us = world.us};
     joint->motor_rad += world.moves ? 1e-6f * (float)(world.us % 1000u) : 0.0f;
     return BRACE_HAL_OK;
@@ -261,6 +267,11 @@ static inline void keep(void *context, const brace_selftest_finding_t *finding)
     findings[finding_count++] = *finding;
 }
 
+static inline void serve(void)
+{
+    world.served++;
+}
+
 static inline brace_selftest_setup_t setup_of(int32_t scratch_slot)
 {
     finding_count = 0u;
@@ -268,6 +279,7 @@ static inline brace_selftest_setup_t setup_of(int32_t scratch_slot)
         .report = keep,
         .report_context = &world,
         .scratch_slot = scratch_slot,
+        .serve = serve,
         .limb_is_free = world.limb_is_free,
         .joints_are_moved = world.moves,
         .reference_count = falling_count,

@@ -70,6 +70,19 @@ static void no_joint_is_commanded_unless_the_limb_is_free(void)
     TEST_ASSERT_EQUAL_UINT32(0u, world.commands);
 }
 
+/* Joints behind a line that the board serves between ticks. */
+static void a_line_is_served_while_a_check_waits(void)
+{
+    for (uint32_t served = 0u; served < 2u; served++) {
+        open_door();
+        world.is_line = true;
+        brace_selftest_setup_t setup = setup_of(BRACE_SELFTEST_KEEP_NVM);
+        setup.serve = served == 1u ? serve : NULL;
+        (void)brace_selftest_run(&door, &setup, NULL);
+        TEST_ASSERT_EQUAL(served == 0u, is_told("joint_read(1)", "AGAIN for ever"));
+    }
+}
+
 static void memory_is_kept_when_asked(void)
 {
     open_door();
@@ -126,6 +139,7 @@ int main(void)
     RUN_TEST(the_truth_passes);
     RUN_TEST(every_null_is_named);
     RUN_TEST(no_joint_is_commanded_unless_the_limb_is_free);
+    RUN_TEST(a_line_is_served_while_a_check_waits);
     RUN_TEST(memory_is_kept_when_asked);
     RUN_TEST(what_is_optional_may_be_absent);
     RUN_TEST(impossible_requests_are_refused);

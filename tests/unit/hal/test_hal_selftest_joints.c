@@ -3,7 +3,7 @@
 #include "selftest_door.h"
 
 enum {
-    JOINT_MISSING = 1, JOINT_DEVICE, JOINT_AGAIN_FOR_EVER, JOINT_NAN, JOINT_DEGREES, JOINT_STALE, JOINT_FUTURE,
+    JOINT_MISSING = 1, JOINT_DEVICE, JOINT_AGAIN_FOR_EVER, JOINT_NAN, JOINT_NO_ENCODER, JOINT_DEGREES, JOINT_STALE, JOINT_FUTURE,
     JOINT_SAME_SAMPLE, JOINT_STUCK, JOINT_INDEX_UNCHECKED, COMMAND_REFUSED, COMMAND_INDEX_UNCHECKED,
     FORCE_AGAIN_FOR_EVER, FORCE_NAN, CEILING_SPEED, CEILING_TRAVEL, LIES
 };
@@ -23,6 +23,7 @@ static int32_t lying_joint_read(void *context, int32_t index, brace_hal_joint_t 
     case JOINT_DEVICE: return BRACE_HAL_E_DEVICE;
     case JOINT_AGAIN_FOR_EVER: return BRACE_HAL_AGAIN;
     case JOINT_NAN: joint->torque_n_mm = NAN; break;
+    case JOINT_NO_ENCODER: joint->motor_rad = NAN; break;
     case JOINT_DEGREES: joint->motor_rad = 57.3f; break;
     case JOINT_STALE: joint->taken_us -= 30000u; break;
     case JOINT_FUTURE: joint->taken_us += 5000u; break;
@@ -70,6 +71,7 @@ static void each_lie_is_named(void)
         {JOINT_DEVICE, "joint_read(1)", "device refuses"},
         {JOINT_AGAIN_FOR_EVER, "joint_read(1)", "AGAIN for ever"},
         {JOINT_NAN, "joint_read(1)", "not finite"},
+        {JOINT_NO_ENCODER, "joint_read(1)", "not finite"},
         {JOINT_DEGREES, "joint_read(1)", "degrees"},
         {JOINT_STALE, "joint_read(1)", "taken_us"},
         {JOINT_FUTURE, "joint_read(1)", "taken_us"},
@@ -87,9 +89,34 @@ static void each_lie_is_named(void)
     expect_each_named(named, sizeof named / sizeof named[0], open_lying);
 }
 
+static int32_t read_behind_the_gear(void *context, int32_t index, brace_hal_joint_t *joint)
+{
+    const int32_t answer = joint_read(context, index, joint);
+    if (answer == BRACE_HAL_OK) {
+        joint->link_rad = joint->motor_rad;
+        joint->motor_rad = NAN;
+    }
+    return answer;
+}
+
+/* As a servo has it: one encoder, behind the gear. Where it stands although it is moved, it is stuck. */
+static void one_encoder_behind_the_gear_is_enough(void)
+{
+    for (uint32_t moves = 0u; moves < 2u; moves++) {
+        open_door();
+        door.joint_read = read_behind_the_gear;
+        brace_selftest_setup_t setup = setup_of(BRACE_SELFTEST_KEEP_NVM);
+        setup.joints_are_moved = true;
+        world.moves = moves == 1u;
+        TEST_ASSERT_EQUAL_INT32(moves == 1u ? 0 : 2, brace_selftest_run(&door, &setup, NULL));
+        TEST_ASSERT_EQUAL(moves == 0u, is_told("joint_read(2)", "stuck"));
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(each_lie_is_named);
+    RUN_TEST(one_encoder_behind_the_gear_is_enough);
     return UNITY_END();
 }
