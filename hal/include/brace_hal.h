@@ -79,8 +79,8 @@ typedef enum {
     BRACE_SERIAL_CONSOLE = 0,    /* boot banner and crash record, as text */
     BRACE_SERIAL_MODBUS = 1,     /* Modbus RTU */
     BRACE_SERIAL_SLCAN = 2,      /* CAN frames as LAWICEL text, for boards without a transceiver */
-    BRACE_SERIAL_MODBUS_TCP = 3, /* Modbus TCP, hosts only: a stream of whole ADUs of any number of connections; an
-                                    answer goes to the connection of the ADU that was read last */
+    BRACE_SERIAL_MODBUS_TCP = 3, /* Modbus TCP, hosts only: a stream of whole ADUs of all connections, one of each in
+                                    turn; serial_peer says whose was read last, serial_write_to answers */
     BRACE_SERIAL_PORT_COUNT = 4
 } brace_serial_port_t;
 
@@ -189,6 +189,11 @@ typedef struct {
     /* Optional: null where every port has one other end. Number of the connection that the bytes read last came from; no
      * two connections have the same number. Does not block. */
     uint32_t (*serial_peer)(void *context, brace_serial_port_t port);
+
+    /* Optional, with serial_peer: bytes for that connection. Takes all of them, or none where they find no room; for a
+     * connection that has closed they are lost, as on a line. Does not block. returns as serial_write */
+    int32_t (*serial_write_to)(void *context, brace_serial_port_t port, uint32_t peer, const uint8_t *bytes,
+                               uint32_t count);
 
     /* Optional, with serial_peer: is the connection of that number still open? Does not block. */
     bool (*serial_peer_is_open)(void *context, brace_serial_port_t port, uint32_t peer);

@@ -6,123 +6,10 @@
  * Each trial has a limb on its way, whose owner gives its signs of life; then a bus as full as 1 Mbit/s carries it,
  * eight requests a millisecond; then one stop somewhere among them. After the second tick no set-point may change,
  * though the flood and the signs of life go on. */
-#include <stdlib.h>
-
-#include "attack.h"
-
-enum {
-    REQUESTS_PER_MS = 8,
-    BURST_MOST = 500,
-    TICKS_AFTER = 25,
-    STANDS_WITHIN = 2 /* ticks, after the one that the stop came before */
-};
-
-static uint32_t trials = 400;
-static uint64_t dice = 0x9e3779b97f4a7c15u;
+#include "flood.h"
 
 void setUp(void) {}
 void tearDown(void) {}
-
-static uint32_t below(uint32_t n)
-{
-    dice ^= dice << 13;
-    dice ^= dice >> 7;
-    dice ^= dice << 17;
-    return (uint32_t)((dice >> 32) * n >> 32);
-}
-
-/* ------------------------------------------------------------------------------------------- who floods -- */
-
-typedef enum { K_QUESTIONS, ANY_QUESTIONS, ANY_REQUESTS, FORGED_SEALS, OTHER_NODES, FLOODS } flood_t;
-
-static const char *const flood_name[FLOODS] = {"questions for K", "any questions", "any requests", "forged seals",
-                                               "requests to other nodes"};
-
-static bool moves_or_stops(const uint8_t data[8])
-{
-    const uint32_t entry = (uint32_t)data[2] | (uint32_t)data[3] << 8;
-    switch (data[0]) {
-    case BRACE_REQUEST_TAKE_UP:
-    case BRACE_REQUEST_LET_GO:
-    case BRACE_REQUEST_LOADING_TEST_START:
-    case BRACE_REQUEST_LOADING_TEST_STOP: return true;
-    case BRACE_REQUEST_WRITE_ENTRY: return entry == COMMAND_ENTRY(stop) || entry == COMMAND_ENTRY(end_test);
-    default: return false;
-    }
-}
-
-/* Something that a stranger may send. Only the owner's own commands and a stop are left out: they would end the motion,
- * or begin another one. */
-static void make_noise(flood_t flood, uint8_t data[8])
-{
-    static const uint8_t about_k[] = {BRACE_REQUEST_K_AT_POSTURE, BRACE_REQUEST_K_AT_TIP_KNEE_UP,
-                                      BRACE_REQUEST_K_UNDER_LOAD_AT_POSTURE, BRACE_REQUEST_K_IN_SPACE_AT_POSTURE};
-    static const uint8_t questions[] = {BRACE_REQUEST_READ_ENTRY,   BRACE_REQUEST_IDENTIFY,
-                                        BRACE_REQUEST_TIP_FORCE,    BRACE_REQUEST_DOWNLOAD_WORD,
-                                        BRACE_REQUEST_CONTACT_FORCE, BRACE_REQUEST_FRICTION_MARGIN,
-                                        BRACE_REQUEST_K_AT_POSTURE, BRACE_REQUEST_FETCH_ROW};
-    do {
-        for (int i = 0; i < 8; i++) {
-            data[i] = (uint8_t)below(256);
-        }
-        switch (flood) {
-        case K_QUESTIONS: data[0] = about_k[below(sizeof about_k)]; break;
-        case ANY_QUESTIONS: data[0] = questions[below(sizeof questions)]; break;
-        case FORGED_SEALS:
-            if (below(2) == 0u) {
-                const uint32_t entry = below(2) == 0u ? COMMAND_ENTRY(seal_mac) : COMMAND_ENTRY(life_mac);
-                make_write(entry, below(UINT32_MAX), (counter + below(4)) & 0xffu, data);
-                break;
-            }
-            data[0] = (uint8_t)(below(2) == 0u ? BRACE_REQUEST_LET_GO : BRACE_REQUEST_TAKE_UP);
-            data[1] = (uint8_t)(counter + below(4));
-            break;
-        default: data[0] = (uint8_t)(1u + below(31)); break;
-        }
-        if (!is_guarded() && data[1] >> 4 == MASTER_OF_OPERATOR) {
-            data[1] ^= 0x80u;
-        }
-    } while (moves_or_stops(data) && (data[0] == BRACE_REQUEST_LOADING_TEST_STOP ||
-                                      data[0] == BRACE_REQUEST_WRITE_ENTRY));
-}
-
-static void frame_arrives(uint32_t id, const uint8_t *data, uint8_t length)
-{
-    brace_can_frame_t frame = {.id = id, .length = length};
-    memcpy(frame.data, data, length);
-    (void)brace_fake_frame_arrives(&fake, &frame);
-}
-
-static void noise_arrives(flood_t flood, uint32_t count)
-{
-    for (uint32_t i = 0; i < count; i++) {
-        uint8_t data[8];
-        make_noise(flood, data);
-        frame_arrives(flood == OTHER_NODES ? 2u + below(0x7feu) : 0x600u + NODE, data, 8);
-    }
-}
-
-static void empty_the_bus(void)
-{
-    brace_can_frame_t frame;
-    for (int i = 0; i < 3 && brace_fake_frame_take(&fake, &frame); i++) { /* as many as the STM32 has mailboxes */
-    }
-}
-
-/* A millisecond of a full bus; the owner gives its sign of life in time. */
-static void flooded_tick(flood_t flood, uint32_t noise)
-{
-    static uint32_t since;
-    const bool lives = ++since >= 40u;
-    noise_arrives(flood, noise / 2u);
-    if (lives) {
-        since = 0;
-        sign_of_life();
-    }
-    noise_arrives(flood, noise > 0u ? noise - noise / 2u - lives : 0u);
-    ticks(1);
-    empty_the_bus();
-}
 
 /* ---------------------------------------------------------------------------------------------- trials -- */
 
@@ -138,35 +25,6 @@ static void stop_arrives(by_t by)
         make_write(COMMAND_ENTRY(stop), 0, below(256), data);
         frame_arrives(0x600u + NODE, data, 8);
     }
-}
-
-typedef struct {
-    float offset_rad[BRACE_LINK_COUNT];
-} set_points_t;
-
-static set_points_t set_points(void)
-{
-    set_points_t points;
-    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
-        points.offset_rad[i] = fake.joint[i].command.offset_rad;
-    }
-    return points;
-}
-
-static bool are_equal(const set_points_t *a, const set_points_t *b)
-{
-    return memcmp(a, b, sizeof *a) == 0;
-}
-
-static void begin_trial(bool guarded, bool in_space)
-{
-    has_coxa = in_space;
-    start_limb(guarded, guarded ? the_key : NULL);
-    fake.can_filters = true;
-    if (guarded) {
-        open_session();
-    }
-    begin_to_move();
 }
 
 /* returns after how many ticks the limb stood; STANDS_WITHIN + 1: later, or never */
@@ -279,7 +137,7 @@ static void test_who_a_stop_is_for(void)
 
 int main(int count, char **arguments)
 {
-    trials = count > 1 ? (uint32_t)strtoul(arguments[1], NULL, 10) : trials;
+    read_trials(count, arguments);
     UNITY_BEGIN();
     RUN_TEST(test_a_stop_is_heard_in_every_flood_of_the_bus);
     RUN_TEST(test_a_ring_that_has_run_over_keeps_the_stop);

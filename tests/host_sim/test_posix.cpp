@@ -1,4 +1,5 @@
 // The hardware door on a POSIX host: CAN between controllers and clients, serial ends, Modbus TCP, memory.
+#include <algorithm>
 #include <arpa/inet.h>
 #include <cstdio>
 #include <cstdlib>
@@ -9,6 +10,7 @@
 #include <string>
 #include <sys/socket.h>
 #include <unistd.h>
+#include <vector>
 
 extern "C" {
 #include "brace_hal_posix.h"
@@ -361,10 +363,11 @@ std::string adu(int transaction, const std::string &pdu)
     return made + pdu;
 }
 
-// Answers each ADU with itself, as far as one has come.
+// Answers each ADU with itself, as far as one has come; the connection that was made last first.
 void echo(Host &host, std::uint32_t room)
 {
     static std::string pending;
+    std::vector<std::pair<std::uint32_t, std::string>> waiting;
     std::uint8_t bytes[300];
     brace_posix_poll(&host.posix);
     for (int i = 0; i < 4; ++i) {
@@ -376,11 +379,16 @@ void echo(Host &host, std::uint32_t room)
         const std::size_t whole = pending.size() >= 6 ? 6u + static_cast<std::uint8_t>(pending[5]) : 1000u;
         TEST_ASSERT_TRUE(pending.size() <= whole); // never the beginning of another one's
         if (pending.size() == whole) {
-            (void)host.hal.serial_write(host.context(), BRACE_SERIAL_MODBUS_TCP,
-                                        reinterpret_cast<const std::uint8_t *>(pending.data()),
-                                        static_cast<std::uint32_t>(whole));
+            waiting.emplace_back(host.hal.serial_peer(host.context(), BRACE_SERIAL_MODBUS_TCP), pending);
             pending.clear();
         }
+    }
+    std::stable_sort(waiting.begin(), waiting.end(), [](const auto &a, const auto &b) { return a.first > b.first; });
+    for (const auto &[peer, text] : waiting) {
+        TEST_ASSERT_EQUAL_INT(static_cast<int>(text.size()),
+                              host.hal.serial_write_to(host.context(), BRACE_SERIAL_MODBUS_TCP, peer,
+                                                       reinterpret_cast<const std::uint8_t *>(text.data()),
+                                                       static_cast<std::uint32_t>(text.size())));
     }
     brace_posix_poll(&host.posix);
 }
@@ -448,6 +456,7 @@ void an_answer_never_reaches_a_later_connection()
         usleep(200);
     }
     TEST_ASSERT_EQUAL_INT(12, count);
+    const std::uint32_t asked_by = host.hal.serial_peer(host.context(), BRACE_SERIAL_MODBUS_TCP);
     close(gone);
     for (int i = 0; i < 50; ++i) {
         brace_posix_poll(&host.posix);
@@ -457,7 +466,7 @@ void an_answer_never_reaches_a_later_connection()
     for (int i = 0; i < 50; ++i) {
         brace_posix_poll(&host.posix);
     }
-    TEST_ASSERT_EQUAL_INT(12, host.hal.serial_write(host.context(), BRACE_SERIAL_MODBUS_TCP, bytes, 12));
+    TEST_ASSERT_EQUAL_INT(12, host.hal.serial_write_to(host.context(), BRACE_SERIAL_MODBUS_TCP, asked_by, bytes, 12));
     put(later, adu(2, "mine"));
     TEST_ASSERT_TRUE(adu(2, "mine")
                      == taken(

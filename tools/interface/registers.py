@@ -106,7 +106,7 @@ for the refusals -81 to -87 ([errors.md](errors.md)). `take_up` is the last one 
 | 03 | a count, length or value that can not be; a tip out of reach; force or sag where an open gap carries nothing; \
 a value beyond the board's ceilings (-74); a `commit_crc` of another set |
 | 04 | it could not be done: no play to take up; no valid K, or no known force, to answer from |
-| 06 | a set is being stored, or a commit came less than 10 s after the one before (-75): ask again |
+| 06 | a set is being stored, a commit came less than 10 s after the one before (-75), or four questions of this connection wait already: ask again |
 | 07 | somebody else is the owner, or there is no proof that you are (-70 to -73): `last_refusal` tells which |
 | 11 | TCP only: no such unit behind this connection |
 

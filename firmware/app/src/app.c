@@ -213,9 +213,6 @@ static void step_ownership(brace_app_t *app)
         hal->random_read(hal->context, &low) == BRACE_HAL_OK && hal->random_read(hal->context, &high) == BRACE_HAL_OK) {
         session_challenge(&ownership->session, (uint64_t)high << 32 | low);
     }
-    if (ownership->session.is_open && controller_has_hung_up(controller, ownership->session.owner)) {
-        session_hang_up(&ownership->session);
-    }
     switch (ownership_step(ownership, &inputs)) {
     case OWNERSHIP_STOPS: loading_end(&controller->loading, BRACE_LOADING_STOPPED); break;
     case OWNERSHIP_FORGETS: controller_forget(controller); break;
@@ -379,10 +376,15 @@ static void step_jobs(brace_app_t *app, const brace_snapshot_t *snapshot)
     softening_age(&controller->softening, controller->model.is_spatial && snapshot->load.is_counted);
 }
 
-/* The wires look at all that has come: stops and sessions come before everything. */
+/* The wires look at all that has come: stops and sessions come before everything. Whoever has hung up is gone before the
+ * next one is heard. */
 static void hear(brace_app_t *app, uint32_t now_us)
 {
     controller_t *controller = &app->controller;
+    session_t *session = &controller->ownership.session;
+    if (session->is_open && controller_has_hung_up(controller, session->owner)) {
+        session_hang_up(session);
+    }
     controller->ownership.is_by_wire = true;
     wires_hear(&app->wires, controller->hal, app, &controller->counters, now_us);
     controller->ownership.is_by_wire = false;

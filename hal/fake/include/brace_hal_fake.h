@@ -42,6 +42,7 @@ enum {
     BRACE_FAKE_SLOT_BYTES = 8192,
     BRACE_FAKE_FRAMES = 64,      /* room of each queue */
     BRACE_FAKE_SERIAL_BYTES = 512,
+    BRACE_FAKE_CONNECTIONS = 15,
     BRACE_FAKE_FAILURES = 8,
     BRACE_FAKE_JOINTS = 3
 };
@@ -75,6 +76,11 @@ typedef struct {
     uint8_t byte[BRACE_FAKE_SERIAL_BYTES];
     uint32_t first, count;
 } brace_fake_bytes_t;
+
+/* A connection of Modbus TCP; its number is its place. */
+typedef struct {
+    brace_fake_bytes_t received, sent;
+} brace_fake_connection_t;
 
 struct brace_fake {
     brace_hal_t hal;
@@ -110,6 +116,8 @@ struct brace_fake {
     uint32_t random;             /* the last word of random_read: another one each time */
     uint32_t peer;               /* number of the connection of Modbus TCP that speaks */
     uint32_t open_from;          /* connections with smaller numbers are closed */
+    brace_fake_connection_t connection[BRACE_FAKE_CONNECTIONS]; /* with brace_fake_with_connections */
+    uint32_t reads_from, left_of_adu; /* the connection that is read from, and bytes of its ADU that are left */
 
     brace_reset_cause_t reset_cause;
     brace_crash_record_t crash;
@@ -138,6 +146,11 @@ void brace_fake_guarded(brace_fake_t *fake, const uint8_t key[BRACE_HAL_KEY_BYTE
 
 /* A board whose port of Modbus TCP has several connections: members peer and open_from. */
 void brace_fake_with_peers(brace_fake_t *fake);
+
+/* The same with BRACE_FAKE_CONNECTIONS of them, which hand over their ADUs in turn. What arrives is put whole into
+ * connection[].received, answers are in connection[].sent. */
+void brace_fake_with_connections(brace_fake_t *fake);
+bool brace_fake_adu_arrives(brace_fake_t *fake, uint32_t connection, const uint8_t *bytes, uint32_t count);
 
 /* Makes calls fail. Takes at most BRACE_FAKE_FAILURES rules; false when there is no room for another. */
 bool brace_fake_fail(brace_fake_t *fake, brace_fake_entry_t entry, uint32_t first, uint32_t last, int32_t answer);

@@ -1,5 +1,7 @@
 #include "fake_door.h"
 
+#include <stddef.h>
+
 #define CALLED(entry)                                              \
     brace_fake_t *fake = context;                                  \
     const int32_t wanted = fake_called(fake, BRACE_FAKE_##entry);  \
@@ -175,9 +177,37 @@ static int32_t serial_write(void *context, brace_serial_port_t port, const uint8
                                           : BRACE_HAL_E_RANGE;
 }
 
+/* Bytes of the first ADU of a connection; 0: none has come whole. */
+static uint32_t first_adu(const brace_fake_bytes_t *received)
+{
+    enum { HEADER = 6 };
+    const uint8_t high = received->byte[(received->first + 4u) % BRACE_FAKE_SERIAL_BYTES];
+    const uint8_t low = received->byte[(received->first + 5u) % BRACE_FAKE_SERIAL_BYTES];
+    const uint32_t whole = HEADER + ((uint32_t)high << 8 | low);
+    return received->count >= HEADER && received->count >= whole ? whole : 0u;
+}
+
+static int32_t read_connections(brace_fake_t *fake, uint8_t *bytes, uint32_t room)
+{
+    for (uint32_t i = 1; i <= BRACE_FAKE_CONNECTIONS && fake->left_of_adu == 0u; i++) {
+        const uint32_t next = (fake->reads_from + i) % BRACE_FAKE_CONNECTIONS;
+        fake->left_of_adu = first_adu(&fake->connection[next].received);
+        if (fake->left_of_adu > 0u) {
+            fake->reads_from = fake->peer = next;
+        }
+    }
+    const uint32_t most = room < fake->left_of_adu ? room : fake->left_of_adu;
+    const uint32_t given = fake_bytes_take(&fake->connection[fake->reads_from].received, bytes, most);
+    fake->left_of_adu -= given;
+    return (int32_t)given;
+}
+
 static int32_t serial_read(void *context, brace_serial_port_t port, uint8_t *bytes, uint32_t room)
 {
     CALLED(SERIAL_READ)
+    if (port == BRACE_SERIAL_MODBUS_TCP && fake->hal.serial_write_to != NULL) {
+        return read_connections(fake, bytes, room);
+    }
     return port < BRACE_SERIAL_PORT_COUNT ? (int32_t)fake_bytes_take(&fake->serial_received[port], bytes, room)
                                           : BRACE_HAL_E_RANGE;
 }
@@ -192,6 +222,29 @@ static bool serial_peer_is_open(void *context, brace_serial_port_t port, uint32_
 {
     const brace_fake_t *fake = context;
     return port != BRACE_SERIAL_MODBUS_TCP || peer >= fake->open_from;
+}
+
+static int32_t serial_write_to(void *context, brace_serial_port_t port, uint32_t peer, const uint8_t *bytes,
+                               uint32_t count)
+{
+    CALLED(SERIAL_WRITE)
+    if (port != BRACE_SERIAL_MODBUS_TCP || peer >= BRACE_FAKE_CONNECTIONS) {
+        return BRACE_HAL_E_RANGE;
+    }
+    brace_fake_bytes_t *sent = &fake->connection[peer].sent;
+    return sent->count + count <= BRACE_FAKE_SERIAL_BYTES ? (int32_t)fake_bytes_put(sent, bytes, count) : 0;
+}
+
+void brace_fake_with_connections(brace_fake_t *fake)
+{
+    brace_fake_with_peers(fake);
+    fake->hal.serial_write_to = serial_write_to;
+}
+
+bool brace_fake_adu_arrives(brace_fake_t *fake, uint32_t connection, const uint8_t *bytes, uint32_t count)
+{
+    brace_fake_bytes_t *received = &fake->connection[connection].received;
+    return received->count + count <= BRACE_FAKE_SERIAL_BYTES && fake_bytes_put(received, bytes, count) == count;
 }
 
 void brace_fake_with_peers(brace_fake_t *fake)

@@ -37,7 +37,7 @@ const char *brace_posix_status_text(int32_t status);
 
 enum {
     BRACE_POSIX_NODES = 16,        /* controllers on one bus */
-    BRACE_POSIX_CLIENTS = 8,       /* SLCAN clients of one bus; Modbus TCP connections of one port */
+    BRACE_POSIX_CLIENTS = 16,      /* SLCAN clients of one bus; Modbus TCP connections of one port */
     BRACE_POSIX_RING = 64,         /* received frames that wait for a controller; as on the STM32F405 */
     BRACE_POSIX_OUT_BYTES = 32768, /* text that waits for a client */
     BRACE_POSIX_WHERE = 128,
@@ -146,14 +146,14 @@ int32_t brace_posix_stream_read(brace_posix_stream_t *stream, uint8_t *bytes, ui
 
 /* ---------------------------------------------------------------------------------------- Modbus TCP -- */
 
-enum { BRACE_POSIX_ADU_BYTES = 260 };
+enum { BRACE_POSIX_ADU_BYTES = 260, BRACE_POSIX_ADUS_BYTES = 4096 /* of one connection, that wait to be read */ };
 
 typedef struct {
     int file; /* -1: no connection */
     uint32_t serial; /* number of the connection, so that an answer never reaches a later one */
     uint32_t last_poll; /* poll in which it last sent something */
-    uint32_t count;
-    uint8_t in[2 * BRACE_POSIX_ADU_BYTES];
+    uint32_t start, count;
+    uint8_t in[BRACE_POSIX_ADUS_BYTES];
     brace_posix_queue_t out;
 } brace_posix_modbus_client_t;
 
@@ -162,7 +162,7 @@ typedef struct {
     char where[BRACE_POSIX_WHERE];
     uint32_t polls, serials, next;
     uint32_t refused;                 /* connections dropped because they sent no Modbus */
-    uint32_t current, current_serial; /* the connection that serial_write answers */
+    uint32_t current_serial;          /* the connection of the ADU that was read last */
     uint32_t given, whole;            /* bytes of the ADU that is being read: given so far, and all */
     uint8_t adu[BRACE_POSIX_ADU_BYTES];
     brace_posix_modbus_client_t client[BRACE_POSIX_CLIENTS];

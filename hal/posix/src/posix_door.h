@@ -17,7 +17,7 @@ int32_t door_can_recover(void *context);
 int32_t stream_setup(brace_posix_stream_t *stream, uint32_t baud, brace_parity_t parity);
 void stream_poll(brace_posix_stream_t *stream);
 
-int32_t posix_modbus_write(brace_posix_modbus_t *modbus, const uint8_t *bytes, uint32_t count);
+int32_t posix_modbus_write_to(brace_posix_modbus_t *modbus, uint32_t serial, const uint8_t *bytes, uint32_t count);
 int32_t posix_modbus_read(brace_posix_modbus_t *modbus, uint8_t *bytes, uint32_t room);
 void posix_modbus_poll(brace_posix_modbus_t *modbus);
 

@@ -55,11 +55,16 @@ static int32_t door_serial_write(void *context, brace_serial_port_t port, const 
                                  uint32_t count)
 {
     brace_posix_t *posix = context;
-    if (port == BRACE_SERIAL_MODBUS_TCP) {
-        return posix_modbus_write(&posix->modbus, bytes, count);
-    }
     return port <= BRACE_SERIAL_SLCAN ? brace_posix_stream_write(&posix->stream[port], bytes, count)
                                       : BRACE_HAL_E_UNSUPPORTED;
+}
+
+static int32_t door_serial_write_to(void *context, brace_serial_port_t port, uint32_t peer, const uint8_t *bytes,
+                                    uint32_t count)
+{
+    brace_posix_t *posix = context;
+    return port == BRACE_SERIAL_MODBUS_TCP ? posix_modbus_write_to(&posix->modbus, peer, bytes, count)
+                                           : BRACE_HAL_E_UNSUPPORTED;
 }
 
 static int32_t door_serial_read(void *context, brace_serial_port_t port, uint8_t *bytes, uint32_t room)
@@ -186,6 +191,7 @@ void brace_posix_hal(brace_posix_t *posix, brace_hal_t *hal)
     hal->serial_setup = door_serial_setup;
     hal->serial_write = door_serial_write;
     hal->serial_read = door_serial_read;
+    hal->serial_write_to = door_serial_write_to;
     hal->serial_peer = door_serial_peer;
     hal->serial_peer_is_open = door_serial_peer_is_open;
     hal->key_read = posix->is_guarded ? door_key_read : NULL;

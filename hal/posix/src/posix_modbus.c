@@ -55,8 +55,9 @@ static int32_t whole_adu(const brace_posix_modbus_client_t *client)
     if (client->count < HEADER_BYTES) {
         return 0;
     }
-    const uint32_t protocol = (uint32_t)client->in[2] << 8 | client->in[3];
-    const uint32_t length = (uint32_t)client->in[4] << 8 | client->in[5];
+    const uint8_t *adu = client->in + client->start;
+    const uint32_t protocol = (uint32_t)adu[2] << 8 | adu[3];
+    const uint32_t length = (uint32_t)adu[4] << 8 | adu[5];
     if (protocol != 0u || length < LEAST_LENGTH || length > LONGEST_LENGTH) {
         return -1;
     }
@@ -65,6 +66,8 @@ static int32_t whole_adu(const brace_posix_modbus_client_t *client)
 
 static void poll_client(brace_posix_modbus_t *modbus, brace_posix_modbus_client_t *client)
 {
+    memmove(client->in, client->in + client->start, client->count);
+    client->start = 0u;
     const int32_t count =
         io_read(client->file, client->in + client->count, (uint32_t)sizeof client->in - client->count);
     if (count > 0) {
@@ -89,7 +92,7 @@ void posix_modbus_poll(brace_posix_modbus_t *modbus)
         client->file = file;
         client->serial = ++modbus->serials;
         client->last_poll = modbus->polls;
-        client->count = client->out.count = client->out.start = 0u;
+        client->start = client->count = client->out.count = client->out.start = 0u;
     }
     for (uint32_t i = 0; i < BRACE_POSIX_CLIENTS; i++) {
         if (modbus->client[i].file >= 0) {
@@ -106,12 +109,11 @@ static bool take_adu(brace_posix_modbus_t *modbus)
         brace_posix_modbus_client_t *client = &modbus->client[index];
         const int32_t bytes = client->file >= 0 ? whole_adu(client) : 0;
         if (bytes > 0) {
-            memcpy(modbus->adu, client->in, (size_t)bytes);
+            memcpy(modbus->adu, client->in + client->start, (size_t)bytes);
             client->count -= (uint32_t)bytes;
-            memmove(client->in, client->in + bytes, client->count);
+            client->start += (uint32_t)bytes;
             modbus->given = 0u;
             modbus->whole = (uint32_t)bytes;
-            modbus->current = index;
             modbus->current_serial = client->serial;
             modbus->next = (index + 1u) % BRACE_POSIX_CLIENTS;
             return true;
@@ -135,14 +137,16 @@ int32_t posix_modbus_read(brace_posix_modbus_t *modbus, uint8_t *bytes, uint32_t
     return (int32_t)count;
 }
 
-int32_t posix_modbus_write(brace_posix_modbus_t *modbus, const uint8_t *bytes, uint32_t count)
+int32_t posix_modbus_write_to(brace_posix_modbus_t *modbus, uint32_t serial, const uint8_t *bytes, uint32_t count)
 {
     if (modbus->listener < 0) {
         return BRACE_HAL_E_UNSUPPORTED;
     }
-    brace_posix_modbus_client_t *client = &modbus->client[modbus->current];
-    if (client->file < 0 || client->serial != modbus->current_serial) {
-        return (int32_t)count; /* the connection that asked has closed */
+    for (uint32_t i = 0; i < BRACE_POSIX_CLIENTS; i++) {
+        brace_posix_modbus_client_t *client = &modbus->client[i];
+        if (client->file >= 0 && client->serial == serial) {
+            return queue_put(&client->out, bytes, count) ? (int32_t)count : 0;
+        }
     }
-    return queue_put(&client->out, bytes, count) ? (int32_t)count : 0;
+    return (int32_t)count; /* the connection that asked has closed */
 }

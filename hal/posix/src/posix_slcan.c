@@ -5,7 +5,7 @@
 #include "posix_io.h"
 #include "slcan_text.h"
 
-enum { READS_PER_POLL = 4, READ_BYTES = 1024, STAMP_PERIOD_MS = 60000 };
+enum { READS_PER_POLL = 64, READ_BYTES = 1024, STAMP_PERIOD_MS = 60000 };
 
 void posix_slcan_start(brace_posix_slcan_t *client, int file)
 {

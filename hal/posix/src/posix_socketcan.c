@@ -12,7 +12,7 @@
 #include "posix_bus.h"
 #include "posix_io.h"
 
-enum { FRAMES_PER_POLL = 256 };
+enum { FRAMES_PER_POLL = 1024 };
 
 int32_t socketcan_open(brace_posix_bus_t *bus, const char *interface)
 {

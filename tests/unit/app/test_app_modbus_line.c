@@ -340,7 +340,7 @@ static void test_a_port_that_does_not_start_is_none(void)
     brace_fake_fail_next(&fake, BRACE_FAKE_SERIAL_SETUP, 100, BRACE_HAL_E_DEVICE);
     TEST_ASSERT_EQUAL(BRACE_OK, brace_app_start(&app, &fake.hal));
     TEST_ASSERT_FALSE(app.wires.modbus.line.link.is_fitted);
-    TEST_ASSERT_FALSE(app.wires.modbus.tcp.is_fitted);
+    TEST_ASSERT_FALSE(app.wires.modbus.tcp.link.is_fitted);
     const uint32_t reads = fake.calls[BRACE_FAKE_SERIAL_READ];
     ticks(50);
     TEST_ASSERT_EQUAL(reads, fake.calls[BRACE_FAKE_SERIAL_READ]);

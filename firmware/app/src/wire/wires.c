@@ -14,10 +14,12 @@ void wires_hear(wires_t *wires, const brace_hal_t *hal, brace_app_t *app, brace_
 {
     const wire_tick_t tick = {
         .hal = hal, .app = app, .counters = counters, .measured = &wires->measured, .now_us = now_us};
-    if (can_hear(&wires->can, &tick)) {
+    wires->obeyed = WIRE_NOTHING;
+    const bool stops_by_can = can_hear(&wires->can, &tick);
+    if (modbus_hear(&wires->modbus, &tick, &wires->obeyed) || stops_by_can) {
         can_stop(&wires->can);
     }
-    wires->obeyed = can_obey(&wires->can, &tick);
+    wires->obeyed += can_obey(&wires->can, &tick);
 }
 
 uint32_t wires_tick(wires_t *wires, const brace_hal_t *hal, brace_app_t *app, brace_app_counters_t *counters,
@@ -26,7 +28,7 @@ uint32_t wires_tick(wires_t *wires, const brace_hal_t *hal, brace_app_t *app, br
     const wire_tick_t tick = {
         .hal = hal, .app = app, .counters = counters, .measured = &wires->measured, .now_us = now_us};
     measured_take(app, counters, now_us, &wires->measured);
-    const uint32_t handled = wires->obeyed + modbus_tick(&wires->modbus, &tick) + can_answer(&wires->can, &tick);
+    const uint32_t handled = wires->obeyed + modbus_answer(&wires->modbus, &tick) + can_answer(&wires->can, &tick);
     return handled + can_speak(&wires->can, &tick, handled > 0u ? 0u : (uint32_t)PROCESS_FRAMES_PER_TICK);
 }
 

@@ -29,6 +29,16 @@ static const brace_question_t *find(uint32_t first, uint32_t count)
     return NULL;
 }
 
+bool modbus_ask_is_of(uint32_t command)
+{
+    for (uint32_t i = 0; i < BRACE_QUESTION_COUNT; i++) {
+        if (command - brace_questions[i].first < brace_questions[i].count) {
+            return true;
+        }
+    }
+    return false;
+}
+
 /* Of questions that are answered in the same registers, only the last one stands. */
 static void put_out(modbus_server_t *server, const brace_question_t *question)
 {

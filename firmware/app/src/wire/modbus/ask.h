@@ -11,6 +11,9 @@
 /* Nothing has been asked: questions and answers are unknown, which is NaN or all ones. */
 void modbus_ask_nothing(modbus_server_t *server);
 
+/* Does this command belong to a question? */
+bool modbus_ask_is_of(uint32_t command);
+
 /* Answers a question.
  *   first: command number of its first value
  *   words: its values as their 32 bits, `count` of them

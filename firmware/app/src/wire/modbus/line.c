@@ -1,10 +1,14 @@
 #include "wire/modbus/line.h"
 
+#include <string.h>
+
 #include "wire/modbus/bytes.h"
 #include "wire/modbus/crc.h"
 #include "wire/modbus/pdu.h"
 
 enum { ADDRESS_BYTES = 1, CRC_BYTES = 2, FRAME_LEAST = ADDRESS_BYTES + 1 + CRC_BYTES, FRAME_MOST = 256, EVERYBODY = 0 };
+
+enum { STOP_MOST = ADDRESS_BYTES + 10 + CRC_BYTES }; /* bytes of a request to stop, by function 16; by 06 it has 8 */
 
 /* A whole frame may come at once, from an adapter. Its check is worked out in three ticks, mostly before silence ends
  * it. */
@@ -28,22 +32,91 @@ void modbus_line_start(modbus_line_t *line, const brace_hal_t *hal, uint32_t bau
         hal->serial_setup(hal->context, BRACE_SERIAL_MODBUS, baud, BRACE_PARITY_EVEN) == BRACE_HAL_OK;
 }
 
+/* The next byte begins a frame. */
+static void begin_frame(modbus_line_t *line)
+{
+    line->crc = MODBUS_CRC_START;
+    line->checked = line->sound = line->looked = 0;
+}
+
+/* What came while an answer left begins the next frame. */
+static void take_ahead(modbus_line_t *line, const wire_tick_t *tick)
+{
+    modbus_link_t *link = &line->link;
+    memcpy(link->bytes, line->ahead, line->ahead_count);
+    link->count = line->ahead_count;
+    link->active_us = link->count > 0u ? tick->now_us : link->active_us;
+    line->ahead_count = 0;
+}
+
+/* What is longer than any frame is thrown away until the line is silent, but for the last bytes, which may begin a
+ * stop. */
+static void keep_tail(modbus_line_t *line)
+{
+    modbus_link_t *link = &line->link;
+    const uint32_t kept = link->count < (uint32_t)STOP_MOST - 1u ? link->count : (uint32_t)STOP_MOST - 1u;
+    memmove(link->bytes, link->bytes + link->count - kept, kept);
+    link->count = (uint16_t)kept;
+    line->looked = 0;
+}
+
 /* returns whether bytes have come */
 static bool gather(modbus_line_t *line, const wire_tick_t *tick)
 {
     modbus_link_t *link = &line->link;
+    if (link->is_skipping) {
+        keep_tail(line);
+    }
     const uint32_t before = link->count;
-    const uint32_t came = modbus_link_receive(link, tick, BRACE_SERIAL_MODBUS, MODBUS_LINK_BYTES - before);
-    if (link->is_skipping || link->count > FRAME_MOST) {
-        /* What is longer than any frame is thrown away until the line is silent. */
-        link->is_skipping = true;
-        link->count = 0;
-    }
     if (before == 0u) {
-        line->crc = MODBUS_CRC_START;
-        line->checked = 0;
+        begin_frame(line);
+        take_ahead(line, tick);
     }
-    return came > 0u;
+    (void)modbus_link_receive(link, tick, BRACE_SERIAL_MODBUS, MODBUS_LINK_BYTES - (uint32_t)link->count);
+    if (link->is_skipping || link->count > FRAME_MOST) {
+        link->is_skipping = true;
+        line->checked = link->count;
+    }
+    return link->count > before;
+}
+
+/* While an answer leaves, what comes waits here. */
+static void gather_ahead(modbus_line_t *line, const wire_tick_t *tick)
+{
+    const uint32_t room = MODBUS_AHEAD_BYTES - (uint32_t)line->ahead_count;
+    const int32_t count = tick->hal->serial_read(tick->hal->context, BRACE_SERIAL_MODBUS,
+                                                 line->ahead + line->ahead_count, room);
+    line->ahead_count = (uint8_t)(line->ahead_count + (count > 0 ? (uint32_t)count : 0u));
+}
+
+/* Do these bytes begin with a whole request to stop, to this controller or to everybody? */
+static bool begins_with_stop(const modbus_server_t *server, const uint8_t *bytes, uint32_t count)
+{
+    if ((bytes[0] != server->address && bytes[0] != EVERYBODY) || count < FRAME_LEAST) {
+        return false;
+    }
+    const uint32_t length = modbus_pdu_least_length(bytes + ADDRESS_BYTES, count - ADDRESS_BYTES);
+    const uint32_t whole = ADDRESS_BYTES + length + CRC_BYTES;
+    return count >= whole && modbus_pdu_rank(bytes + ADDRESS_BYTES, length) == ANSWER_STOPS &&
+           modbus_crc(MODBUS_CRC_START, bytes, whole) == 0u;
+}
+
+/* Looks for a stop in bytes that have come, from the first one on that may still begin one.
+ *   looked (in, out): bytes that can begin none any more
+ * returns whether there is one: it is obeyed */
+static bool obey_stop(const modbus_server_t *server, const wire_tick_t *tick, const uint8_t *bytes, uint32_t count,
+                      uint16_t *looked)
+{
+    for (uint32_t i = *looked; i < count; i++) {
+        if (begins_with_stop(server, bytes + i, count - i)) {
+            (void)brace_app_stop(tick->app);
+            *looked = (uint16_t)(i + 1u);
+            return true;
+        }
+    }
+    const uint32_t past = count > (uint32_t)STOP_MOST - 1u ? count - ((uint32_t)STOP_MOST - 1u) : 0u;
+    *looked = past > *looked ? (uint16_t)past : *looked;
+    return false;
 }
 
 /* Goes on with the check of the first `length` bytes, over at most so many of them. */
@@ -104,16 +177,24 @@ static bool is_own_answer(modbus_line_t *line)
     return is_equal && line->echo != MODBUS_NO_ECHO;
 }
 
-/* returns whether the request is done with: else it is put again in the next tick */
-static bool answer(modbus_line_t *line, modbus_server_t *server, const wire_tick_t *tick)
+/* What waits for its K is forgotten: its master has asked something else. */
+static void forget_question(modbus_line_t *line, modbus_server_t *server, const wire_tick_t *tick)
+{
+    if (line->asked_count > 0u) {
+        line->asked_count = 0;
+        server->unanswered++;
+        brace_count(&tick->counters->requests_lost);
+    }
+}
+
+/* Answers the request that the link holds, of so many bytes without its check. returns whether that is done with */
+static bool answer(modbus_line_t *line, modbus_server_t *server, const wire_tick_t *tick, uint32_t count)
 {
     modbus_link_t *link = &line->link;
-    const uint32_t request = (uint32_t)link->count - ADDRESS_BYTES - CRC_BYTES;
     server->asker = BRACE_ASKER_MODBUS_LINE;
-    const uint32_t answered = modbus_pdu_answer(server, link->half, tick, link->bytes + ADDRESS_BYTES, request);
-    const uint32_t length = ADDRESS_BYTES + answered;
-    link->is_waiting = answered == 0u;
-    if (link->is_waiting) {
+    const uint32_t answered =
+        modbus_pdu_answer(server, &line->half, tick, link->bytes + ADDRESS_BYTES, count - ADDRESS_BYTES);
+    if (answered == 0u) {
         return false;
     }
     if (link->bytes[0] == EVERYBODY) {
@@ -122,7 +203,7 @@ static bool answer(modbus_line_t *line, modbus_server_t *server, const wire_tick
     }
     line->crc = MODBUS_CRC_START;
     line->checked = 0;
-    modbus_link_answer(link, tick, length + CRC_BYTES);
+    modbus_link_answer(link, tick, ADDRESS_BYTES + answered + CRC_BYTES);
     link->ready = 0;
     return true;
 }
@@ -147,6 +228,21 @@ static void seal(modbus_line_t *line, const wire_tick_t *tick)
     }
 }
 
+/* A sound frame of so many bytes, which is no echo, is for us: a command is obeyed and answered, a question has its
+ * turn at the end of the tick. returns how much it has done (wire.h) */
+static uint32_t take_request(modbus_line_t *line, modbus_server_t *server, const wire_tick_t *tick, uint32_t bytes)
+{
+    const uint32_t count = bytes - CRC_BYTES;
+    forget_question(line, server, tick);
+    line->has_question =
+        modbus_pdu_rank(line->link.bytes + ADDRESS_BYTES, count - ADDRESS_BYTES) == ANSWER_QUESTION;
+    if (line->has_question) {
+        return WIRE_NOTHING;
+    }
+    (void)answer(line, server, tick, count);
+    return WIRE_TAKEN;
+}
+
 /* The line is silent: what has come is a frame, or broken, or a part whose rest is held back.
  * returns how much it has done (wire.h) */
 static uint32_t end_frame(modbus_line_t *line, modbus_server_t *server, const wire_tick_t *tick, uint32_t silent_us)
@@ -158,35 +254,96 @@ static uint32_t end_frame(modbus_line_t *line, modbus_server_t *server, const wi
             modbus_link_break(link, server, tick);
         }
     } else if (!is_own_answer(line) && is_for_us(link, server)) {
-        (void)answer(line, server, tick);
-        return WIRE_TAKEN;
+        return take_request(line, server, tick, link->count);
     } else {
         modbus_link_rest(link);
     }
     return WIRE_NOTHING;
 }
 
-uint32_t modbus_line_tick(modbus_line_t *line, modbus_server_t *server, const wire_tick_t *tick)
+/* The master did not wait for an answer: bytes come right behind a frame that was sound while none came. The frame is
+ * obeyed if it commands. To answer it now would disturb what is coming, so that is counted.
+ * returns how much it has done (wire.h) */
+static uint32_t close_unanswered(modbus_line_t *line, modbus_server_t *server, const wire_tick_t *tick)
 {
     modbus_link_t *link = &line->link;
+    const uint32_t frame = line->sound, more = link->count - frame;
     uint32_t done = WIRE_NOTHING;
-    if (link->is_waiting) {
-        const bool is_late =
-            !brace_app_k_is_coming(tick->app, BRACE_ASKER_MODBUS_LINE) && answer(line, server, tick);
-        done = is_late ? WIRE_K_ANSWERED : WIRE_NOTHING;
-    } else if (!link->is_sending) { /* else what comes waits in the port */
-        const bool bytes_came = gather(line, tick);
-        const uint32_t silent_us = tick->now_us - link->active_us;
-        const bool is_behind = link->count > line->checked + CHECKED_PER_TICK; /* with the check */
-        if (bytes_came || silent_us < line->silence_us || is_behind) {
-            check_on(line, link->count, CHECKED_PER_TICK);
-        } else if (link->count > 0u || link->is_skipping) {
-            done = end_frame(line, server, tick, silent_us);
-        }
+    if (more > (uint32_t)MODBUS_AHEAD_BYTES) {
+        return done;
     }
+    memcpy(line->ahead, link->bytes + frame, more);
+    link->count = (uint16_t)frame;
+    if (!is_own_answer(line) && is_for_us(link, server)) {
+        done = take_request(line, server, tick, frame);
+        server->unanswered++;
+        brace_count(&tick->counters->requests_lost);
+        line->has_question = false;
+    }
+    modbus_link_rest(link);
+    line->ahead_count = (uint8_t)more;
+    begin_frame(line);
+    take_ahead(line, tick);
+    return done;
+}
+
+bool modbus_line_hear(modbus_line_t *line, modbus_server_t *server, const wire_tick_t *tick, uint32_t *done)
+{
+    modbus_link_t *link = &line->link;
     if (link->is_sending) {
+        uint16_t looked = 0;
+        gather_ahead(line, tick);
+        return obey_stop(server, tick, line->ahead, line->ahead_count, &looked);
+    }
+    const bool bytes_came = gather(line, tick);
+    if (bytes_came && line->sound > 0u) {
+        *done += close_unanswered(line, server, tick);
+    }
+    const bool stops = obey_stop(server, tick, link->bytes, link->count, &line->looked);
+    const uint32_t silent_us = tick->now_us - link->active_us;
+    const bool is_behind = link->count > line->checked + CHECKED_PER_TICK; /* with the check */
+    if (bytes_came || silent_us < line->silence_us || is_behind) {
+        check_on(line, link->count, CHECKED_PER_TICK);
+        const bool is_sound =
+            !bytes_came && !link->is_skipping && line->checked == link->count && line->crc == 0u;
+        line->sound = is_sound && link->count >= FRAME_LEAST ? link->count : (uint16_t)0u;
+    } else if (link->count > 0u || link->is_skipping) {
+        *done += end_frame(line, server, tick, silent_us);
+    }
+    return stops;
+}
+
+/* The question that has just come, or whose K is there. returns how much it has done (wire.h) */
+static uint32_t answer_question(modbus_line_t *line, modbus_server_t *server, const wire_tick_t *tick)
+{
+    modbus_link_t *link = &line->link;
+    const bool waited = !line->has_question;
+    if (waited) {
+        if (line->asked_count == 0u || link->count > 0u || link->is_sending ||
+            brace_app_k_is_coming(tick->app, BRACE_ASKER_MODBUS_LINE)) {
+            return WIRE_NOTHING;
+        }
+        memcpy(link->bytes, line->asked, line->asked_count);
+        link->count = (uint16_t)(line->asked_count + CRC_BYTES);
+    }
+    const uint32_t count = (uint32_t)link->count - CRC_BYTES;
+    line->has_question = false;
+    if (answer(line, server, tick, count)) {
+        line->asked_count = 0;
+        return waited ? WIRE_K_ANSWERED : WIRE_TAKEN;
+    }
+    line->asked_count = count <= sizeof line->asked ? (uint8_t)count : (uint8_t)0u;
+    memcpy(line->asked, link->bytes, line->asked_count);
+    modbus_link_rest(link);
+    return waited ? WIRE_NOTHING : WIRE_TAKEN;
+}
+
+uint32_t modbus_line_answer(modbus_line_t *line, modbus_server_t *server, const wire_tick_t *tick)
+{
+    const uint32_t done = answer_question(line, server, tick);
+    if (line->link.is_sending) {
         seal(line, tick);
-        modbus_link_send(link, tick, BRACE_SERIAL_MODBUS);
+        modbus_link_send(&line->link, tick, BRACE_SERIAL_MODBUS);
     }
     return done;
 }

@@ -4,7 +4,7 @@
 
 void modbus_link_rest(modbus_link_t *link)
 {
-    link->is_sending = link->is_skipping = link->is_waiting = false;
+    link->is_sending = link->is_skipping = false;
     link->count = link->ready = link->sent = 0;
 }
 
@@ -32,7 +32,6 @@ void modbus_link_answer(modbus_link_t *link, const wire_tick_t *tick, uint32_t c
     link->sent = 0;
     link->active_us = tick->now_us;
     link->is_sending = true;
-    link->is_waiting = false;
 }
 
 void modbus_link_send(modbus_link_t *link, const wire_tick_t *tick, brace_serial_port_t port)

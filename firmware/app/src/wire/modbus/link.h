@@ -7,18 +7,15 @@
 #include "wire/wire.h"
 
 enum { MODBUS_LINK_BYTES = 260 }; /* the longest: a PDU behind the header of TCP */
-enum { MODBUS_PEERS = 8 };        /* connections of one port whose halves of a value are kept apart */
 
 typedef struct {
     bool is_fitted;    /* the board has this port */
     bool is_sending;   /* bytes hold an answer; else a request that is coming */
     bool is_skipping;  /* what is coming is none: all of it is thrown away */
-    bool is_waiting;   /* bytes hold a whole request that is being worked out */
     uint16_t count;    /* bytes of it */
     uint16_t ready;    /* of an answer, so many of its bytes may leave */
     uint16_t sent;     /* of an answer, by the port */
     uint32_t active_us; /* when bytes last came or left */
-    modbus_half_t half[MODBUS_PEERS]; /* by its connection's number */
     uint8_t bytes[MODBUS_LINK_BYTES];
 } modbus_link_t;
 

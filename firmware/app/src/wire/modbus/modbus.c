@@ -3,7 +3,6 @@
 #include <stddef.h>
 
 #include "wire/modbus/ask.h"
-#include "wire/modbus/tcp.h"
 
 void modbus_start(modbus_t *modbus, const brace_hal_t *hal, const brace_parameters_t *parameters)
 {
@@ -16,14 +15,26 @@ void modbus_start(modbus_t *modbus, const brace_hal_t *hal, const brace_paramete
     modbus_tcp_start(&modbus->tcp, hal, parameters->controller.modbus_baud);
 }
 
-uint32_t modbus_tick(modbus_t *modbus, const wire_tick_t *tick)
+bool modbus_hear(modbus_t *modbus, const wire_tick_t *tick, uint32_t *done)
+{
+    bool stops = false;
+    if (modbus->line.link.is_fitted) {
+        stops = modbus_line_hear(&modbus->line, &modbus->server, tick, done);
+    }
+    if (modbus->tcp.link.is_fitted) {
+        stops = modbus_tcp_hear(&modbus->tcp, &modbus->server, tick, done) || stops;
+    }
+    return stops;
+}
+
+uint32_t modbus_answer(modbus_t *modbus, const wire_tick_t *tick)
 {
     uint32_t done = WIRE_NOTHING;
     if (modbus->line.link.is_fitted) {
-        done += modbus_line_tick(&modbus->line, &modbus->server, tick);
+        done += modbus_line_answer(&modbus->line, &modbus->server, tick);
     }
-    if (modbus->tcp.is_fitted) {
-        done += modbus_tcp_tick(&modbus->tcp, &modbus->server, tick);
+    if (modbus->tcp.link.is_fitted) {
+        done += modbus_tcp_answer(&modbus->tcp, &modbus->server, tick);
     }
     return done;
 }

@@ -1,8 +1,12 @@
 #include "wire/modbus/pdu.h"
 
+#include <stddef.h>
+
+#include "wire/modbus/ask.h"
 #include "wire/modbus/bytes.h"
 #include "wire/modbus/identity.h"
 #include "wire/modbus/read.h"
+#include "wire/modbus/registers.h"
 #include "wire/modbus/write.h"
 
 /* Sub-functions of function 08. */
@@ -63,6 +67,23 @@ static modbus_exception_t diagnose(modbus_server_t *server, uint8_t *pdu, uint32
         put_16(pdu + 3, counter(server, code));
     }
     return MODBUS_FINE;
+}
+
+answer_rank_t modbus_pdu_rank(const uint8_t *pdu, uint32_t length)
+{
+    const bool writes = pdu[0] == MODBUS_WRITE_ONE || pdu[0] == MODBUS_WRITE_BLOCK;
+    registers_block_t block;
+    if (!writes || length < 5u) {
+        return ANSWER_QUESTION;
+    }
+    if (!registers_find(false, get_16(pdu + 1), 1, &block) || block.area != REGISTERS_COMMANDS) {
+        return ANSWER_OF_SESSION;
+    }
+    const uint32_t command = block.first / 2u;
+    if (command == offsetof(brace_commands_t, stop) / 4u) {
+        return ANSWER_STOPS;
+    }
+    return modbus_ask_is_of(command) ? ANSWER_QUESTION : ANSWER_OF_SESSION;
 }
 
 uint32_t modbus_pdu_answer(modbus_server_t *server, modbus_half_t *half, const wire_tick_t *tick, uint8_t *pdu,

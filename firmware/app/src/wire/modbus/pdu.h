@@ -3,6 +3,7 @@
 #ifndef BRACE_WIRE_MODBUS_PDU_H
 #define BRACE_WIRE_MODBUS_PDU_H
 
+#include "wire/answers/answer.h"
 #include "wire/modbus/protocol.h"
 #include "wire/modbus/server.h"
 #include "wire/wire.h"
@@ -15,6 +16,9 @@
  *   to be put again in the next tick. At most what modbus_write_block costs. */
 uint32_t modbus_pdu_answer(modbus_server_t *server, modbus_half_t *half, const wire_tick_t *tick, uint8_t *pdu,
                            uint32_t length);
+
+/* How urgent a request is. A question is whatever reads, and a write that asks something (modbus_ask). */
+answer_rank_t modbus_pdu_rank(const uint8_t *pdu, uint32_t length);
 
 /* Makes an exception of the request, and counts it. returns the answer's length */
 uint32_t modbus_pdu_refuse(modbus_server_t *server, const wire_tick_t *tick, uint8_t *pdu, modbus_exception_t why);

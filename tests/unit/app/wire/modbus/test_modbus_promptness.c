@@ -53,6 +53,17 @@ int32_t brace_app_may_command(brace_app_t *asked, brace_command_t command, brace
     return (void)count, BRACE_OK;
 }
 
+static uint32_t stops;
+
+brace_status_t brace_app_stop(brace_app_t *asked)
+{
+    (void)asked;
+    stops++;
+    return BRACE_OK;
+}
+
+bool brace_app_k_is_coming(brace_app_t *asked, brace_asker_t asker) { return (void)asked, (void)asker, false; }
+
 brace_status_t brace_app_store_status(const brace_app_t *asked, brace_store_status_t *status)
 {
     (void)asked;
@@ -116,7 +127,9 @@ static void tick(void)
 {
     fake.now_us += TICK_US;
     const wire_tick_t now = {&fake.hal, &controller, &counters, &measured, fake.now_us};
-    modbus_tick(&modbus, &now);
+    uint32_t done = 0;
+    (void)modbus_hear(&modbus, &now, &done);
+    (void)modbus_answer(&modbus, &now);
 }
 
 static bytes_t heard(brace_serial_port_t port)
@@ -184,17 +197,28 @@ static const uint8_t longest_read[] = {3, 0, 0, 0, 125};
 
 /* ---------------------------------------------------------------------------------------------- tests -- */
 
-static void test_tcp_answers_one_request_a_tick_in_the_tick_that_finds_it(void)
+/* Four questions of a connection wait, one is answered in each tick. Those behind are refused as busy at once. */
+static void test_tcp_answers_a_question_a_tick_and_refuses_what_finds_no_room(void)
 {
-    for (uint8_t i = 0; i < 40u; i++) {
+    enum { ASKED = 10, REFUSAL_BYTES = 9 };
+    for (uint8_t i = 0; i < ASKED; i++) {
         tcp_asks(i, longest_read, sizeof longest_read);
     }
-    for (uint8_t i = 0; i < 40u; i++) {
+    for (uint8_t i = 0; i < MODBUS_QUESTIONS_EACH; i++) {
         tick();
+        for (uint8_t k = MODBUS_QUESTIONS_EACH; i == 0u && k < ASKED; k++) {
+            uint8_t refusal[REFUSAL_BYTES];
+            TEST_ASSERT_EQUAL(REFUSAL_BYTES,
+                              brace_fake_bytes_take(&fake, BRACE_SERIAL_MODBUS_TCP, refusal, REFUSAL_BYTES));
+            TEST_ASSERT_EQUAL_HEX8(k, refusal[1]);
+            TEST_ASSERT_EQUAL_HEX8(0x83, refusal[7]);
+            TEST_ASSERT_EQUAL_HEX8(6, refusal[8]);
+        }
         tcp_answers(i, 3, 252);
     }
     tick();
     TEST_ASSERT_EQUAL(0, heard(BRACE_SERIAL_MODBUS_TCP).count);
+    TEST_ASSERT_EQUAL(ASKED - MODBUS_QUESTIONS_EACH, counters.questions_busy);
 }
 
 static void test_the_line_answers_in_the_tick_in_which_silence_ends_a_request(void)
@@ -274,7 +298,8 @@ static void test_a_question_is_answered_before_the_next_request(void)
 }
 
 /* A long answer that the port takes in parts goes on leaving, and the other port answers meanwhile. */
-static void test_a_port_that_takes_nothing_holds_up_only_itself(void)
+/* An answer that its connection does not take is lost and counted: nobody waits for it. */
+static void test_a_port_that_takes_nothing_holds_up_nobody(void)
 {
     tcp_asks(1, longest_read, sizeof longest_read);
     brace_fake_fail_next(&fake, BRACE_FAKE_SERIAL_WRITE, 1, BRACE_HAL_E_DEVICE);
@@ -282,9 +307,8 @@ static void test_a_port_that_takes_nothing_holds_up_only_itself(void)
     TEST_ASSERT_EQUAL(0, heard(BRACE_SERIAL_MODBUS_TCP).count);
     tcp_asks(2, longest_read, sizeof longest_read);
     tick();
-    tcp_answers(1, 3, 252);
-    tick();
     tcp_answers(2, 3, 252);
+    TEST_ASSERT_EQUAL(1, counters.requests_lost);
 }
 
 static void test_noise_on_the_line_does_not_delay_tcp(void)
@@ -312,12 +336,12 @@ static void test_noise_on_the_line_does_not_delay_tcp(void)
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(test_tcp_answers_one_request_a_tick_in_the_tick_that_finds_it);
+    RUN_TEST(test_tcp_answers_a_question_a_tick_and_refuses_what_finds_no_room);
     RUN_TEST(test_the_line_answers_in_the_tick_in_which_silence_ends_a_request);
     RUN_TEST(test_a_flood_by_tcp_does_not_delay_the_line_nor_the_reverse);
     RUN_TEST(test_a_block_is_written_in_one_tick);
     RUN_TEST(test_a_question_is_answered_before_the_next_request);
-    RUN_TEST(test_a_port_that_takes_nothing_holds_up_only_itself);
+    RUN_TEST(test_a_port_that_takes_nothing_holds_up_nobody);
     RUN_TEST(test_noise_on_the_line_does_not_delay_tcp);
     return UNITY_END();
 }
