@@ -103,3 +103,30 @@ def random_cases(
         if within_promise(case, told(case)):
             count -= 1
             yield case
+
+
+def pressed_cases(seed: int, count: int, *, in_space: bool) -> Iterator[tuple[Case, LoadedLimbs]]:
+    """So many limbs pressed inward with a buckling factor of at least 2, and what the reference says of them. The force
+    points from the tip to the base, up to 60 degrees aside, with 1 to 200 N. How far the tip moves does not choose."""
+    draw = np.random.default_rng(seed)
+    while count:
+        case = _draw(draw, in_space)
+        femur_mm, tibia_mm = case.keys["geometry.femur_mm"], case.keys["geometry.tibia_mm"]
+        theta0, theta1, theta2 = case.theta_rad
+        tip = femur_mm * np.exp(1j * theta1) + tibia_mm * np.exp(1j * (theta1 - theta2))
+        inward = -tip / abs(tip) * np.exp(1j * draw.uniform(-1.05, 1.05)) * 10 ** draw.uniform(0.0, 2.3)
+        aside = draw.uniform(-1.05, 1.05) if in_space else 0.0
+        along, across, up = inward.real * np.cos(aside), abs(inward) * np.sin(aside), inward.imag * np.cos(aside)
+        yawed = (along + 1j * across) * np.exp(1j * theta0)
+        force_n = np.array([yawed.real, yawed.imag, up] if in_space else [along, up])
+        pressed = Case(case.keys, case.theta_rad, force_n, case.gravity)
+        found = reference(pressed)
+        if found.status[0] == 0 and found["buckling_factor"][0] >= LEAST_BUCKLING_FACTOR:
+            count -= 1
+            yield pressed, found
+
+
+def moved_of_reach(case: Case, found: LoadedLimbs) -> float:
+    """How far the tip moves, over the lengths of femur and tibia."""
+    reach_mm = case.keys["geometry.femur_mm"] + case.keys["geometry.tibia_mm"]
+    return float(np.linalg.norm(found.displacement_mm[0])) / reach_mm

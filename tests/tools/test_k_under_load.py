@@ -181,8 +181,8 @@ def test_no_force_and_no_weight_is_the_plain_k(brace: Callable[..., Outcome], pa
     "options, said",
     [
         (("--fy", 10), "--fy without theta0"),
-        (("--fz", 10, "--arith", "fixed"), "in float only"),
-        (("--fz", 2000), "no stable equilibrium is near"),
+        (("--fz", 10, "--arith", "general"), "tells K without load"),
+        (("--fx", -3000), "no stable equilibrium is near"),
         (("--fz", 20000), "within +-10000 N"),
     ],
 )

@@ -54,6 +54,7 @@ class LoadedLimbInSpace:
             Spring(turn, joint, model, part, 0.0)
             for turn, joint, part in zip(_TURNS, joints, ("coxa", "femur", "tibia"))
         ]
+        self._reach_mm = limb.femur_mm + limb.tibia_mm
         self._offset_rad = [lib.brace_limb_true_angle(limb, joint, 0.0) for joint in range(3)]
 
     def stiffness(self, theta_rad: np.ndarray, force_n: np.ndarray) -> np.ndarray:
@@ -62,17 +63,17 @@ class LoadedLimbInSpace:
 
         K, eigenvalues, stiff axis and C are in the robot's frame; tip_dx_mm, tip_dy_mm, tip_dz_mm, how far force and
         weight move the tip, in the plane's. buckling_factor: infinite where it is above 16, and where it may be above
-        11. Raises PostureError for the first posture that is refused."""
+        11. A row without a rest has NaN and the flags NEAR_SINGULAR and SOFTENED. Raises PostureError for the first
+        posture or force that is out of range."""
         true_rad = self._true(theta_rad)
         hardens = any(spring.hardens for spring in self._springs)
         rows = []
         for index, (theta, force) in enumerate(zip(true_rad.tolist(), np.asarray(force_n, float).tolist())):
             found = settle(self._springs, lambda: self._one(theta, force)) if hardens else self._one(theta, force)
             status = int(found["status"][0])
-            if status != 0:
-                why = FOLDS if status == E_SINGULAR else status_text(self._native, status)
-                raise PostureError(index, status, why)
-            rows.append(found)
+            if status not in (0, E_SINGULAR):
+                raise PostureError(index, status, status_text(self._native, status))
+            rows.append(found if status == 0 else self._without_rest())
         result = np.concatenate([np.empty(0, _RESULT), *rows])
         return joined(result[[*SPATIAL_K, *LOADED_SPACE_REST, "flags"]], spatial_compliance(result))
 
@@ -88,12 +89,26 @@ class LoadedLimbInSpace:
         load.tip_n.x, load.tip_n.y, load.tip_n.z = (float(part) for part in force_n[0])
         return sigma_in_space(self._native, self._limb, self._weights, self._true(theta_rad)[0].tolist(), load)
 
+    def refusal(self, index: int) -> PostureError:
+        """Why a row without a rest has no K."""
+        return PostureError(index, E_SINGULAR, FOLDS)
+
+    def _without_rest(self) -> np.ndarray:
+        lib = self._native.lib
+        result = np.zeros(1, _RESULT)
+        for name in (*SPATIAL_K, *LOADED_SPACE_REST, *_TURNS):
+            result[name] = np.nan
+        result["flags"] = lib.BRACE_FLAG_NEAR_SINGULAR | lib.BRACE_FLAG_SOFTENED
+        return result
+
     def _one(self, theta_rad: list[float], force_n: list[float]) -> np.ndarray:
         """One posture; where it is refused, a status."""
         lib, load, rest, found, turned = self._native.lib, self._load, self._rest, self._found, self._turned
         load.tip_n.x, load.tip_n.y, load.tip_n.z = force_n
         result = np.zeros(1, _RESULT)
         status = lib.brace_loaded_space_settle(self._loaded, theta_rad[1], theta_rad[2], load, rest)
+        if status == E_SINGULAR:
+            status = lib.brace_loaded_space_settle_on(self._loaded, rest)
         status = status or lib.brace_loaded_space_stiffness(self._loaded, rest, found)
         status = status or lib.brace_loaded_space_turn(theta_rad[0], self._native.ffi.addressof(found.k), turned)
         result["status"] = status
@@ -108,6 +123,7 @@ class LoadedLimbInSpace:
                 result[name] = value
             for name in _TURNS:
                 result[name] = getattr(found, name)
-            result["buckling_factor"] = lib.brace_loaded_space_buckling_factor(self._loaded, rest)
-            result["flags"] = turned.flags
+            factor = lib.brace_loaded_space_buckling_factor(self._loaded, rest)
+            result["buckling_factor"] = factor
+            result["flags"] = turned.flags | lib.brace_loaded_space_flags(found, factor, self._reach_mm)
         return result

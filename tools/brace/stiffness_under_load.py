@@ -31,7 +31,8 @@ class LoadedLimb:
     """A limb ready to give K under forces on its tip, in its plane; the weights of [gravity] and the springs' hardening
     count too."""
 
-    def __init__(self, model: LimbModel) -> None:
+    def __init__(self, model: LimbModel, arithmetic: str = "f32") -> None:
+        """arithmetic: f32, or fixed for the integers of a controller without an FPU."""
         native = library()
         ffi, lib = native.ffi, native.lib
         limb, weights = firmware_limb(native, model), ffi.new("brace_gravity_t *")
@@ -40,6 +41,10 @@ class LoadedLimb:
         self._native, self._limb, self._weights = native, limb, weights
         self._loaded, self._joints = ffi.new("brace_loaded_t *"), ffi.new("brace_load_t *")
         lib.brace_loaded_collapse(limb, weights, self._loaded)
+        self._is_fixed = arithmetic == "fixed"
+        self._fixed = ffi.new("brace_loaded_fixed_t *")
+        lib.brace_loaded_fixed_collapse(self._loaded, self._fixed)
+        self._reach_mm = limb.femur_mm + limb.tibia_mm
         direction_rad, in_plane = model.number("gravity.direction_rad"), np.cos(model.number("gravity.lean_rad"))
         self._joints.down.x, self._joints.down.z = in_plane * np.cos(direction_rad), in_plane * np.sin(direction_rad)
         self._springs = (
@@ -52,7 +57,8 @@ class LoadedLimb:
     ) -> np.ndarray:
         """Structured array, one entry per commanded posture (true angles [rad], the joints not yet turned by the load)
         and force of the ground on the tip [N]. tip_dx_mm, tip_dz_mm: how far force and weight move the tip.
-        buckling_factor: infinite where it is above 16, and where it may be above 11. NaN: refused, see `refusal`."""
+        buckling_factor: infinite where it is above 16, and where it may be above 11. NaN: refused; with the flags
+        NEAR_SINGULAR and SOFTENED where no rest is near, with none where the inputs are out of range; see `refusal`."""
         columns = [np.ascontiguousarray(column, np.float32) for column in (theta1_rad, theta2_rad, fx_n, fz_n)]
         if not any(spring.hardens for spring in self._springs):
             return _with_compliance(self._batch(columns))
@@ -67,40 +73,58 @@ class LoadedLimb:
         return sigma_in_plane(self._native, self._limb, self._weights, theta1_rad, theta2_rad, self._joints)
 
     def _batch(self, columns: list[np.ndarray]) -> np.ndarray:
-        ffi = self._native.ffi
+        ffi, lib = self._native.ffi, self._native.lib
         found = np.empty(len(columns[0]), _RESULT)
-        self._native.lib.brace_loaded_batch(
-            self._loaded,
+        rows = (
             self._joints,
             len(found),
             *(ffi.from_buffer("float[]", column) for column in columns),
             ffi.cast("brace_loaded_stiffness_t *", ffi.from_buffer(found)),
         )
+        if self._is_fixed:
+            lib.brace_loaded_fixed_batch(self._fixed, self._reach_mm, *rows)
+        else:
+            lib.brace_loaded_batch(self._loaded, *rows)
         return found
 
     def refusal(self, index: int, theta1_rad: float, theta2_rad: float, fx_n: float, fz_n: float) -> PostureError:
         """Why a posture has no K; `index` is its place among others."""
         for spring in self._springs:
             spring.carries(0.0)
-        single = self._native.ffi.new("brace_loaded_stiffness_t *")
+        single, lib = self._native.ffi.new("brace_loaded_stiffness_t *"), self._native.lib
         self._joints.tip.x_n, self._joints.tip.z_n = fx_n, fz_n
-        status = self._native.lib.brace_loaded_stiffness(self._loaded, theta1_rad, theta2_rad, self._joints, single)
+        given = (theta1_rad, theta2_rad, self._joints, single)
+        if self._is_fixed:
+            status = lib.brace_loaded_fixed_stiffness(self._fixed, *given)
+        else:
+            status = lib.brace_loaded_stiffness(self._loaded, *given)
         if status == E_SINGULAR:
             return PostureError(index, status, FOLDS)
         return PostureError(index, status, status_text(self._native, status))
 
 
 def stiffness_under_load(
-    model: LimbModel, theta1_rad: np.ndarray, theta2_rad: np.ndarray, fx_n: np.ndarray, fz_n: np.ndarray
+    model: LimbModel,
+    theta1_rad: np.ndarray,
+    theta2_rad: np.ndarray,
+    fx_n: np.ndarray,
+    fz_n: np.ndarray,
+    arithmetic: str = "f32",
 ) -> np.ndarray:
-    """LoadedLimb.stiffness; raises PostureError for the first posture that is refused."""
-    limb = LoadedLimb(model)
+    """LoadedLimb.stiffness; raises PostureError for the first posture or force that is out of range. A row without a
+    rest has NaN and the flags that say so."""
+    limb = LoadedLimb(model, arithmetic)
     found = limb.stiffness(theta1_rad, theta2_rad, fx_n, fz_n)
-    lost = np.isnan(found["k_xx_n_per_mm"])
-    if lost.any():
-        first = int(np.argmax(lost))
+    beyond = without_rest(found) & (found["flags"] == 0)
+    if beyond.any():
+        first = int(np.argmax(beyond))
         raise limb.refusal(first, *(float(column[first]) for column in (theta1_rad, theta2_rad, fx_n, fz_n)))
     return found
+
+
+def without_rest(found: np.ndarray) -> np.ndarray:
+    """Which rows have no K."""
+    return np.asarray(np.isnan(found["k_xx_n_per_mm"]))
 
 
 def _with_compliance(found: np.ndarray) -> np.ndarray:

@@ -445,6 +445,8 @@ _Static_assert((uint32_t)BRACE_FLAG_STALE == (uint32_t)(1u << 4), "flag");
 _Static_assert((uint32_t)BRACE_FLAG_OUT_OF_RANGE == (uint32_t)(1u << 5), "flag");
 _Static_assert((uint32_t)BRACE_FLAG_LOAD_UNKNOWN == (uint32_t)(1u << 6), "flag");
 _Static_assert((uint32_t)BRACE_FLAG_SOFTENED == (uint32_t)(1u << 7), "flag");
+_Static_assert((uint32_t)BRACE_FLAG_MOVED_FAR == (uint32_t)(1u << 8), "flag");
+_Static_assert((uint32_t)BRACE_FLAG_PLAY_ASSUMED == (uint32_t)(1u << 9), "flag");
 static const meaning_t flag_meanings[] = {
     {0, "UNCALIBRATED",
      "The parameters are defaults, not this limb's."},
@@ -462,6 +464,10 @@ static const meaning_t flag_meanings[] = {
      "The load is not counted, because it is not known: K is the one without load."},
     {7, "SOFTENED",
      "The load has softened the limb: the buckling factor is below 3, or no stable equilibrium is near."},
+    {8, "MOVED_FAR",
+     "The load moves the tip further than the accuracy is promised for: by more than a fifth of the reach."},
+    {9, "PLAY_ASSUMED",
+     "A joint with play counts as engaged because the load says so. Nothing has proven it."},
 };
 
 const char *brace_flag_name(int32_t number)

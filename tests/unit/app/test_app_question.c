@@ -250,8 +250,8 @@ static void test_without_parameters_the_answer_is_uncalibrated(void)
 
 static void test_a_force_that_folds_the_limb_or_is_none_is_refused(void)
 {
-    (void)ask_for_force(-300.0f, 0.0f);
-    answer_t answer = ask_under_load(1.0f, 1.4f);
+    (void)ask_for_force(-300.0f, 0.0f); /* along the straight limb */
+    answer_t answer = ask_under_load(0.0f, 0.0f);
     TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, refusal_of(&answer, BRACE_REQUEST_K_UNDER_LOAD_AT_POSTURE).status);
     (void)ask_for_force(__builtin_nanf(""), 0.0f);
     answer = ask_under_load(1.0f, 1.4f);
@@ -300,7 +300,7 @@ static void asked_over_modbus(asks_t asks)
 /* No K is an answer, too: its registers say so, and the question stands. */
 static void test_a_force_that_folds_the_limb_has_no_K_over_Modbus(void)
 {
-    const float folds[] = {-300.0f, 0.0f, 1.0f, 1.4f};
+    const float folds[] = {-300.0f, 0.0f, 0.0f, 0.0f};
     uint8_t pdu[64];
     asked_over_modbus(line_asks);
     TEST_ASSERT_EQUAL(5, line_asks(UNIT, pdu, write_of(ASKED_POSTURE_FORCE, folds, 4, -1, pdu)).count);

@@ -206,10 +206,10 @@ static void test_what_a_limb_s_matrix_tells_of_the_tip(void)
         lost_t lost = 0u;
         const fixed_vec_t none = {0, 0};
         fixed_tensor_t c = {0, 0, 0}, springs = {0, 0, 0};
-        const fixed_vec_t by_knee = add_link(&c, &springs, &limb.tibia, &p.tibia, none, &lost);
+        const fixed_vec_t by_knee = add_link(&c, &springs, &limb.tibia, &p.tibia, 0u, none, &lost);
         add_scaled(&c, by_knee, kept((int64_t)limb.stance.knee * p.per_knee, 27, ROOM_COMPLIANCE, &lost));
         const fixed_vec_t beyond = {times(by_knee.x, p.per_knee, 27), times(by_knee.z, p.per_knee, 27)};
-        const fixed_vec_t by_hip = add_link(&c, &springs, &limb.femur, &p.femur, beyond, &lost);
+        const fixed_vec_t by_hip = add_link(&c, &springs, &limb.femur, &p.femur, 0u, beyond, &lost);
         add_scaled(&c, by_hip, kept((int64_t)limb.stance.hip * p.per_hip, 27, ROOM_COMPLIANCE, &lost));
         if (lost >= LOST) {
             continue;

@@ -384,11 +384,11 @@ static void test_soft_limbs_near_their_buckling(void)
         TEST_ASSERT_TRUE(is.buckling_factor >= 1.0f);
         TEST_ASSERT_TRUE(has_float);
         if (want.stiffness.flags == 0u && is.stiffness.flags == 0u) {
-            const float off = 1e-3f * want.stiffness.lambda_max_n_per_mm;
+            const float off = 4e-3f * want.stiffness.lambda_max_n_per_mm;
             TEST_ASSERT_FLOAT_WITHIN(off, want.stiffness.k_xx_n_per_mm, is.stiffness.k_xx_n_per_mm);
             TEST_ASSERT_FLOAT_WITHIN(off, want.stiffness.k_xz_n_per_mm, is.stiffness.k_xz_n_per_mm);
             TEST_ASSERT_FLOAT_WITHIN(off, want.stiffness.k_zz_n_per_mm, is.stiffness.k_zz_n_per_mm);
-            TEST_ASSERT_FLOAT_WITHIN(1e-3f * want.stiffness.lambda_min_n_per_mm, want.stiffness.lambda_min_n_per_mm,
+            TEST_ASSERT_FLOAT_WITHIN(4e-3f * want.stiffness.lambda_min_n_per_mm, want.stiffness.lambda_min_n_per_mm,
                                      is.stiffness.lambda_min_n_per_mm);
         }
         if (want.buckling_factor < 10.0f) {

@@ -105,7 +105,7 @@ static void test_links_as_a_load_sees_them(void)
         expect_link(&rest.tibia, &tibia_words);
 
         /* A unit of force is a power of two above the loads, or as large as a compliance's word allows. */
-        const double loads_n = fabs((double)load.tip.x_n) + fabs((double)load.tip.z_n) + 1.5 * (double)loaded.weight_n;
+        const double loads_n = hypot((double)load.tip.x_n, (double)load.tip.z_n) + 1.5 * (double)loaded.weight_n;
         TEST_ASSERT_TRUE(loads_n < force_unit_n);
         const double largest = fmax(fmax(fabs((double)joints[0]), fabs((double)joints[1])),
                                     fmax(fabs((double)joints[2]), fabs((double)joints[3])));

@@ -146,7 +146,7 @@ def _run_single(arguments: argparse.Namespace, model: LimbModel) -> int:
     from brace import stiffness
     from brace.cli.k_flags import flags_of_postures, outside
     from brace.stiffness_in_space_under_load import LoadedLimbInSpace
-    from brace.stiffness_under_load import LoadedLimb, stiffness_under_load
+    from brace.stiffness_under_load import LoadedLimb, stiffness_under_load, without_rest
     from brace.stiffness_with_gap import gaps_rad
 
     limb = stiffness.planar_limb(model, arguments.arith)
@@ -166,6 +166,8 @@ def _run_single(arguments: argparse.Namespace, model: LimbModel) -> int:
             force_n = np.array([[arguments.fx, arguments.fy or 0.0, arguments.fz]])
             in_space = LoadedLimbInSpace(model)
             result = in_space.stiffness(theta_rad, force_n)
+            if without_rest(result)[0]:
+                raise in_space.refusal(0)
             sigma = in_space.sigma(theta_rad, force_n)
         elif arguments.theta0 is not None:
             result = stiffness.spatial_stiffness(model, *(np.array([a]) for a in (arguments.theta0, theta1, theta2)))
@@ -173,7 +175,9 @@ def _run_single(arguments: argparse.Namespace, model: LimbModel) -> int:
             sigma = LoadedLimbInSpace(model, is_weightless=True).sigma(theta_rad, np.zeros((1, 3)))
         elif arguments.is_loaded:
             given = (true1, true2, arguments.fx, arguments.fz)
-            result = stiffness_under_load(model, *(np.array([value]) for value in given))
+            result = stiffness_under_load(model, *(np.array([value]) for value in given), arguments.arith)
+            if without_rest(result)[0]:
+                raise LoadedLimb(model, arguments.arith).refusal(0, *given)
             sigma = LoadedLimb(model).sigma(*given)
         else:
             result = limb.stiffness(np.array([true1]), np.array([true2]))
@@ -197,7 +201,8 @@ def _run_single(arguments: argparse.Namespace, model: LimbModel) -> int:
     if arguments.is_loaded:
         across = {"fy_n": arguments.fy or 0.0} if arguments.theta0 is not None else {}
         posture |= {"fx_n": arguments.fx, **across, "fz_n": arguments.fz}
-    path = "loaded" if arguments.is_loaded else "spatial" if arguments.theta0 is not None else limb.path
+    under_load = "loaded, fixed" if arguments.arith == "fixed" else "loaded"
+    path = under_load if arguments.is_loaded else "spatial" if arguments.theta0 is not None else limb.path
     unloaded = arguments.theta0 is None and not arguments.is_loaded
     while_open = _while_open(model, true1, true2, values) if unloaded else {}
     names: tuple[str, ...] = ("theta0_rad", "theta1_rad", "theta2_rad")

@@ -37,12 +37,12 @@ def fill_in(arguments: argparse.Namespace) -> None:
 
 
 def refuse_load_with(arithmetic: str) -> None:
-    """K under a load is float."""
-    if arithmetic != "f32":
+    """The chain knows no load."""
+    if arithmetic == "general":
         raise UsageError(
-            f"--arith {arithmetic} with a load",
-            why="under a load K is computed in float only",
-            next_step="drop --arith",
+            "--arith general with a load",
+            why="the general chain tells K without load",
+            next_step="--arith f32 or fixed",
         )
 
 

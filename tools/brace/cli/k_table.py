@@ -45,8 +45,10 @@ def run_table(arguments: argparse.Namespace, model: LimbModel) -> int:
         ) from None
     result["flags"] |= flags_of_postures(model, table.angles, unloaded=not (spatial or loaded))
     write_file(arguments.out, table.with_columns(names, [_texts(result[name]) for name in names]), inputs)
+    no_rest = int(np.count_nonzero(np.isnan(result[k[0]])))
     summary = {
         "rows": len(table.rows),
+        "rows_without_rest": no_rest,
         "out": arguments.out,
         "arith": path,
         "model": model.name,
@@ -56,6 +58,11 @@ def run_table(arguments: argparse.Namespace, model: LimbModel) -> int:
         common.print_json(summary)
     else:
         common.say(f"{len(table.rows)} postures ({path}) -> {arguments.out}")
+    if no_rest:
+        common.say(
+            f"{no_rest} of {len(table.rows)} rows have no rest near their posture under their load: the load folds the "
+            "limb; they have flags and no numbers; a smaller force or another posture has K"
+        )
     return 0
 
 
@@ -69,7 +76,9 @@ def _under_load(table: PostureTable, model: LimbModel, arguments: argparse.Names
     limb = stiffness.planar_limb(model)
     true1, true2 = limb.true_angles(table.angles["theta1_rad"], table.angles["theta2_rad"])
     force_n = _forces(table, {"fx_n": arguments.fx, "fz_n": arguments.fz})
-    return stiffness_under_load(model, stiffness.within_half_turn(true1), true2, *force_n), "loaded"
+    true1 = stiffness.within_half_turn(true1)
+    path = "loaded, fixed" if arguments.arith == "fixed" else "loaded"
+    return stiffness_under_load(model, true1, true2, *force_n, arguments.arith), path
 
 
 def _in_space_under_load(
@@ -120,4 +129,5 @@ def _refuse_taken(table: PostureTable, names: tuple[str, ...]) -> None:
 def _texts(values: np.ndarray) -> list[str]:
     if values.dtype.kind == "u":
         return list(map(str, values.tolist()))
-    return [f"{value:.9g}" for value in (values + 0.0).tolist()]  # + 0.0: -0 is 0
+    # + 0.0: -0 is 0; NaN is no number
+    return ["" if value != value else f"{value:.9g}" for value in (values + 0.0).tolist()]

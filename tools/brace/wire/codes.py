@@ -155,6 +155,8 @@ FLAG = CodeTable("flag", True, (
     Code(5, "OUT_OF_RANGE", "The posture lies outside the range in which the model was identified."),
     Code(6, "LOAD_UNKNOWN", "The load is not counted, because it is not known: K is the one without load."),
     Code(7, "SOFTENED", "The load has softened the limb: the buckling factor is below 3, or no stable equilibrium is near."),
+    Code(8, "MOVED_FAR", "The load moves the tip further than the accuracy is promised for: by more than a fifth of the reach."),
+    Code(9, "PLAY_ASSUMED", "A joint with play counts as engaged because the load says so. Nothing has proven it."),
 ))
 
 # Every cause that is nearly as likely as the likeliest, itself included.

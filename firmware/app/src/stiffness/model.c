@@ -203,8 +203,9 @@ static brace_status_t tell_space(const brace_limb_t *limb, const brace_space_res
         return status;
     }
     const brace_vec3_t moved = found->displacement_mm;
-    rest->plane.flags |= brace_loaded_flags(__builtin_inff(), square(moved.x) + square(moved.y) + square(moved.z),
-                                            limb->femur_mm + limb->tibia_mm);
+    rest->plane.flags |= found->flags | brace_loaded_flags(__builtin_nanf(""),
+                                                           square(moved.x) + square(moved.y) + square(moved.z),
+                                                           limb->femur_mm + limb->tibia_mm);
     rest->space = found->k;
     rest->bend = (posture_bend_t){.tip_mm = {moved.x, moved.z},
                                   .tibia_mm = {found->tibia_mm.x, found->tibia_mm.z},

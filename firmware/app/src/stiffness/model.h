@@ -116,7 +116,7 @@ int32_t model_loaded_begin(const model_t *model, const float unbent_rad[BRACE_LI
                            const brace_loaded_joint_t springs[BRACE_LINK_COUNT], brace_vec3_t tip_n,
                            brace_vec3_t down, model_work_t *work);
 
-/* After MODEL_LATER. The first call of it finds the answer in the plane, the seventh in space.
+/* After MODEL_LATER. The first call of it finds the answer in the plane, the sixth to the ninth in space.
  *   rest (out): after BRACE_OK
  * returns MODEL_LATER, or as model_loaded. At most 1,500 instructions in the plane, 1,200 in space. */
 int32_t model_loaded_go_on(const model_t *model, const brace_limb_t *limb, model_work_t *work, model_rest_t *rest);

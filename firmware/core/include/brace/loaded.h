@@ -92,20 +92,21 @@ void brace_loaded_collapse(const brace_limb_t *limb, const brace_gravity_t *weig
  * k the springs' stiffnesses, G the load's part, at this equilibrium with the posture held (linear buckling analysis).
  * It tells how far the load softens the limb, not at which load it collapses.
  * returns BRACE_OK, BRACE_E_RANGE, BRACE_E_NOT_FINITE, or BRACE_E_SINGULAR: there is no stable equilibrium near the
- *         commanded posture, two steps of Newton's method do not come to it, or nothing yields in some direction.
+ *         commanded posture, four steps of Newton's method do not come to it, or nothing yields in some direction.
+ *         The first step starts from the straight limb; a third and a fourth are taken where two are not enough.
  * Accuracy: where the buckling factor is at least 2 and the tip moves by at most a fifth of the reach, K within 0.6 %
- *         (Frobenius norm; median 1e-6), the buckling factor within 2 % below 10, the displacement within 0.5 mm. At no
- *         load as brace/general.h. tests/engine/test_core_under_load.py judges random limbs. Of 6,000 limbs, one was
- *         off by more: by 4 %, near the straight knee, where its tip moved by 41 mm of 217 mm. Where two of
- *         Newton's steps do not settle, as under a load that folds the limb, there is no K.
- * Cost on a Cortex-M4F: at most 2,500 instructions (2,313 measured) for every posture; stack at most 800 bytes. */
+ *         (Frobenius norm; median 1e-6), the buckling factor within 2 % below 10, the displacement within 0.5 mm; where
+ *         a link bends by more than 0.25 rad within itself, result->stiffness.flags has BRACE_FLAG_NEAR_SINGULAR, and K
+ *         may be off by some percent. At no load as brace/general.h. tests/engine/test_core_under_load.py judges random
+ *         limbs, and limbs pressed inward.
+ * Cost on a Cortex-M4F: at most 3,500 instructions; 2,400 where two steps are enough; stack at most 800 bytes. */
 brace_status_t brace_loaded_stiffness(const brace_loaded_t *loaded, float theta1_rad, float theta2_rad,
                                       const brace_load_t *load, brace_loaded_stiffness_t *result);
 
 /* The same in two steps, for a controller that cannot spend so much at once: the equilibrium, and K there.
  * No pointer may be null. rest: room to work in, and the equilibrium after BRACE_OK.
  * Both return what brace_loaded_stiffness returns.
- * Cost on a Cortex-M4F: at most 1,200 and 1,500 instructions. */
+ * Cost on a Cortex-M4F: at most 2,200 and 1,500 instructions. */
 brace_status_t brace_loaded_settle(const brace_loaded_t *loaded, float theta1_rad, float theta2_rad,
                                    const brace_load_t *load, brace_loaded_rest_t *rest);
 brace_status_t brace_loaded_stiffness_at(const brace_loaded_t *loaded, const brace_loaded_rest_t *rest,
@@ -117,13 +118,15 @@ brace_status_t brace_loaded_stiffness_at(const brace_loaded_t *loaded, const bra
 
 /* What a user of this K has to know besides its own flags.
  * moved_mm2: square of the tip's displacement. reach_mm: lengths of femur and tibia added
- * returns BRACE_FLAG_SOFTENED, and BRACE_FLAG_NEAR_SINGULAR where no accuracy is promised; 0: neither
+ *   A buckling factor of NaN is not known and says nothing.
+ * returns BRACE_FLAG_SOFTENED, and where no accuracy is promised BRACE_FLAG_NEAR_SINGULAR (the factor is below 2) and
+ *   BRACE_FLAG_MOVED_FAR (the tip moves by more than a fifth of the reach); 0: none of them
  * Cost on a Cortex-M4F: 20 instructions. */
 static inline uint32_t brace_loaded_flags(float buckling_factor, float moved_mm2, float reach_mm)
 {
     const float most_mm = BRACE_PROMISED_MOVE * reach_mm;
-    const bool is_promised = buckling_factor >= BRACE_PROMISED_FACTOR && moved_mm2 <= most_mm * most_mm;
-    return (is_promised ? 0u : (uint32_t)BRACE_FLAG_NEAR_SINGULAR) |
+    return (buckling_factor < BRACE_PROMISED_FACTOR ? (uint32_t)BRACE_FLAG_NEAR_SINGULAR : 0u) |
+           (moved_mm2 <= most_mm * most_mm ? 0u : (uint32_t)BRACE_FLAG_MOVED_FAR) |
            (buckling_factor < BRACE_SOFTENED_FACTOR ? (uint32_t)BRACE_FLAG_SOFTENED : 0u);
 }
 

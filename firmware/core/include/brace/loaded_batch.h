@@ -5,17 +5,27 @@
 #include <stddef.h>
 
 #include "brace/loaded.h"
+#include "brace/loaded_fixed.h"
+#include "brace/loaded_space_types.h"
 
 /* K and rest at n postures, each with a force of its own. No argument is checked for null.
  * loaded: from brace_loaded_collapse. joints: direction of the weight and the joints' springs; its tip force is ignored.
  * theta1_rad, theta2_rad, x_n, z_n: n each, as brace_loaded_stiffness takes them.
- * results: n, flags with those of brace_loaded_flags; where brace_loaded_stiffness refuses, every number is NaN and
- * flags are 0.
+ * results: n, flags with those of brace_loaded_flags. Where brace_loaded_stiffness refuses, every number is NaN; flags
+ * are then as a controller has them without a rest, NEAR_SINGULAR and SOFTENED, and 0 where the inputs are refused.
  * returns how many were refused.
  * Cost: about 3 us a posture (one core of an Intel Xeon at 2.5 GHz, GCC 12; libm has the fused multiply-add).
  * Thread rule: a pure function of its arguments. */
 size_t brace_loaded_batch(const brace_loaded_t *loaded, const brace_load_t *joints, size_t n, const float *theta1_rad,
                           const float *theta2_rad, const float *x_n, const float *z_n,
                           brace_loaded_stiffness_t *results);
+
+/* The same by brace_loaded_fixed_stiffness. reach_mm: lengths of femur and tibia added. */
+size_t brace_loaded_fixed_batch(const brace_loaded_fixed_t *fixed, float reach_mm, const brace_load_t *joints, size_t n,
+                                const float *theta1_rad, const float *theta2_rad, const float *x_n, const float *z_n,
+                                brace_loaded_stiffness_t *results);
+
+/* Of a limb in space: result->flags with those of brace_loaded_flags. */
+uint32_t brace_loaded_space_flags(const brace_space_result_t *result, float buckling_factor, float reach_mm);
 
 #endif

@@ -19,6 +19,7 @@ typedef struct {
     float across_mm_per_n, sideways_mm_per_n; /* what moves its end and turns nothing */
     float end_share, stretch_end_share; /* the part of the link's turn that these springs, and the axial one, follow,
                                            less one half */
+    float twist_share;         /* the part of the link's twist that its chord and those springs follow */
     float curl_per_mm;         /* twist for each mm of these springs and each radian of bending */
     float across_spread_per_n_mm, sideways_spread_per_n_mm; /* twist's compliance for each squared radian of bending */
     float shortens_per_mm;     /* by those springs */
@@ -110,6 +111,7 @@ typedef struct {
     brace_vec3_t displacement_mm; /* of the tip, from where it is at these angles without load */
     brace_vec3_t tibia_mm;        /* from the knee to the tip at the equilibrium */
     float yaw_turn_rad, hip_turn_rad, knee_turn_rad; /* how far the load has turned the joints, without the base */
+    uint32_t flags; /* BRACE_FLAG_NEAR_SINGULAR: a link bends further within itself than the accuracy is promised for */
 } brace_space_result_t;
 
 /* --- between steps. Other code must not read their members. ---------------------------------------------------- */
@@ -147,7 +149,9 @@ typedef struct {
 /* A link's springs first, then its turns about x, y and z: each adds to those after it. */
 typedef struct {
     brace_space_freedom_t across, sideways, x, y, z;
+    brace_vec3_t stretch_follows;        /* the axial spring: its vector is the link's stretch_root */
     brace_vec3_t by_across, by_sideways; /* to x, y and z */
+    float y_by_stretch, z_by_stretch;
     float y_by_x, z_by_x, z_by_y;
 } brace_space_link_freedoms_t;
 
@@ -187,22 +191,28 @@ typedef struct {
     brace_vec3_t tip_mm, tibia_mm;
 } brace_space_sum_t;
 
+/* On the way to the equilibrium. */
+typedef struct {
+    brace_space_factors_t factors;
+    brace_vec_t hip, knee;     /* the joints' directions that the factors are of */
+    brace_space_curls_t curls; /* of the shape that the limb is bent to */
+    brace_space_pose_t drives; /* what it is still driven by there */
+    brace_space_pose_t first;  /* the first step of a round */
+    float left_rad2;           /* square of what a round of steps leaves */
+} brace_space_settling_t;
+
 /* K that is being worked out. */
 typedef struct {
     brace_space_rest_t rest;
     union {
-        struct {
-            brace_space_factors_t factors;
-            brace_space_curls_t curls;
-            brace_space_pose_t drives;
-        } settling;
+        brace_space_settling_t settling;
         struct {
             brace_space_freedoms_t freedoms;
             brace_axes_t coxa;
             brace_space_sum_t sum;
         } summing;
     } of;
-    uint8_t step;
+    uint8_t step, rounds; /* rounds: of steps towards the equilibrium that are done */
 } brace_space_work_t;
 
 #endif

@@ -49,13 +49,13 @@ INLINE fixed_vec_t less_scaled(fixed_vec_t v, fixed_vec_t a, int32_t by, fixed_v
 
 /* As add_link of loaded.c. */
 INLINE fixed_vec_t add_link(fixed_tensor_t *c, fixed_tensor_t *springs, const fixed_rest_t *rest,
-                            const fixed_factors_t *f, fixed_vec_t beyond, lost_t *lost)
+                            const fixed_factors_t *f, uint32_t coarser, fixed_vec_t beyond, lost_t *lost)
 {
     const fixed_vec_t none = {0, 0}, end = fixed_plus(rest->end, beyond), a = fixed_plus(rest->a, end);
     const fixed_vec_t b = less_scaled(fixed_plus(rest->b, end), a, f->b_by_a, none, 0, lost);
     const fixed_vec_t root = fixed_plus(fixed_minus(fixed_quarter(rest->tip), rest->aside), beyond);
-    add_scaled(c, a, f->yields_a);
-    add_scaled(c, b, f->yields_b);
+    add_scaled(c, a, f->yields_a >> coarser);
+    add_scaled(c, b, f->yields_b >> coarser);
     add_spring(springs, rest->root_spring);
     add_spring(springs, rest->end_spring);
     return less_scaled(root, a, f->root_by_a, b, f->root_by_b, lost);

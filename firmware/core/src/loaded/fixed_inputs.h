@@ -22,6 +22,7 @@ typedef struct {
     uint32_t parity;                            /* of the units: which of a spring's two vectors */
     int32_t force_exponent;
     uint32_t bend_shift, spring_shift, root_shift, weight_shift;
+    uint32_t coarser; /* bits by which C and what it is added up of are coarser: a load that is large beside the limb */
 } fixed_inputs_t;
 
 INLINE uint32_t at_most_31(int32_t bits)
@@ -46,10 +47,12 @@ INLINE brace_status_t check_range(uint32_t theta1, uint32_t theta2, uint32_t x, 
         return BRACE_E_RANGE;
     }
     in->theta1_q28 = fixed_of(theta1, 28), in->theta2_q28 = fixed_of(theta2, 28);
-    *force_q17 = (uint32_t)fixed_of(x & 0x7fffffffu, 17) + (uint32_t)fixed_of(z & 0x7fffffffu, 17);
+    const uint32_t x_q17 = (uint32_t)fixed_of(x & 0x7fffffffu, 17), z_q17 = (uint32_t)fixed_of(z & 0x7fffffffu, 17);
+    const uint32_t most_q17 = x_q17 > z_q17 ? x_q17 : z_q17, sum_q17 = x_q17 + z_q17;
+    *force_q17 = most_q17 + ((sum_q17 - most_q17) >> 1) + 1u; /* at least the length of (x, z) */
     const uint64_t reach = (uint64_t)((int64_t)in->theta1_q28 * in->theta1_q28) +
                            (uint64_t)((int64_t)in->theta2_q28 * in->theta2_q28);
-    return (uint32_t)(reach >> 32) < REACH_HIGH_Q24 && *force_q17 <= FORCE_MOST_Q17 ? BRACE_OK : BRACE_E_RANGE;
+    return (uint32_t)(reach >> 32) < REACH_HIGH_Q24 && sum_q17 <= FORCE_MOST_Q17 ? BRACE_OK : BRACE_E_RANGE;
 }
 
 INLINE uint32_t larger(uint32_t a, uint32_t b)
@@ -88,21 +91,24 @@ INLINE brace_status_t inputs_of(const brace_loaded_fixed_t *limb, float theta1_r
     const uint32_t force_q8 = (force_q17 >> 9) + limb->weight_q8 + 2u;
     const int32_t above_force = 24 - (int32_t)leading_zeros(force_q8);
     const int32_t force = above_force > -most ? above_force : -most;
-    if (((hip_yields | hip | knee_yields | knee) >> 31) != 0u || force + most > 1 || force > FORCE_EXPONENT_MOST) {
+    const bool is_negative = ((hip_yields | hip | knee_yields | knee) >> 31) != 0u;
+    if (is_negative || force + most > 2 || force + spring_most > 1 || force > FORCE_EXPONENT_MOST) {
         return BRACE_E_SINGULAR;
     }
     const int32_t roots = force + limb->spring_exponent;
     in->parity = (uint32_t)roots & 1u;
     in->force_exponent = force;
+    in->coarser = force + most > 0 ? 2u : 0u;
     in->bend_shift = at_most_31(2 - force - limb->bend_exponent);
     in->spring_shift = at_most_31(1 - roots);
     in->root_shift = at_most_31(1 - ((roots + 1) >> 1));
     in->weight_shift = at_most_31(1 + force - limb->weight_exponent);
     in->tip_q30 = (fixed_vec_t){fixed_of(x, 30 - force), fixed_of(z, 30 - force)};
     const int32_t base = limb->base_rotation_q31 >> in->bend_shift, format = 29 + force + length;
-    in->hip_yields = fixed_of(hip_yields, format) + base, in->hip = fixed_of(hip, format) + base;
+    in->hip_yields = wrapped_plus(fixed_of(hip_yields, format), base);
+    in->hip = wrapped_plus(fixed_of(hip, format), base);
     in->knee_yields = fixed_of(knee_yields, format), in->knee = fixed_of(knee, format);
-    return BRACE_OK;
+    return (in->hip_yields | in->hip) < 0 ? BRACE_E_SINGULAR : BRACE_OK; /* with the base's, 4 and more wrap */
 }
 
 INLINE fixed_vec_t root_of(const fixed_vec_t roots_q31[2], const fixed_inputs_t *in)

@@ -14,11 +14,20 @@ typedef struct {
     int32_t resists;
 } fixed_factors_t;
 
+/* As pivot_on_the_way of loaded/solve.h. */
+#define PIVOT_LEAST_ON_THE_WAY_Q27 (ONE_Q27 / 4)
+
+INLINE int32_t pivot_taken(int32_t pivot, bool is_on_the_way)
+{
+    return is_on_the_way && pivot < PIVOT_LEAST_ON_THE_WAY_Q27 ? PIVOT_LEAST_ON_THE_WAY_Q27 : pivot;
+}
+
 /* returns false where a pivot is too small or a number leaves its range */
-INLINE bool fixed_factors_of(const fixed_matrix_t *m, int32_t bend, fixed_factors_t *f)
+INLINE bool fixed_factors_of(const fixed_matrix_t *m, int32_t bend, bool is_on_the_way, fixed_factors_t *f)
 {
     lost_t lost = 0u;
-    f->pivot_a = wrapped_plus(ONE_Q27, kept((int64_t)bend * m->aa, 29, ROOM_COMPLIANCE, &lost));
+    const int32_t on_a = kept((int64_t)bend * m->aa, 29, ROOM_COMPLIANCE, &lost);
+    f->pivot_a = pivot_taken(wrapped_plus(ONE_Q27, on_a), is_on_the_way);
     if (lost >= LOST || f->pivot_a < LEAST_PIVOT_Q27) {
         return false;
     }
@@ -28,7 +37,7 @@ INLINE bool fixed_factors_of(const fixed_matrix_t *m, int32_t bend, fixed_factor
     const int32_t bb = wrapped_less(m->bb, kept((int64_t)m->ab * f->b_by_a, 27, ROOM_RATIO, &lost));
     const int32_t rb = wrapped_less(m->rb, kept((int64_t)m->ab * f->root_by_a, 27, ROOM_RATIO, &lost));
     const int32_t on_b = kept((int64_t)bend * bb, 29, ROOM_COMPLIANCE, &lost);
-    f->pivot_b = wrapped_plus(ONE_Q27, on_b);
+    f->pivot_b = pivot_taken(wrapped_plus(ONE_Q27, on_b), is_on_the_way);
     if (lost >= LOST || f->pivot_b < LEAST_PIVOT_Q27) {
         return false;
     }
@@ -39,10 +48,11 @@ INLINE bool fixed_factors_of(const fixed_matrix_t *m, int32_t bend, fixed_factor
 }
 
 /* A joint's pivot, and what is left of a moment beyond it. */
-INLINE bool fixed_joint_of(int32_t yields, int32_t resists, int32_t *pivot)
+INLINE bool fixed_joint_of(int32_t yields, int32_t resists, bool is_on_the_way, int32_t *pivot)
 {
     lost_t lost = 0u;
-    *pivot = wrapped_plus(ONE_Q27, kept((int64_t)yields * resists, 29, ROOM_COMPLIANCE, &lost));
+    const int32_t on_joint = kept((int64_t)yields * resists, 29, ROOM_COMPLIANCE, &lost);
+    *pivot = pivot_taken(wrapped_plus(ONE_Q27, on_joint), is_on_the_way);
     return lost < LOST && *pivot >= LEAST_PIVOT_Q27;
 }
 
@@ -59,7 +69,7 @@ INLINE bool fixed_solve_in(const fixed_pull_t *pull, int32_t bend, int32_t resis
     const fixed_matrix_t *m = &pull->resists;
     const int32_t end = pull->end_resists + resists, end_drives = pull->end_drives + drives;
     const fixed_matrix_t whole = {m->rr + end, m->ra + end, m->rb + end, m->aa + end, m->ab + end, m->bb + end};
-    if (!fixed_factors_of(&whole, bend, &s->f)) {
+    if (!fixed_factors_of(&whole, bend, true, &s->f)) {
         return false;
     }
     s->a_driven = pull->drives.a + end_drives;
@@ -71,12 +81,22 @@ INLINE bool fixed_solve_in(const fixed_pull_t *pull, int32_t bend, int32_t resis
     return lost < LOST;
 }
 
-INLINE void fixed_solve_out(const fixed_solved_t *s, int32_t root, fixed_shape_t *shape, lost_t *lost)
+/* A solved shape, in q27: a step may lead further than a shape may be. */
+typedef fixed_shape_t fixed_far_shape_t;
+
+/* A turn in q27: what a compliance (q29) and a moment make, less what a ratio (q27) and a turn in q27 make. Noted as
+ * lost from 8 rad on. */
+INLINE int32_t far_turn(int32_t yields, int32_t driven, int64_t less_q54, lost_t *lost)
+{
+    const int64_t own_q54 = ((int64_t)yields * driven) >> 2;
+    return kept((int64_t)((uint64_t)own_q54 - (uint64_t)less_q54), 27, ROOM_FAR_TURN, lost);
+}
+
+INLINE void fixed_solve_out(const fixed_solved_t *s, int32_t root, fixed_far_shape_t *shape, lost_t *lost)
 {
     shape->root = root;
-    shape->b = kept(sum2(s->f.yields_b, s->b_driven, -s->f.root_by_b, root), 27, ROOM_ANGLE, lost);
-    shape->a = kept(sum3(s->f.yields_a, s->a_driven, -s->f.root_by_a, root, -s->f.b_by_a, shape->b), 27, ROOM_ANGLE,
-                    lost);
+    shape->b = far_turn(s->f.yields_b, s->b_driven, (int64_t)s->f.root_by_b * root, lost);
+    shape->a = far_turn(s->f.yields_a, s->a_driven, sum2(s->f.root_by_a, root, s->f.b_by_a, shape->b), lost);
 }
 
 typedef struct {
@@ -85,21 +105,17 @@ typedef struct {
 } fixed_limb_t;
 
 #define ANGLE_Q29(rad) ((int32_t)((rad) * 0x1p29))
-#define FIXED_BEND_MOST ANGLE_Q29(0.9) /* on the way; angles and their sums stay below 4 rad then */
-#define FIXED_ROOT_MOST ANGLE_Q29(2.0)
+#define ANGLE_Q27(rad) ((int32_t)((rad) * 0x1p27))
 
 INLINE bool is_within(int32_t angle, int32_t most)
 {
     return angle <= most && angle >= -most;
 }
 
-INLINE bool fixed_is_bent_within(const fixed_shape_t *shape, int32_t root, int32_t bend)
-{
-    return is_within(shape->root, root) && is_within(shape->a, bend) && is_within(shape->b, bend);
-}
-
-/* returns false where the limb yields too much for the formats */
-INLINE bool fixed_step(fixed_limb_t *limb, bool is_first, int32_t hip, int32_t knee)
+/* femur_to, tibia_to (out): where the step leads
+ * returns false where the limb yields too much for the formats */
+INLINE bool fixed_step(const fixed_limb_t *limb, bool is_first, int32_t hip, int32_t knee,
+                       fixed_far_shape_t *femur_to, fixed_far_shape_t *tibia_to)
 {
     fixed_pull_t pull;
     fixed_solved_t tibia, femur;
@@ -110,7 +126,8 @@ INLINE bool fixed_step(fixed_limb_t *limb, bool is_first, int32_t hip, int32_t k
     } else {
         fixed_pull_bent(&limb->tibia, &limb->tibia_shape, &pull);
     }
-    if (!fixed_solve_in(&pull, limb->tibia.bend, 0, 0, &tibia) || !fixed_joint_of(knee, tibia.f.resists, &pivot)) {
+    if (!fixed_solve_in(&pull, limb->tibia.bend, 0, 0, &tibia) ||
+        !fixed_joint_of(knee, tibia.f.resists, true, &pivot)) {
         return false;
     }
     const int32_t per_knee = inverse_q27(pivot);
@@ -125,26 +142,77 @@ INLINE bool fixed_step(fixed_limb_t *limb, bool is_first, int32_t hip, int32_t k
         fixed_pull_bent(&limb->femur, &limb->femur_shape, &pull);
     }
     if (!fixed_solve_in(&pull, limb->femur.bend, beyond, beyond_drives, &femur) ||
-        !fixed_joint_of(hip, femur.f.resists, &pivot)) {
+        !fixed_joint_of(hip, femur.f.resists, true, &pivot)) {
         return false;
     }
     const int32_t hip_moment = kept((int64_t)femur.driven * inverse_q27(pivot), 27, ROOM_RATIO, &lost);
-    fixed_solve_out(&femur, kept((int64_t)hip * hip_moment, 27, ROOM_ANGLE, &lost), &limb->femur_shape, &lost);
-    if (lost >= LOST || !fixed_is_bent_within(&limb->femur_shape, FIXED_ROOT_MOST, FIXED_BEND_MOST)) {
-        return false;
-    }
-    const int32_t by_end = kept((int64_t)fixed_end_turn(&limb->femur_shape) * per_knee, 27, ROOM_ANGLE, &lost);
-    const int32_t by_knee = kept((int64_t)knee * beyond_drives, 27, ROOM_ANGLE, &lost);
+    fixed_solve_out(&femur, far_turn(hip, hip_moment, 0, &lost), femur_to, &lost);
     if (lost >= LOST) {
         return false;
     }
-    /* each is below 2 rad */
-    const int32_t root = (by_end >> 1) + (by_knee >> 1);
-    if (!is_within(root, FIXED_ROOT_MOST >> 1)) {
+    const int32_t by_end = kept((int64_t)fixed_end_turn(femur_to) * per_knee, 27, ROOM_FAR_TURN, &lost);
+    const int32_t by_knee = far_turn(knee, beyond_drives, 0, &lost);
+    if (lost >= LOST) {
         return false;
     }
-    fixed_solve_out(&tibia, 2 * root, &limb->tibia_shape, &lost);
-    return lost < LOST && fixed_is_bent_within(&limb->tibia_shape, FIXED_ROOT_MOST, FIXED_BEND_MOST);
+    fixed_solve_out(&tibia, by_end + by_knee, tibia_to, &lost);
+    return lost < LOST;
+}
+
+#define FIXED_STEP_MOST ANGLE_Q27(1.2) /* as STEP_MOST_RAD of loaded/solve.h */
+#define FIXED_ROOT_MOST ANGLE_Q27(3.1) /* as loaded.c */
+#define FIXED_BEND_MOST ANGLE_Q27(1.2) /* turns between the points of a link stay below 1.41 rad */
+#define FIXED_TURNS_MOST ANGLE_Q27(3.9) /* of a root and both curvatures together, the first by a tenth more */
+
+INLINE uint32_t larger_turn(int32_t a, int32_t b)
+{
+    const uint32_t first = magnitude_of(a), second = magnitude_of(b);
+    return first > second ? first : second;
+}
+
+/* Every angle along a link stays below 4 rad. */
+INLINE bool is_shape(const fixed_far_shape_t *shape)
+{
+    const uint32_t root = magnitude_of(shape->root), a = magnitude_of(shape->a), b = magnitude_of(shape->b);
+    return root <= (uint32_t)FIXED_ROOT_MOST && a <= (uint32_t)FIXED_BEND_MOST && b <= (uint32_t)FIXED_BEND_MOST &&
+           root + a + (a >> 3) + b <= (uint32_t)FIXED_TURNS_MOST;
+}
+
+INLINE int32_t far_less(int32_t far, int32_t from_q29)
+{
+    return far - (from_q29 >> 2);
+}
+
+/* The shape goes the part of the way to `to`. returns false where no shape lies there, as is_shape */
+INLINE bool fixed_shape_goes(fixed_shape_t *shape, const fixed_far_shape_t *to, int32_t part_q30)
+{
+    const fixed_far_shape_t by = {times(far_less(to->root, shape->root), part_q30, 30),
+                                  times(far_less(to->a, shape->a), part_q30, 30),
+                                  times(far_less(to->b, shape->b), part_q30, 30)};
+    const fixed_far_shape_t there = {(shape->root >> 2) + by.root, (shape->a >> 2) + by.a, (shape->b >> 2) + by.b};
+    if (!is_shape(&there)) {
+        return false;
+    }
+    *shape = (fixed_shape_t){4 * there.root, 4 * there.a, 4 * there.b};
+    return true;
+}
+
+/* As bounded_step of loaded/solve.h. turned_q27: what it returns; returns as fixed_step, and false where no shape that
+ * the formats hold lies there */
+INLINE bool fixed_bounded_step(fixed_limb_t *limb, bool is_first, int32_t hip, int32_t knee, int32_t *turned_q27)
+{
+    fixed_far_shape_t femur, tibia;
+    if (!fixed_step(limb, is_first, hip, knee, &femur, &tibia)) {
+        return false;
+    }
+    const uint32_t turned = larger_turn(far_less(fixed_end_turn(&femur), fixed_end_turn(&limb->femur_shape)),
+                                        far_less(fixed_end_turn(&tibia), fixed_end_turn(&limb->tibia_shape)));
+    const int32_t part_q30 = turned <= (uint32_t)FIXED_STEP_MOST
+                                 ? 1 << 30
+                                 : (int32_t)(((uint64_t)FIXED_STEP_MOST << 30) / turned);
+    *turned_q27 = (int32_t)turned;
+    return fixed_shape_goes(&limb->femur_shape, &femur, part_q30) &&
+           fixed_shape_goes(&limb->tibia_shape, &tibia, part_q30);
 }
 
 /* --- at the equilibrium --------------------------------------------------------------------------------------- */
@@ -169,8 +237,8 @@ INLINE bool fixed_pivots_of(const fixed_stance_t *limb, fixed_pivots_t *p)
     int32_t end = rest->end_resists - rest->end_softens;
     m = (fixed_matrix_t){rest->resists.rr + end - rest->root_softens, rest->resists.ra + end, rest->resists.rb + end,
                          rest->resists.aa + end, rest->resists.ab + end, rest->resists.bb + end};
-    if (!fixed_factors_of(&m, limb->tibia_bend, &p->tibia) ||
-        !fixed_joint_of(limb->knee, p->tibia.resists, &p->knee)) {
+    if (!fixed_factors_of(&m, limb->tibia_bend, false, &p->tibia) ||
+        !fixed_joint_of(limb->knee, p->tibia.resists, false, &p->knee)) {
         return false;
     }
     p->per_knee = inverse_q27(p->knee);
@@ -182,7 +250,8 @@ INLINE bool fixed_pivots_of(const fixed_stance_t *limb, fixed_pivots_t *p)
     }
     m = (fixed_matrix_t){rest->resists.rr + end - rest->root_softens, rest->resists.ra + end, rest->resists.rb + end,
                          rest->resists.aa + end, rest->resists.ab + end, rest->resists.bb + end};
-    if (!fixed_factors_of(&m, limb->femur_bend, &p->femur) || !fixed_joint_of(limb->hip, p->femur.resists, &p->hip)) {
+    if (!fixed_factors_of(&m, limb->femur_bend, false, &p->femur) ||
+        !fixed_joint_of(limb->hip, p->femur.resists, false, &p->hip)) {
         return false;
     }
     p->per_hip = inverse_q27(p->hip);

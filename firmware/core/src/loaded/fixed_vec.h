@@ -84,8 +84,10 @@ INLINE int32_t kept(int64_t sum, int bits, int room, lost_t *lost)
 }
 
 /* Rooms: 4 in the result of an entry (q27) times a ratio (q27), of a lever (q28) times a ratio, and of a compliance
- * (q29) times an entry; 2 in the angle that a compliance and a moment make; 8 in what is left of a lever. */
-enum { ROOM_RATIO = 0, ROOM_LEVER = 1, ROOM_ANGLE = 1, ROOM_COMPLIANCE = 2, ROOM_LEVER_LESS = 2 };
+ * (q29) times an entry; 8 in what is left of a lever, and 8 rad (q27) in
+ * where a step leads. */
+enum { ROOM_RATIO = 0, ROOM_LEVER = 1, ROOM_COMPLIANCE = 2, ROOM_LEVER_LESS = 2,
+       ROOM_FAR_TURN = 1 };
 
 #define LEAST_PIVOT_Q27 (ONE_Q27 / 16 + 1) /* one over a sixteenth would be 16, which q27 does not hold */
 

@@ -33,14 +33,16 @@ INLINE float end_turn(const shape_t *shape)
     return shape->root + shape->a + shape->b;
 }
 
+/* Up to half a turn to either side; beyond it no direction, and no shape that is_bent_within() of loaded.c takes. */
+INLINE brace_vec_t turn_by(float angle_rad)
+{
+    const float cosine = brace_cosine_coarse(0.5f * angle_rad), sine = brace_sine(0.5f * angle_rad);
+    return (brace_vec_t){brace_fma(-2.0f * sine, sine, 1.0f), 2.0f * sine * cosine};
+}
+
 INLINE float turn_at(const shape_t *shape, const point_t *point)
 {
     return brace_fma(point->b, shape->b, brace_fma(point->a, shape->a, shape->root));
-}
-
-INLINE brace_vec_t turn_by(float angle_rad)
-{
-    return (brace_vec_t){brace_cosine_coarse(angle_rad), brace_sine(angle_rad)};
 }
 
 /* The turn at a point of the beam from that at the point before it. */

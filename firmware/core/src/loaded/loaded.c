@@ -7,10 +7,13 @@
 #include "loaded/solve.h"
 
 #define SINGULAR_PIVOT 1e-3f
-#define TURN_MOST_RAD 1.5f /* sine and cosine of base/trig.h hold up to pi/2 */
-#define BEND_MOST_RAD 0.8f /* each curvature: turns between points stay within what brace_small_turn() takes */
+#define TURN_MOST_RAD 3.1f /* of a link's root: turn_by() of link.h takes half a turn */
+#define BEND_MOST_RAD 1.2f /* each curvature: beyond it brace_small_turn() is off by more than 0.2 % between points */
+#define BEND_PROMISED_RAD 0.25f /* both curvatures of a link together: a line of curvature follows it up to here */
 #define FORCE_MOST_N 1e4f
-#define SETTLED_RAD 0.14f /* how far the tip may turn in the last step */
+#define STEPS_MOST 4
+#define SURE_RAD 0.05f    /* a step that turns no link's end further leaves less than 0.3 % of K */
+#define SETTLED_RAD 0.14f /* how far the last of all steps may turn them */
 
 /* The whole search. determinant_now: at the present load. */
 INLINE float buckling_factor(const stance_t *stance, float determinant_now)
@@ -70,6 +73,12 @@ INLINE brace_displacement_t displacement_of(const brace_loaded_t *loaded, const 
         moved.z + brace_fma(loaded->base_mm_per_n, on_base.z, along_root * loaded->base_root.z)};
 }
 
+/* How far a link bends within itself [rad]. */
+INLINE float bend_of(const shape_t *shape)
+{
+    return fabsf(shape->a) + fabsf(shape->b);
+}
+
 static bool is_bent_within(const shape_t *shape)
 {
     return fabsf(shape->root) <= TURN_MOST_RAD && fabsf(shape->a) <= BEND_MOST_RAD && fabsf(shape->b) <= BEND_MOST_RAD;
@@ -82,7 +91,7 @@ INLINE bool is_settled(float unsettled_rad, float det)
     return unsettled_rad * unsettled_rad <= SETTLED_RAD * SETTLED_RAD * det;
 }
 
-/* The equilibrium, by two steps of Newton's method from the straight limb. */
+/* The equilibrium, by steps of Newton's method from the straight limb: two, and two more where these are not enough. */
 INLINE brace_status_t settle(const brace_loaded_t *loaded, float theta1_rad, float theta2_rad,
                              const brace_load_t *load, brace_loaded_rest_t *at)
 {
@@ -108,11 +117,12 @@ INLINE brace_status_t settle(const brace_loaded_t *loaded, float theta1_rad, flo
                                 .on_base_n = vec_plus_scaled(tip_n, load->down, loaded->weight_n),
                                 .unsettled_rad = 0.0f};
     const float hip_yields = load->hip.yields_by_rad_per_n_mm + base, knee_yields = load->knee.yields_by_rad_per_n_mm;
-    step(at, true, hip_yields, knee_yields);
-    const float turned_rad = end_turn(&at->tibia_shape);
-    step(at, false, hip_yields, knee_yields);
-    at->unsettled_rad = end_turn(&at->tibia_shape) - turned_rad;
-    return fabsf(at->unsettled_rad) <= SETTLED_RAD ? BRACE_OK : BRACE_E_SINGULAR;
+    (void)bounded_step(at, true, hip_yields, knee_yields);
+    at->unsettled_rad = bounded_step(at, false, hip_yields, knee_yields);
+    for (int taken = 2; taken < STEPS_MOST && !(at->unsettled_rad <= SURE_RAD); taken++) {
+        at->unsettled_rad = bounded_step(at, false, hip_yields, knee_yields);
+    }
+    return at->unsettled_rad <= SETTLED_RAD ? BRACE_OK : BRACE_E_SINGULAR;
 }
 
 INLINE brace_status_t stiffness_at(const brace_loaded_t *loaded, const brace_loaded_rest_t *at,
@@ -140,6 +150,9 @@ INLINE brace_status_t stiffness_at(const brace_loaded_t *loaded, const brace_loa
     const brace_status_t status = brace_tensor_inverse(&c, vec_doubled(femur), &result->stiffness);
     if (status != BRACE_OK) {
         return status;
+    }
+    if (bend_of(&at->femur_shape) > BEND_PROMISED_RAD || bend_of(&at->tibia_shape) > BEND_PROMISED_RAD) {
+        result->stiffness.flags |= (uint32_t)BRACE_FLAG_NEAR_SINGULAR;
     }
     result->displacement = displacement_of(loaded, at, vec_plus(femur_rest.tip_mm, tibia_rest.tip_mm));
     result->tibia_mm = vec_turned(tibia_rest.tip_mm, femur);

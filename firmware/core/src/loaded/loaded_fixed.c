@@ -6,9 +6,10 @@
 
 /* brace/loaded.h in integers: the steps of loaded.c, in the formats of loaded/fixed_vec.h. */
 
-#define TURN_MOST ANGLE_Q29(1.5)
-#define BEND_MOST ANGLE_Q29(0.8)
-#define SETTLED ANGLE_Q29(0.14)
+#define BEND_PROMISED ANGLE_Q29(0.25) /* as loaded.c */
+#define STEPS_MOST 4
+#define SURE ANGLE_Q27(0.05)
+#define SETTLED ANGLE_Q27(0.14)
 #define SETTLED_SQUARE_Q31 Q31(0.14 * 0.14)
 
 /* --- the limb ------------------------------------------------------------------------------------------------- */
@@ -20,6 +21,23 @@ INLINE bool is_settled(int32_t unsettled, fixed_wide_t det)
     const int32_t limit = times(det.mantissa_q31, SETTLED_SQUARE_Q31, 31), exponent = det.exponent;
     return exponent >= 0 ? square_q31 >> (exponent > 31 ? 31 : exponent) <= limit
                          : square_q31 <= limit >> (exponent < -31 ? 31 : -exponent);
+}
+
+/* As settle of loaded.c. turned_q27: by the last step, a link's end at most
+ * returns false where no rest is found, or the limb yields too much for the formats */
+INLINE bool fixed_settle(fixed_limb_t *limb, const fixed_inputs_t *in, int32_t *turned_q27)
+{
+    bool is_within_formats = fixed_bounded_step(limb, true, in->hip_yields, in->knee_yields, turned_q27);
+    for (int taken = 1; taken < STEPS_MOST && is_within_formats && (taken < 2 || *turned_q27 > SURE); taken++) {
+        is_within_formats = fixed_bounded_step(limb, false, in->hip_yields, in->knee_yields, turned_q27);
+    }
+    return is_within_formats && *turned_q27 <= SETTLED;
+}
+
+/* How far a link bends within itself, half of it in q29. */
+INLINE uint32_t half_bend_of(const fixed_shape_t *shape)
+{
+    return (magnitude_of(shape->a) + magnitude_of(shape->b)) >> 1;
 }
 
 static brace_displacement_t displacement_of(const brace_loaded_fixed_t *limb, const fixed_inputs_t *in,
@@ -52,17 +70,8 @@ brace_status_t brace_loaded_fixed_stiffness(const brace_loaded_fixed_t *fixed, f
     const fixed_vec_t knee_carries = fixed_plus(tip, fixed_scaled(down, fixed->knee_q31 >> in.weight_shift, 30));
     fixed_limb_t limb = {.femur = link_seen(&fixed->femur, &in, NULL, knee_carries, down),
                          .tibia = link_seen(&fixed->tibia, &in, &tibia, tip, down)};
-    if (!fixed_step(&limb, true, in.hip_yields, in.knee_yields)) {
-        return BRACE_E_SINGULAR;
-    }
-    const int32_t turned = fixed_end_turn(&limb.tibia_shape);
-    if (!fixed_step(&limb, false, in.hip_yields, in.knee_yields)) {
-        return BRACE_E_SINGULAR;
-    }
-    const int32_t now_turned = fixed_end_turn(&limb.tibia_shape), unsettled = wrapped_less(now_turned, turned);
-    if (!is_within((now_turned >> 1) - (turned >> 1), SETTLED >> 1) ||
-        !fixed_is_bent_within(&limb.femur_shape, TURN_MOST, BEND_MOST) ||
-        !fixed_is_bent_within(&limb.tibia_shape, TURN_MOST, BEND_MOST)) {
+    int32_t turned_q27;
+    if (!fixed_settle(&limb, &in, &turned_q27)) {
         return BRACE_E_SINGULAR;
     }
     fixed_rest_t femur_rest, tibia_rest;
@@ -75,22 +84,22 @@ brace_status_t brace_loaded_fixed_stiffness(const brace_loaded_fixed_t *fixed, f
         return BRACE_E_SINGULAR;
     }
     const fixed_wide_t det = fixed_product(&p);
-    if (!is_settled(unsettled, det)) {
+    if (!is_settled(4 * turned_q27, det)) {
         return BRACE_E_SINGULAR;
     }
     lost_t lost = 0u;
     fixed_tensor_t c = {0, 0, 0}, springs = {0, 0, 0};
     const fixed_vec_t none = {0, 0};
-    const fixed_vec_t by_knee = add_link(&c, &springs, &tibia_rest, &p.tibia, none, &lost);
-    add_scaled(&c, by_knee, kept((int64_t)in.knee * p.per_knee, 27, ROOM_COMPLIANCE, &lost));
+    const fixed_vec_t by_knee = add_link(&c, &springs, &tibia_rest, &p.tibia, in.coarser, none, &lost);
+    add_scaled(&c, by_knee, kept((int64_t)(in.knee >> in.coarser) * p.per_knee, 27, ROOM_COMPLIANCE, &lost));
     const fixed_vec_t beyond = {kept((int64_t)by_knee.x * p.per_knee, 27, ROOM_LEVER, &lost),
                                 kept((int64_t)by_knee.z * p.per_knee, 27, ROOM_LEVER, &lost)};
     look_at(&c, &lost);
     if (lost >= LOST) {
         return BRACE_E_SINGULAR;
     }
-    const fixed_vec_t by_hip = add_link(&c, &springs, &femur_rest, &p.femur, beyond, &lost);
-    add_scaled(&c, by_hip, kept((int64_t)in.hip * p.per_hip, 27, ROOM_COMPLIANCE, &lost));
+    const fixed_vec_t by_hip = add_link(&c, &springs, &femur_rest, &p.femur, in.coarser, beyond, &lost);
+    add_scaled(&c, by_hip, kept((int64_t)(in.hip >> in.coarser) * p.per_hip, 27, ROOM_COMPLIANCE, &lost));
     look_at(&c, &lost);
     if (lost >= LOST) {
         return BRACE_E_SINGULAR;
@@ -98,12 +107,15 @@ brace_status_t brace_loaded_fixed_stiffness(const brace_loaded_fixed_t *fixed, f
     add_spring(&springs, fixed_turned_back(root_of(fixed->base_root_q31, &in), femur));
     const uint64_t even_q54 =
         (uint64_t)((fixed->base_q31 >> in.spring_shift) + limb.femur.end_q30 + limb.tibia.end_q30) << 24;
-    c.xx += (springs.xx >> 6) + even_q54, c.zz += (springs.zz >> 6) + even_q54;
-    c.xz += (uint64_t)((int64_t)springs.xz >> 6);
-    const brace_status_t status =
-        stiffness_of(&c, theta1_turn, in.force_exponent - fixed->length_exponent, &result->stiffness);
+    c.xx += ((springs.xx >> 6) + even_q54) >> in.coarser, c.zz += ((springs.zz >> 6) + even_q54) >> in.coarser;
+    c.xz += (uint64_t)((int64_t)springs.xz >> (6u + in.coarser));
+    const brace_status_t status = stiffness_of(
+        &c, theta1_turn, in.force_exponent - fixed->length_exponent - (int32_t)in.coarser, &result->stiffness);
     if (status != BRACE_OK) {
         return status;
+    }
+    if (half_bend_of(&limb.femur_shape) > BEND_PROMISED >> 1 || half_bend_of(&limb.tibia_shape) > BEND_PROMISED >> 1) {
+        result->stiffness.flags |= (uint32_t)BRACE_FLAG_NEAR_SINGULAR;
     }
     const fixed_vec_t tibia_bent = fixed_turned(tibia_rest.tip, femur);
     const int32_t length_format = 28 - fixed->length_exponent;

@@ -11,10 +11,15 @@
 
 #define SINGULAR 1e-3f
 #define LEFT_MOST_RAD2 6.25e-4f /* square of 0.025 rad: levers that turn by so much change K by up to twice that, 5 % */
+#define LEFT_SURE_RAD2 6.25e-6f /* square of 0.0025 rad: what further steps are not taken for */
+#define ROUNDS_MOST 2           /* of two steps each */
+#define ROUNDS_ON_MOST 10       /* where nobody waits at all */
+#define STEP_MOST_RAD2 1.44f    /* square of 1.2 rad: a longer step is shortened to it */
 #define SMALL_TURN_RAD2 0.36f /* squares: what brace_small_turn() takes, */
 #define LINKS_RAD2 1.44f      /* and of links, which turn half way on either side */
 #define JOINT_TURN_RAD 1.5f /* sine and cosine of base/trig.h hold up to pi/2 */
 #define FORCE_MOST_N 1e4f
+#define BEND_PROMISED 0.085f /* see bends_beyond */
 #define SLENDER 1e-4f /* least over largest eigenvalue; below it the accuracy is not promised */
 
 /* The limb's plane's frame, x outwards, y to the left, z up, as the coxa's frame at rest: x outwards, y up, z to the
@@ -68,65 +73,74 @@ static void see_straight(const brace_loaded_space_t *loaded, const brace_space_r
     at[2] = (forces_t){tibia_n, vec3_scaled(tibia_down, loaded->tibia.weight_n)};
 }
 
-static commanded_t commanded_of(const brace_space_rest_t *rest)
-{
-    return (commanded_t){rest->hip_commanded, rest->knee_commanded};
-}
+typedef brace_space_settling_t settling_t;
 
-/* curls: of the shape before; then of this one */
-INLINE void bend_to(const brace_loaded_space_t *loaded, brace_space_rest_t *rest, curls_t *curls, bool is_driven,
-                    brace_space_pose_t *drives)
+/* Bends the limb to its pose. curls: of the shape before; then of this one. drives: where asked for */
+static void bend_to(const brace_loaded_space_t *loaded, brace_space_rest_t *rest, bool is_driven, settling_t *settling)
 {
-    const commanded_t commanded = commanded_of(rest);
-    turns_of(&rest->pose, *curls, &commanded, &rest->turns);
+    const commanded_t commanded = {rest->hip_commanded, rest->knee_commanded};
+    turns_of(&rest->pose, settling->curls, &commanded, &rest->turns);
     see_forces(loaded, rest->tip_n, rest->down, rest);
-    bend_limb(loaded, rest, curls, is_driven, drives);
+    bend_limb(loaded, rest, &settling->curls, is_driven, &settling->drives);
 }
 
-/* As the first step has bent it. */
-static void bend_first(const brace_loaded_space_t *loaded, brace_space_rest_t *rest, curls_t *curls,
-                       brace_space_pose_t *drives)
-{
-    *curls = (curls_t){0.0f, 0.0f};
-    bend_to(loaded, rest, curls, true, drives);
-}
+/* Steps are taken in rounds of two: the matrix of a straight limb is eliminated, and both solve with it. The first
+ * round's limb stands at the commanded angles, that of a later one at the angles and under the forces that the steps
+ * before have come to. */
 
-/* As both steps have bent it. */
-static void bend_second(const brace_loaded_space_t *loaded, brace_space_rest_t *rest, curls_t *curls)
-{
-    brace_space_pose_t drives;
-    bend_to(loaded, rest, curls, false, &drives);
-}
-
-/* What two steps leave is about the third of such a series, second^2/first, or the second itself where that is less:
- * where a force goes through a joint, the first step is small and says nothing about those that follow. */
-INLINE bool is_settled(float first2, float second2)
-{
-    return second2 * second2 <= LEFT_MOST_RAD2 * (first2 + second2);
-}
-
-/* The first step with the matrix of the straight limb. */
-static void step_from_straight(const brace_loaded_space_t *loaded, brace_space_rest_t *rest, factors_t *factors)
+static void begin_round_straight(const brace_loaded_space_t *loaded, brace_space_rest_t *rest, settling_t *settling)
 {
     static const brace_space_pose_t straight;
-    const commanded_t commanded = commanded_of(rest);
+    const commanded_t commanded = {rest->hip_commanded, rest->knee_commanded};
     forces_t at[3];
-    brace_space_pose_t drives;
+    rest->pose = straight;
+    settling->hip = commanded.hip;
+    settling->knee = commanded.knee;
+    settling->curls = (curls_t){0.0f, 0.0f};
     see_straight(loaded, rest, &commanded, at);
-    straight_limb(loaded, at, &commanded, rest, factors, &drives);
-    solve_straight(factors, &drives, &straight, &commanded, &rest->pose);
+    straight_limb(loaded, at, &commanded, rest, &settling->factors, &settling->drives);
 }
 
-/* The second step, prolonged. drives: what the limb bent by the first is still driven by. returns whether both have
- * settled */
-static bool step_from_bent(const factors_t *factors, const brace_space_pose_t *drives, brace_space_rest_t *rest)
+static void begin_round_bent(const brace_loaded_space_t *loaded, const brace_space_rest_t *rest, settling_t *settling)
 {
-    const commanded_t commanded = commanded_of(rest);
+    const commanded_t turned = {rest->turns.hip, rest->turns.knee};
+    const forces_t at[3] = {{rest->coxa.beyond_n, rest->coxa.own_n},
+                            {rest->femur.beyond_n, rest->femur.own_n},
+                            {rest->tibia.beyond_n, rest->tibia.own_n}};
+    brace_space_pose_t drives; /* of the straight limb: the bent limb's are known */
+    settling->hip = turned.hip;
+    settling->knee = turned.knee;
+    straight_limb(loaded, at, &turned, rest, &settling->factors, &drives);
+}
+
+INLINE float step_scale(float step2)
+{
+    return step2 > STEP_MOST_RAD2 ? sqrtf(STEP_MOST_RAD2 / step2) : 1.0f;
+}
+
+static void first_step(brace_space_rest_t *rest, settling_t *settling)
+{
+    const commanded_t commanded = {settling->hip, settling->knee};
     brace_space_pose_t step;
-    solve_straight(factors, drives, &rest->pose, &commanded, &step);
-    const float first2 = dot_of_poses(&rest->pose, &rest->pose), second2 = dot_of_poses(&step, &step);
-    add_to_pose(&rest->pose, &step, over_second_step(dot_of_poses(&step, &rest->pose), first2));
-    return is_settled(first2, second2);
+    solve_straight(&settling->factors, &settling->drives, &rest->pose, &commanded, &step);
+    const float scale = step_scale(dot_of_poses(&step, &step));
+    static const brace_space_pose_t none;
+    settling->first = none;
+    add_to_pose(&settling->first, &step, scale);
+    add_to_pose(&rest->pose, &settling->first, 1.0f);
+}
+
+/* Prolonged. What both steps leave is about the third of such a series, second^2/first, or the second itself where that
+ * is less: where a force goes through a joint, the first step is small and says nothing about those that follow. */
+static void second_step(brace_space_rest_t *rest, settling_t *settling)
+{
+    const commanded_t commanded = {settling->hip, settling->knee};
+    brace_space_pose_t step;
+    solve_straight(&settling->factors, &settling->drives, &rest->pose, &commanded, &step);
+    const float first2 = dot_of_poses(&settling->first, &settling->first), second2 = dot_of_poses(&step, &step);
+    const float prolonged = over_second_step(dot_of_poses(&step, &settling->first), first2);
+    add_to_pose(&rest->pose, &step, prolonged * step_scale(prolonged * prolonged * second2));
+    settling->left_rad2 = second2 * second2 / (first2 + second2 + FLT_MIN);
 }
 
 static bool is_within(const brace_space_pose_t *pose)
@@ -174,23 +188,52 @@ static brace_status_t take(const brace_loaded_space_t *loaded, float theta1_rad,
     return BRACE_OK;
 }
 
+/* A round, and the limb bent as it leads. is_first: from the straight limb; else from where the limb is bent to */
+static void take_round(const brace_loaded_space_t *loaded, brace_space_rest_t *rest, bool is_first,
+                       settling_t *settling)
+{
+    if (is_first) {
+        begin_round_straight(loaded, rest, settling);
+    } else {
+        begin_round_bent(loaded, rest, settling);
+    }
+    first_step(rest, settling);
+    bend_to(loaded, rest, true, settling);
+    second_step(rest, settling);
+    bend_to(loaded, rest, settling->left_rad2 > LEFT_SURE_RAD2, settling);
+}
+
+static brace_status_t rest_found(const brace_space_rest_t *rest, const settling_t *settling)
+{
+    return settling->left_rad2 <= LEFT_MOST_RAD2 && is_within(&rest->pose) ? BRACE_OK : BRACE_E_SINGULAR;
+}
+
 brace_status_t brace_loaded_space_settle(const brace_loaded_space_t *loaded, float theta1_rad, float theta2_rad,
                                          const brace_space_load_t *load, brace_space_rest_t *rest)
 {
-    factors_t factors;
-    curls_t curls;
+    settling_t settling;
     const brace_status_t status = take(loaded, theta1_rad, theta2_rad, load, rest);
     if (status != BRACE_OK) {
         return status;
     }
-    brace_space_pose_t drives;
-    step_from_straight(loaded, rest, &factors);
-    bend_first(loaded, rest, &curls, &drives);
-    if (!(step_from_bent(&factors, &drives, rest) && is_within(&rest->pose))) {
-        return BRACE_E_SINGULAR;
+    take_round(loaded, rest, true, &settling);
+    for (int rounds = 1; rounds < ROUNDS_MOST && settling.left_rad2 > LEFT_SURE_RAD2; rounds++) {
+        take_round(loaded, rest, false, &settling);
     }
-    bend_second(loaded, rest, &curls);
-    return BRACE_OK;
+    return rest_found(rest, &settling);
+}
+
+brace_status_t brace_loaded_space_settle_on(const brace_loaded_space_t *loaded, brace_space_rest_t *rest)
+{
+    settling_t settling;
+    settling.curls = (curls_t){curl_of(&rest->coxa, rest->pose.coxa), curl_of(&rest->femur, rest->pose.femur)};
+    bend_to(loaded, rest, true, &settling);
+    int rounds = 0;
+    do {
+        take_round(loaded, rest, false, &settling);
+        rounds++;
+    } while (rounds < ROUNDS_ON_MOST && settling.left_rad2 > LEFT_SURE_RAD2);
+    return rest_found(rest, &settling);
 }
 
 /* How far the tip has moved from where the commanded limb has it. */
@@ -221,6 +264,24 @@ static void sum_first(const brace_loaded_space_t *loaded, const brace_space_rest
     *coxa = frames.coxa;
 }
 
+/* A link is one part. Under a load its curvature is not the line that a part has: by about this much of a radian, its
+ * own turns times how far the load at its end would bend it alone. */
+INLINE bool bends_beyond(const brace_space_link_t *link, vec3_t turn, const brace_space_bent_t *bent)
+{
+    const float force_n = fabsf(bent->beyond_n.x) + fabsf(bent->beyond_n.y) + fabsf(bent->beyond_n.z);
+    const float by_moment = brace_fma(link->bend_rad_per_n_mm, fabsf(turn.z),
+                                      link->sideways_rad_per_n_mm * fabsf(turn.y));
+    return link->length_mm * force_n * by_moment > BEND_PROMISED;
+}
+
+static uint32_t flags_of(const brace_loaded_space_t *loaded, const brace_space_rest_t *rest)
+{
+    const bool is_beyond = bends_beyond(&loaded->coxa, rest->pose.coxa, &rest->coxa) ||
+                           bends_beyond(&loaded->femur, rest->pose.femur, &rest->femur) ||
+                           bends_beyond(&loaded->tibia, rest->pose.tibia, &rest->tibia);
+    return is_beyond ? (uint32_t)BRACE_FLAG_NEAR_SINGULAR : 0u;
+}
+
 /* sum: as sum_first has left it; then whole
  * returns as brace_loaded_space_stiffness */
 static brace_status_t sum_second(const brace_loaded_space_t *loaded, const brace_space_rest_t *rest,
@@ -238,6 +299,7 @@ static brace_status_t sum_second(const brace_loaded_space_t *loaded, const brace
     result->yaw_turn_rad = rest->pose.yaw;
     result->hip_turn_rad = rest->pose.hip;
     result->knee_turn_rad = rest->pose.knee;
+    result->flags = flags_of(loaded, rest);
     return BRACE_OK;
 }
 
@@ -256,31 +318,50 @@ brace_status_t brace_loaded_space_stiffness(const brace_loaded_space_t *loaded, 
 
 /* --- in steps ------------------------------------------------------------------------------------------------- */
 
-enum { STEP_FIRST = 0, BEND_FIRST, STEP_SECOND, BEND_SECOND, ELIMINATE, SUM_FIRST, SUM_SECOND };
+enum { STEP_FIRST = 0, BEND_FIRST, STEP_SECOND, ELIMINATE, SUM_FIRST, SUM_SECOND };
 
 brace_status_t brace_loaded_space_begin(const brace_loaded_space_t *loaded, float theta1_rad, float theta2_rad,
                                         const brace_space_load_t *load, brace_space_work_t *work)
 {
     work->step = STEP_FIRST;
+    work->rounds = 0;
     return take(loaded, theta1_rad, theta2_rad, load, &work->rest);
+}
+
+static void work_first_step(const brace_loaded_space_t *loaded, brace_space_work_t *work)
+{
+    if (work->rounds == 0u) {
+        begin_round_straight(loaded, &work->rest, &work->of.settling);
+    } else {
+        begin_round_bent(loaded, &work->rest, &work->of.settling);
+    }
+    first_step(&work->rest, &work->of.settling);
+    work->rounds++;
+}
+
+/* returns whether the work goes on: with another round, or because the limb rests */
+static bool work_second_step(const brace_loaded_space_t *loaded, brace_space_work_t *work)
+{
+    settling_t *settling = &work->of.settling;
+    second_step(&work->rest, settling);
+    const bool is_sure = !(settling->left_rad2 > LEFT_SURE_RAD2), is_last = work->rounds >= ROUNDS_MOST;
+    bend_to(loaded, &work->rest, !is_sure, settling);
+    work->step = is_sure || is_last ? ELIMINATE : STEP_FIRST;
+    return work->step == STEP_FIRST || rest_found(&work->rest, settling) == BRACE_OK;
 }
 
 bool brace_loaded_space_step(const brace_loaded_space_t *loaded, brace_space_work_t *work,
                              brace_space_result_t *result, brace_status_t *status)
 {
     brace_space_rest_t *rest = &work->rest;
-    factors_t *factors = &work->of.settling.factors;
-    curls_t *curls = &work->of.settling.curls;
-    brace_space_pose_t *drives = &work->of.settling.drives;
     freedoms_t *free = &work->of.summing.freedoms;
     axes_t *coxa = &work->of.summing.coxa;
     sum_t *sum = &work->of.summing.sum;
     bool goes_on = true;
     switch (work->step++) {
-    case STEP_FIRST: step_from_straight(loaded, rest, factors); break;
-    case BEND_FIRST: bend_first(loaded, rest, curls, drives); break;
-    case STEP_SECOND: goes_on = step_from_bent(factors, drives, rest) && is_within(&rest->pose); break;
-    case BEND_SECOND: bend_second(loaded, rest, curls); break;
+    case STEP_FIRST: work_first_step(loaded, work); break;
+    case BEND_FIRST: bend_to(loaded, rest, true, &work->of.settling); break;
+    case STEP_SECOND: goes_on = work_second_step(loaded, work); break;
     case ELIMINATE: goes_on = eliminate_rest(loaded, rest, free); break;
     case SUM_FIRST: sum_first(loaded, rest, free, coxa, sum); break;
     default: *status = sum_second(loaded, rest, free, coxa, sum, result); return true; /* SUM_SECOND */

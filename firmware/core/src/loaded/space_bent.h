@@ -135,6 +135,7 @@ INLINE vec3_t drives_of(const brace_space_link_t *link, const brace_space_bent_t
 {
     const vec3_t f = bent->beyond_n;
     vec3_t drives = vec3_plus_scaled(moment_n_mm, chord_n_mm, 0.5f);
+    drives.x = brace_fma(link->twist_share, chord_n_mm.x, moment_n_mm.x);
     drives.y = brace_fma(-bent->across_curl, moment_n_mm.x, drives.y);
     drives.y = brace_fma(bent->by_sideways_mm, f.x, brace_fma(link->twelfth_mm, bent->own_n.z, drives.y));
     drives.z = brace_fma(-bent->sideways_curl, moment_n_mm.x, drives.z);

@@ -1,8 +1,9 @@
-/* On the way to the equilibrium in space: the limb's equations with straight links at their commanded angles.
+/* On the way to the equilibrium in space: the limb's equations with straight links.
  *
- * Their matrix is eliminated once, from the tip to the base. Every step solves with it for what the bent limb is still
- * driven by. It may be rough, because it decides only how fast the steps approach the equilibrium: twists stand alone
- * in it.
+ * Their matrix is eliminated from the tip to the base: first at the commanded angles, and where two steps are not
+ * enough, at the angles and under the forces that the steps have come to. A step solves with it for what the bent limb
+ * is still driven by. It may be rough, because it decides only how fast the steps approach the equilibrium: twists
+ * stand alone in it, and turns out of the plane are left out.
  */
 #ifndef BRACE_CORE_SPACE_STRAIGHT_H
 #define BRACE_CORE_SPACE_STRAIGHT_H
@@ -10,7 +11,7 @@
 #include "brace/loaded_space_types.h"
 #include "loaded/space_frame.h"
 
-/* The joints' commanded directions, each seen from the link before. */
+/* The joints' directions, each seen from the link before. */
 typedef struct {
     brace_vec_t hip, knee;
 } commanded_t;
@@ -25,9 +26,18 @@ typedef brace_space_link_factor_t link_factor_t;
 typedef brace_space_factors_t factors_t;
 typedef brace_space_held_t held_t;
 
+/* A smaller pivot counts as this one, as in loaded/solve.h. */
+#define PIVOT_LEAST_ON_THE_WAY 0.25f
+
+INLINE float pivot_on_the_way(float pivot)
+{
+    return pivot < PIVOT_LEAST_ON_THE_WAY ? PIVOT_LEAST_ON_THE_WAY : pivot;
+}
+
 INLINE joint_factor_t eliminated(sym3_t *resists, vec3_t row, float entry, float rad_per_n_mm)
 {
-    const float per_pivot = 1.0f / brace_fma(rad_per_n_mm, entry, 1.0f), yields = rad_per_n_mm * per_pivot;
+    const float per_pivot = 1.0f / pivot_on_the_way(brace_fma(rad_per_n_mm, entry, 1.0f));
+    const float yields = rad_per_n_mm * per_pivot;
     sym3_add(resists, row, vec3_scaled(row, -yields));
     return (joint_factor_t){row, yields, per_pivot};
 }
@@ -85,7 +95,8 @@ INLINE void straight_limb(const brace_loaded_space_t *loaded, const forces_t at[
     factors->yaw = eliminated(&held.resists, vec3(r.xy, r.yy, r.yz), r.yy, rest->yaw.yields_by_rad_per_n_mm);
     const float coxa_mm = loaded->coxa.length_mm, base = loaded->base_rotation_rad_per_n_mm;
     drives->base = brace_fma(-coxa_mm, rest->whole_n.y, held.moment_n_mm.z);
-    factors->base_per_pivot = 1.0f / brace_fma(base, brace_fma(-coxa_mm, rest->whole_n.x, held.resists.zz), 1.0f);
+    const float base_pivot = brace_fma(base, brace_fma(-coxa_mm, rest->whole_n.x, held.resists.zz), 1.0f);
+    factors->base_per_pivot = 1.0f / pivot_on_the_way(base_pivot);
     factors->base_yields = base * factors->base_per_pivot;
 }
 

@@ -1,7 +1,7 @@
 /* At the equilibrium in space: the limb's matrix, eliminated from the tip to the base, and C.
  *
- * C is a sum of one vector for each eliminated coordinate and each spring. What the load softens at a link's end
- * springs grows with its square: K does without it. The buckling factor counts it (space_parts.h).
+ * C is a sum of one vector for each eliminated coordinate and each spring. A link's springs are eliminated first: what
+ * moves its end turns with the link and all before it, so under a load they soften those.
  */
 #ifndef BRACE_CORE_SPACE_SUM_H
 #define BRACE_CORE_SPACE_SUM_H
@@ -67,6 +67,19 @@ INLINE freedom_t eliminate_joint(held_t *held, float rad_per_n_mm, pivots_t *piv
     return eliminate(held, row, r.zz, rad_per_n_mm, pivots);
 }
 
+/* Adds a spring of a link. Everything before it resists less then, and the link's own turns too.
+ * row: the moments on what lies before for a unit of the spring's move; on_own: those on the link's own turns
+ * follows, by_own: both times how the spring yields, less */
+INLINE void soften_link(vec3_t row, vec3_t follows, vec3_t on_own, vec3_t by_own, held_t *held, sym3_t *own,
+                        axes_t *rows)
+{
+    sym3_add(&held->resists, row, follows);
+    sym3_add(own, on_own, by_own);
+    rows->x = vec3_plus_scaled(rows->x, row, by_own.x);
+    rows->y = vec3_plus_scaled(rows->y, row, by_own.y);
+    rows->z = vec3_plus_scaled(rows->z, row, by_own.z);
+}
+
 /* is_last: nothing lies beyond the link. */
 INLINE void eliminate_link(const brace_space_link_t *link, vec3_t turn, const brace_space_bent_t *bent, bool is_last,
                            held_t *held, link_freedoms_t *free, pivots_t *pivots)
@@ -80,47 +93,64 @@ INLINE void eliminate_link(const brace_space_link_t *link, vec3_t turn, const br
 
     /* Among the link's own turns, and between them and all before. */
     sym3_t own = is_last ? r : own_turns_resist(r, curl_y, curl_z);
-    own = sym3_plus_scaled(own, chord, 0.25f);
-    own.yy = brace_fma(link->twelfth_mm, f.x, own.yy);
-    own.zz = brace_fma(brace_fma(-2.0f, link->bow_mm.x, by_bend.z), f.x, own.zz);
+    const float twist = link->twist_share, half_twist = 0.5f * twist;
+    own.xx = brace_fma(twist * twist, chord.xx, own.xx);
+    own.xy = brace_fma(half_twist, chord.xy, own.xy);
+    own.xz = brace_fma(half_twist, chord.xz, own.xz);
+    own.yy = brace_fma(link->twelfth_mm, f.x, brace_fma(0.25f, chord.yy, own.yy));
+    own.yz = brace_fma(0.25f, chord.yz, own.yz);
+    own.zz = brace_fma(brace_fma(-2.0f, link->bow_mm.x, by_bend.z), f.x, brace_fma(0.25f, chord.zz, own.zz));
     own.zz = brace_fma(brace_fma(-2.0f, link->bow_mm.z, -by_bend.x), f.y, own.zz);
     const sym3_t q = sym3_plus_scaled(r, chord, 0.5f);
     const vec3_t half_m = vec3_scaled(vec3_plus_scaled(m, chord_n_mm, 0.5f), 0.5f);
-    vec3_t x = vec3(q.xx, q.xy + half_m.z, q.xz - half_m.y);
-    vec3_t y = vec3(q.xy - half_m.z, brace_fma(by_sideways, f.z, q.yy), brace_fma(-by_sideways, f.y, q.yz + half_m.x));
-    vec3_t z = vec3(brace_fma(-by_bend.z, f.z, q.xz + half_m.y), brace_fma(by_bend.x, f.z, q.yz - half_m.x),
-                    brace_fma(-by_bend.x, f.y, brace_fma(by_bend.z, f.x, q.zz)));
+    axes_t rows;
+    rows.x = vec3(brace_fma(twist, chord.xx, r.xx),
+                  brace_fma(twist, chord.xy, brace_fma(0.5f, brace_fma(twist, chord_n_mm.z, m.z), r.xy)),
+                  brace_fma(twist, chord.xz, brace_fma(-0.5f, brace_fma(twist, chord_n_mm.y, m.y), r.xz)));
+    rows.y = vec3(q.xy - half_m.z, brace_fma(by_sideways, f.z, q.yy), brace_fma(-by_sideways, f.y, q.yz + half_m.x));
+    rows.z = vec3(brace_fma(-by_bend.z, f.z, q.xz + half_m.y), brace_fma(by_bend.x, f.z, q.yz - half_m.x),
+                  brace_fma(-by_bend.x, f.y, brace_fma(by_bend.z, f.x, q.zz)));
     if (!is_last) {
-        y = vec3_plus_scaled(y, x, -curl_y);
-        z = vec3_plus_scaled(z, x, -curl_z);
+        rows.y = vec3_plus_scaled(rows.y, rows.x, -curl_y);
+        rows.z = vec3_plus_scaled(rows.z, rows.x, -curl_z);
     }
     held->resists = sym3_plus_scaled(r, chord, 1.0f);
     held->moment_n_mm = vec3_plus(m, chord_n_mm);
 
-    const float share = link->end_share + 0.5f, curled_n = link->curl_per_mm * m.x;
+    const float share = link->end_share + 0.5f, stretch_share = link->stretch_end_share + 0.5f;
+    const float curled_n = link->curl_per_mm * m.x;
     const vec3_t across = vec3_cross(f, bent->across);
     const vec3_t sideways = vec3(f.y, brace_fma(f.z, bent->sideways.x, -f.x), -(f.y * bent->sideways.x));
+    const vec3_t stretch = vec3(-(f.z * link->stretch_root.z), f.z * link->stretch_root.x,
+                                brace_fma(f.x, link->stretch_root.z, -(f.y * link->stretch_root.x)));
+    const vec3_t on_across = vec3(twist * across.x, brace_fma(share, across.y, curled_n), share * across.z);
+    const vec3_t on_sideways = vec3(twist * sideways.x, share * sideways.y, brace_fma(share, sideways.z, curled_n));
+    const vec3_t on_stretch = vec3(0.0f, stretch_share * stretch.y, stretch_share * stretch.z);
     free->across = (freedom_t){vec3_scaled(across, -link->across_mm_per_n), link->across_mm_per_n};
     free->sideways = (freedom_t){vec3_scaled(sideways, -link->sideways_mm_per_n), link->sideways_mm_per_n};
-    free->by_across = vec3_scaled(free->across.follows, share);
-    free->by_across.y = brace_fma(-link->across_mm_per_n, curled_n, free->by_across.y);
-    free->by_sideways = vec3_scaled(free->sideways.follows, share);
-    free->by_sideways.z = brace_fma(-link->sideways_mm_per_n, curled_n, free->by_sideways.z);
+    free->stretch_follows = vec3_scaled(stretch, -1.0f);
+    free->by_across = vec3_scaled(on_across, -link->across_mm_per_n);
+    free->by_sideways = vec3_scaled(on_sideways, -link->sideways_mm_per_n);
+    free->y_by_stretch = -on_stretch.y;
+    free->z_by_stretch = -on_stretch.z;
+    soften_link(across, free->across.follows, on_across, free->by_across, held, &own, &rows);
+    soften_link(sideways, free->sideways.follows, on_sideways, free->by_sideways, held, &own, &rows);
+    soften_link(stretch, free->stretch_follows, on_stretch, vec3_scaled(on_stretch, -1.0f), held, &own, &rows);
     if (!is_last) {
-        float twist = brace_fma(link->sideways_spread_per_n_mm * turn.z, turn.z, link->twist_rad_per_n_mm);
-        twist = brace_fma(link->across_spread_per_n_mm * turn.y, turn.y, twist);
-        free->x = eliminate(held, x, own.xx, twist, pivots);
+        float yields = brace_fma(link->sideways_spread_per_n_mm * turn.z, turn.z, link->twist_rad_per_n_mm);
+        yields = brace_fma(link->across_spread_per_n_mm * turn.y, turn.y, yields);
+        free->x = eliminate(held, rows.x, own.xx, yields, pivots);
         free->y_by_x = -(free->x.yields * own.xy);
         free->z_by_x = -(free->x.yields * own.xz);
         own.yy = brace_fma(free->y_by_x, own.xy, own.yy);
         own.yz = brace_fma(free->y_by_x, own.xz, own.yz);
         own.zz = brace_fma(free->z_by_x, own.xz, own.zz);
-        y = vec3_plus_scaled(y, x, free->y_by_x);
-        z = vec3_plus_scaled(z, x, free->z_by_x);
+        rows.y = vec3_plus_scaled(rows.y, rows.x, free->y_by_x);
+        rows.z = vec3_plus_scaled(rows.z, rows.x, free->z_by_x);
     }
-    free->y = eliminate(held, y, own.yy, link->sideways_rad_per_n_mm, pivots);
+    free->y = eliminate(held, rows.y, own.yy, link->sideways_rad_per_n_mm, pivots);
     free->z_by_y = -(free->y.yields * own.yz);
-    free->z = eliminate(held, vec3_plus_scaled(z, y, free->z_by_y), brace_fma(free->z_by_y, own.yz, own.zz),
+    free->z = eliminate(held, vec3_plus_scaled(rows.z, rows.y, free->z_by_y), brace_fma(free->z_by_y, own.yz, own.zz),
                         link->bend_rad_per_n_mm, pivots);
 }
 
@@ -210,13 +240,20 @@ INLINE void add_link(sum_t *sum, const brace_space_link_t *link, vec3_t turn, co
         y = vec3_plus_scaled(y, beyond.x, -bent->across_curl);
         z = vec3_plus_scaled(z, beyond.x, -bent->sideways_curl);
     }
+    const float share_y = link->stretch_end_share * turn.y, share_z = link->stretch_end_share * turn.z;
+    const brace_vec_t root = link->stretch_root;
+    const vec3_t own_stretch = vec3(brace_fma(-share_z, root.z, root.x), brace_fma(share_z, root.x, root.z),
+                                    -(share_y * root.x));
+    const vec3_t stretch = axes_times(axes, own_stretch);
     y = vec3_plus_scaled(vec3_plus_scaled(y, across, free->by_across.y), sideways, free->by_sideways.y);
+    y = vec3_plus_scaled(y, stretch, free->y_by_stretch);
     z = vec3_plus_scaled(vec3_plus_scaled(z, across, free->by_across.z), sideways, free->by_sideways.z);
+    z = vec3_plus_scaled(z, stretch, free->z_by_stretch);
     sum->by_turn.x = vec3_plus(beyond.x, by_chord.x);
     sum->by_turn.y = vec3_plus(beyond.y, by_chord.y);
     sum->by_turn.z = vec3_plus(beyond.z, by_chord.z);
     if (!is_last) {
-        vec3_t x = vec3_plus_scaled(beyond.x, by_chord.x, 0.5f);
+        vec3_t x = vec3_plus_scaled(beyond.x, by_chord.x, link->twist_share);
         x = vec3_plus_scaled(vec3_plus_scaled(x, across, free->by_across.x), sideways, free->by_sideways.x);
         y = vec3_plus_scaled(y, x, free->y_by_x);
         z = vec3_plus_scaled(z, x, free->z_by_x);
@@ -224,15 +261,9 @@ INLINE void add_link(sum_t *sum, const brace_space_link_t *link, vec3_t turn, co
     }
     add_freedom(sum, &free->across, across);
     add_freedom(sum, &free->sideways, sideways);
+    add_freedom(sum, &(freedom_t){free->stretch_follows, 1.0f}, stretch);
     add_freedom(sum, &free->y, y);
     add_freedom(sum, &free->z, vec3_plus_scaled(z, y, free->z_by_y));
-
-    const float share_y = link->stretch_end_share * turn.y, share_z = link->stretch_end_share * turn.z;
-    const brace_vec_t root = link->stretch_root;
-    const vec3_t own_stretch = vec3(brace_fma(-share_z, root.z, root.x), brace_fma(share_z, root.x, root.z),
-                                    -(share_y * root.x));
-    const vec3_t stretch = axes_times(axes, own_stretch);
-    sym3_add(&sum->c, stretch, stretch);
     sum->tip_mm = vec3_plus(sum->tip_mm, axes_times(axes, chord));
 }
 
