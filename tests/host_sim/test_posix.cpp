@@ -288,6 +288,34 @@ void slcan_clients_and_controllers_share_the_bus()
     close(second);
 }
 
+// As typed in a terminal at a controller's own SLCAN port; the connection is gone as soon as the line is written.
+void a_stop_needs_no_open_channel()
+{
+    Bus bus("tcp://127.0.0.1:0");
+    Host one(bus.bus.get());
+    brace_can_setup_t setup = at_1m();
+    setup.urgent_id = 1;
+    (void)one.hal.can_setup(one.context(), &setup);
+    const auto poll = [&bus] { bus.poll(); };
+    brace_can_frame_t got{};
+    const int client = connected(bus.bus->where);
+    put(client, "t0020\rT000000010\rr0010\r");
+    TEST_ASSERT_EQUAL_STRING("\a\a\a", taken(client, poll, 3).c_str());
+    TEST_ASSERT_EQUAL_INT(0, one.hal.can_receive(one.context(), &got));
+    for (const char *before : {"", "L\r"}) {
+        const int typist = connected(bus.bus->where);
+        put(typist, before);
+        put(typist, "t0010\r");
+        close(typist);
+        for (int i = 0; i < 1000 && one.hal.can_receive(one.context(), &got) == 0; ++i) {
+            bus.poll();
+        }
+        TEST_ASSERT_EQUAL_HEX32(1, got.id);
+        got = {};
+    }
+    close(client);
+}
+
 void a_client_that_does_not_read_loses_frames_and_nothing_else()
 {
     Bus bus("tcp://127.0.0.1:0");
@@ -577,6 +605,7 @@ int main()
     RUN_TEST(a_full_ring_loses_the_newest_and_counts);
     RUN_TEST(an_urgent_frame_finds_room_in_every_controller_and_goes_first);
     RUN_TEST(slcan_clients_and_controllers_share_the_bus);
+    RUN_TEST(a_stop_needs_no_open_channel);
     RUN_TEST(a_client_that_does_not_read_loses_frames_and_nothing_else);
     RUN_TEST(more_clients_than_places_are_sent_away);
     RUN_TEST(urls_that_cannot_be_opened_say_why);

@@ -101,6 +101,16 @@ uint32_t bus_bit_rate(const brace_posix_bus_t *bus)
     return 0;
 }
 
+bool bus_is_urgent(const brace_posix_bus_t *bus, const brace_posix_wire_frame_t *frame)
+{
+    bool is_urgent = false;
+    for (uint32_t i = 0; i < BRACE_POSIX_NODES; i++) {
+        const brace_posix_node_t *node = &bus->node[i];
+        is_urgent = is_urgent || (node->used && node->on && frame->frame.id == node->setup.urgent_id);
+    }
+    return is_urgent && frame->frame.id != 0u && !frame->extended && !frame->remote;
+}
+
 static void node_takes(brace_posix_node_t *node, const brace_can_frame_t *frame)
 {
     if (node->setup.urgent_id != 0u && frame->id == node->setup.urgent_id) {

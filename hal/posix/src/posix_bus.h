@@ -17,6 +17,9 @@ void bus_to_outside(brace_posix_bus_t *bus, const brace_posix_slcan_t *sender,
 /* The bit rate of the controllers on the bus; 0: no controller is on yet. */
 uint32_t bus_bit_rate(const brace_posix_bus_t *bus);
 
+/* Is this a frame that some controller takes before all others? */
+bool bus_is_urgent(const brace_posix_bus_t *bus, const brace_posix_wire_frame_t *frame);
+
 void posix_slcan_start(brace_posix_slcan_t *client, int file);
 void posix_slcan_poll(brace_posix_bus_t *bus, brace_posix_slcan_t *client);
 void posix_slcan_frame(const brace_posix_bus_t *bus, brace_posix_slcan_t *client,

@@ -26,11 +26,13 @@ static bool hears(const brace_posix_bus_t *bus, const brace_posix_slcan_t *clien
     return client->bit_rate == 0u || rate == 0u || client->bit_rate == rate;
 }
 
+/* A frame goes by an open channel only, but a stop always does, as on a controller's own SLCAN port. */
 static bool send_frame(brace_posix_bus_t *bus, brace_posix_slcan_t *client, const char *command,
                        uint32_t length)
 {
     brace_posix_wire_frame_t frame;
-    if (!client->open || client->listen_only || !posix_slcan_read(command, length, &frame)) {
+    const bool sends = client->open && !client->listen_only;
+    if (!posix_slcan_read(command, length, &frame) || !(sends || bus_is_urgent(bus, &frame))) {
         return false;
     }
     if (hears(bus, client)) {
