@@ -75,6 +75,19 @@ static void test_every_change_of_the_faults_is_told_once(void)
     TEST_ASSERT_GREATER_THAN(BRACE_FAULT_COUNT / 2, apart);
 }
 
+/* Each heartbeat has the condition behind it, which tells all faults that there are. */
+static brace_can_condition_t condition(void)
+{
+    brace_can_frame_t frame;
+    brace_can_condition_t told;
+    TEST_ASSERT_TRUE(announce_next(&announce, &tick, &frame));
+    TEST_ASSERT_EQUAL_HEX32(BRACE_CAN_ID_DETAILS, frame.id);
+    TEST_ASSERT_EQUAL(8, frame.length);
+    brace_can_unpack_condition(frame.data, &told);
+    announce_sent(&announce, &tick, BRACE_CAN_ID_DETAILS);
+    return told;
+}
+
 static void test_a_heart_beats_at_its_rate(void)
 {
     brace_can_frame_t frame;
@@ -84,6 +97,7 @@ static void test_a_heart_beats_at_its_rate(void)
     TEST_ASSERT_TRUE(announce_next(&announce, &tick, &frame));
     TEST_ASSERT_EQUAL_HEX32(BRACE_CAN_ID_HEARTBEAT, frame.id);
     announce_sent(&announce, &tick, BRACE_CAN_ID_HEARTBEAT);
+    (void)condition();
     TEST_ASSERT_TRUE(is_silent());
     tick.now_us = announce.beat_us + 4000000000u; /* however long it was silent */
     TEST_ASSERT_TRUE(announce_next(&announce, &tick, &frame));
@@ -107,8 +121,11 @@ static void test_every_change_of_the_mode_is_told_once(void)
         TEST_ASSERT_EQUAL_HEX32(row[i].state, told.state);
         TEST_ASSERT_EQUAL(row[i].mode, told.mode);
         TEST_ASSERT_EQUAL(BRACE_SETTING_BENCH, told.setting);
-        TEST_ASSERT_EQUAL_HEX32(0, told.faults);
         announce_sent(&announce, &tick, BRACE_CAN_ID_HEARTBEAT);
+        const brace_can_condition_t has = condition();
+        TEST_ASSERT_EQUAL_HEX32(0, has.faults);
+        TEST_ASSERT_EQUAL(row[i].mode, has.mode);
+        TEST_ASSERT_EQUAL(BRACE_SETTING_BENCH, has.setting);
         TEST_ASSERT_TRUE(is_silent());
     }
     app.controller.mode.now = BRACE_MODE_FAULT;
@@ -117,9 +134,11 @@ static void test_every_change_of_the_mode_is_told_once(void)
     announce_sent(&announce, &tick, BRACE_CAN_ID_EMERGENCY);
     brace_can_frame_t frame;
     brace_can_heartbeat_t told;
-    TEST_ASSERT_TRUE(announce_next(&announce, &tick, &frame)); /* a heartbeat tells those that there are, too */
+    TEST_ASSERT_TRUE(announce_next(&announce, &tick, &frame)); /* then the heartbeat, and the faults that there are */
     brace_can_unpack_heartbeat(frame.data, &told);
-    TEST_ASSERT_EQUAL_HEX32(BRACE_FAULT_MEMORY & 0x3fffu, told.faults & 0x3fffu);
+    TEST_ASSERT_EQUAL(BRACE_MODE_FAULT, told.mode);
+    announce_sent(&announce, &tick, BRACE_CAN_ID_HEARTBEAT);
+    TEST_ASSERT_EQUAL_HEX32(BRACE_FAULT_MEMORY, condition().faults);
     app.controller.faults.now = 0;
     announce_skip(&announce, &tick); /* a channel that has just opened is not told earlier changes */
     TEST_ASSERT_TRUE(is_silent());
