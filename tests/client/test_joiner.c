@@ -482,7 +482,7 @@ static void test_over_can_fd_a_load_is_a_frame_of_its_own(void)
 static brace_bus_frame_t sigma_frame_of(uint32_t part, uint32_t tick, uint64_t now_us)
 {
     brace_bus_frame_t frame = {.id = BRACE_CAN_ID_DETAILS + NODE, .length = 8u, .received_us = now_us};
-    const float m = 0.0005f * (float)(tick & 0x7fffu);
+    const float m = 0.004f * (float)(tick & 0x1fffu); /* whole steps of each */
     const brace_can_sigma_0_t entries = {
         .sequence = tick & 0xffu, .k_xx_n_per_mm = m, .k_xz_n_per_mm = m, .k_zz_n_per_mm = m};
     const brace_can_sigma_1_t others = {
@@ -512,7 +512,7 @@ static void test_an_uncertainty_is_of_its_k_s_tick(void)
             const float values[] = {s->sigma.k_xx_n_per_mm, s->sigma.k_xz_n_per_mm, s->sigma.k_zz_n_per_mm,
                                     s->sigma.lambda_min_n_per_mm, s->sigma.lambda_max_n_per_mm};
             for (uint32_t at = 0u; at < 5u; at++) {
-                TEST_ASSERT_EQUAL_UINT32(tick & 0x7fffu, (uint32_t)lroundf(values[at] / 0.0005f));
+                TEST_ASSERT_EQUAL_UINT32(tick & 0x1fffu, (uint32_t)lroundf(values[at] / 0.004f));
             }
             TEST_ASSERT_EQUAL_FLOAT(0.25f, s->sigma.stiff_axis_rad);
             whole++;

@@ -9,6 +9,7 @@ from brace.bus.snapshot import Joiner, Snapshot
 from brace.wire.frames import FD_GROUPS, FD_MESSAGES, GROUPS, MESSAGES
 
 STEP = 0.0005
+SIGMA_STEP = 0.004
 PERIOD_S = 0.005
 TICKS_A_PERIOD = 5  # the sequence counts control ticks, eight bits of it
 
@@ -329,7 +330,7 @@ def test_over_can_fd_a_load_is_a_frame_of_its_own() -> None:
 
 def sigma_of_tick(tick: int, node: int = 1) -> list[Frame]:
     """The frames of a snapshot's uncertainty; every value tells its tick."""
-    mark = (tick % 60_000) * STEP
+    mark = (tick % 8_000) * SIGMA_STEP
     values: dict[str, float | int | None] = {
         name: mark for name in ("k_xx", "k_xz", "k_zz", "lambda_min", "lambda_max")
     }
@@ -354,7 +355,9 @@ def test_an_uncertainty_joins_its_k_and_no_other() -> None:
             snapshot = joiner.add(frame) if chance.random() >= 0.1 else None
             if snapshot is not None and snapshot.sigma is not None:
                 assert_of_one_tick(snapshot)
-                assert snapshot.sigma.k == (snapshot.k_xx,) * 3 and snapshot.sigma.values["stiff_axis"] == 0.25
+                marks = {round(float(value or 0) / SIGMA_STEP) for value in snapshot.sigma.k}
+                assert marks == {round(float(snapshot.k_xx or 0) / STEP) % 8_000}
+                assert snapshot.sigma.values["stiff_axis"] == 0.25
                 told += snapshot.adds == "sigma"
     assert told > 1_500
     entry = joiner.add(sigma_of_tick(1)[0])
@@ -404,3 +407,25 @@ def test_a_part_of_another_version_is_nobody_s() -> None:
         joiner.add(frame)
     for number in set(range(256)) - {part.part for group in GROUPS.values() for part in group}:
         assert joiner.add(Frame(1000.0, layout.identifier + 1, bytes([0, number, *range(6)]))) is None
+
+
+def test_an_uncertainty_in_space_joins_that_in_the_plane() -> None:
+    """In parts that carry the names of K's own; of another snapshot they join nothing."""
+    for late in (0, 1):
+        joiner = Joiner()
+        for frame in (*frames_of(4)[:2], *sigma_of_tick(4)):
+            joiner.add(frame)
+        told = []
+        for layout in GROUPS["sigma_space"]:
+            values: dict[str, float | int | None] = {
+                field.name: index * 0.1 for index, field in enumerate(layout.fields, layout.part or 0)
+            }
+            values["sequence"] = (4 + late) * TICKS_A_PERIOD
+            told.append(joiner.add(Frame(1000.0 + 4 * PERIOD_S, layout.identifier + 1, layout.encode(values))))
+        assert told[:3] == [None] * 3 and (told[3] is None) == bool(late)
+        if (last := told[3]) is not None and last.sigma is not None and last.sigma.space is not None:
+            space = last.sigma.space
+            assert (space["space_k_xx"], space["space_k_yy"], space["space_lambda_3"], space["k_across"]) == \
+                (8.1, 8.2, 8.5, 8.4)
+            assert last.sigma.values["stiff_axis"] == 0.25
+            assert last.as_json()["sigma_space_k_xx_n_per_mm"] == 8.1

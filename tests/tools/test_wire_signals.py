@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import random
+import re
 from decimal import Decimal
 from pathlib import Path
 from typing import Any
@@ -200,3 +201,12 @@ def test_a_multiplexed_message_says_which_part_it_is(c: tuple[Any, Any], databas
             read = known.decode(bytes(data), decode_choices=False)
             assert (read.pop("part"), read["sequence"]) == (number, 77)
             assert set(read) == {signal_of(layout, prefix, field.name) for field in layout.fields}
+
+
+def test_the_page_s_example_is_what_it_says() -> None:
+    page = (PROJECT / "docs" / "protocol.md").read_text()
+    sent, told = (bytes.fromhex(text) for text in re.findall(r"`(?:cansend can0 601|581)#(\w+)`", page))
+    request, answer = frames.REQUESTS["k_at_posture"], frames.ANSWERS["k_at_posture"]
+    assert (sent[0], sent[1], request.decode(sent)) == (request.command, 9, {"theta1": 0.5, "theta2": 1.2})
+    assert (told[0], told[1], answer[0].decode(told)) == (answer[0].command, 9, {"k_xx": 3.924, "k_xz": -1.908})
+    assert len(answer) == 4

@@ -38,6 +38,8 @@ def snapshot_source(wire: Wire, values: Values) -> str:
         '#include "brace/can_messages.h"\n#include "brace/status.h"\n\n',
         "/* NaN is beyond nothing. */\nstatic bool is_beyond(float value, float most)\n{\n"
         "    return __builtin_fabsf(value) > most;\n}\n",
+        "\n/* What is beyond is not known. */\nstatic float known_to(float value, float most)\n{\n"
+        '    return is_beyond(value, most) ? __builtin_nanf("") : value;\n}\n',
     ]
     for frame in frames.values():
         parts += [f"\n{_flags(frame, signal, frames, measured)}" for signal in frame.signals if signal.saturated_by]
@@ -69,6 +71,8 @@ def _value(frame: Frame, signal: Signal, measured: Mapping[str, Measured]) -> st
     if signal.saturated_by:
         return f"{frame.name}_{signal.name}(measured)"
     member = _member(frame, signal, measured)
+    if signal.unknown_beyond:
+        return f"known_to({member}, {most_of(frame, signal)})"
     return f"{member} & {(1 << signal.bits) - 1:#x}u" if signal.wraps and signal.bits < 32 else member
 
 

@@ -18,7 +18,7 @@ _PAYLOAD_START = 16  # of requests and answers: behind code or number, and token
 CODES = 256  # of requests, and numbers of answers
 REFUSED = CODES - 1  # the number of an answer that is a refusal
 _SIGNAL_KEYS = {"name", "bits", "signed", "kind", "step", "unit", "names", "bit_names", "description", "from", "wraps",
-                "saturated_by"}
+                "saturated_by", "unknown_beyond"}
 NODES = 0x80  # identifiers of one message: one for each node, and 0
 BASIC_IDS = 0x800  # of 11 bits
 _SATURATED = "SATURATED"  # the bit of flags: a value was limited
@@ -41,6 +41,7 @@ class Signal:
     source: str = ""  # of process data: the measured value that it carries
     wraps: bool = False  # of a source that is too large the low bits are sent, instead of the greatest number
     saturated_by: tuple[str, ...] = ()  # of flags: the frames whose limited values set SATURATED
+    unknown_beyond: bool = False  # a value that is too large is sent as not known
 
     @property
     def names(self) -> Mapping[int, str]:
@@ -396,6 +397,7 @@ def _signals(
             raw["name"], start, raw["bits"], raw.get("signed", False), kind, raw.get("step", 1.0), raw.get("unit", ""),
             table, raw["description"].replace("{emergencies}", codes.emergencies), raw.get("from", raw["name"]),
             raw.get("wraps", False), tuple(raw.get("saturated_by", [])),
+            raw.get("unknown_beyond", False),
         )
         if kind not in ("value", "number", "f32") or (kind == "f32" and signal.bits != 32):
             raise DictionaryError(f"{at}: kind {kind} of {signal.bits} bits")

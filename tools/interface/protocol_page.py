@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from interface.measured import Values
-from interface.messages import REFUSED, Frame, Multiplexed, Signal, Wire
+from interface.messages import BASIC_IDS, NODES, REFUSED, Frame, Multiplexed, Signal, Wire
 from interface.registers import COMMAND_ENTRY, MEASURED_ENTRY
 
 WRITTEN_AS_ENTRIES = ("stop", "end_test", "life_mac", "seal_mac")  # wire/answers/parameters.c
@@ -24,7 +24,14 @@ A frame of the identifier 0x001, with or without data, is a stop for every contr
 they are. Anybody may send it. `controller.stop_id` can be another number, from 0x001 to 0x07f.
 
 All frames of one snapshot carry the same sequence: put together only what agrees. Two ends that do not have the same
-dictionary hash (heartbeat, `identify`) speak different languages and have to say so.
+dictionary hash (heartbeat, `identify`) speak different languages and have to say so. Pass over a part or an answer whose number
+you do not know.
+
+An example: `cansend can0 601#030920A107804F12` asks node 1 for K at theta1 = 0.5 rad and theta2 = 1.2 rad (request 3), with the
+token 9. The answer has four frames. `581#0309A81E0018F1FF` is the first (number 3): k_xx is 3.924 N/mm, k_xz -1.908 N/mm.
+
+## Identifiers
+
 """
 
 _FD = """
@@ -40,8 +47,8 @@ MTU is (SocketCAN, 16), it goes on with classic frames. Over SLCAN snapshots are
 def protocol_page(wire: Wire, values: Values, dictionary_hash: int) -> str:
     """The whole page."""
     parts = [_HEAD,
-             f"\nProtocol {wire.protocol}, dictionary 0x{dictionary_hash:08x}.\n\n## What a controller sends by "
-             "itself\n"]
+             f"Protocol {wire.protocol}, dictionary 0x{dictionary_hash:08x}.\n\n", _identifiers(wire),
+             "\n## What a controller sends by itself\n"]
     for frame in wire.messages:
         often = f" As often as `{frame.rate}` says." if frame.rate else ""
         parts.append(f"\n### {frame.name}, 0x{frame.identifier:03x} + node\n\n{_sentence(frame.description)}"
@@ -84,6 +91,14 @@ def protocol_page(wire: Wire, values: Values, dictionary_hash: int) -> str:
     parts += [f"| {COMMAND_ENTRY + v.index} | `{v.name}` | {v.description} |\n"
               for v in values.commands if v.name in WRITTEN_AS_ENTRIES]  # fmt: skip
     return "".join(parts)
+
+
+def _identifiers(wire: Wire) -> str:
+    """Every identifier, and which are free."""
+    used = {message.identifier: f"`{message.name}`" for message in wire.process}
+    used |= {wire.request_id: "requests", wire.answer_id: "answers"}
+    rows = [f"| 0x{one:03x} + node | {used.get(one, 'free')} |\n" for one in range(NODES, BASIC_IDS, NODES)]
+    return "| identifier | what it is |\n|---|---|\n| 0x001 | stop |\n" + "".join(rows)
 
 
 def _parts(message: Multiplexed) -> str:

@@ -468,9 +468,9 @@ uint32_t brace_can_pack_sigma_0(const brace_can_sigma_0_t *message, uint8_t data
     uint64_t bits = 0u;
     bits = 16384u;
     bits |= brace_bits_number(message->sequence, 0u, 8u, &limited);
-    bits |= brace_bits_unsigned(message->k_xx_n_per_mm, 2000.0f, 16u, 16u, &limited);
-    bits |= brace_bits_unsigned(message->k_xz_n_per_mm, 2000.0f, 32u, 16u, &limited);
-    bits |= brace_bits_unsigned(message->k_zz_n_per_mm, 2000.0f, 48u, 16u, &limited);
+    bits |= brace_bits_unsigned(message->k_xx_n_per_mm, 500.0f, 16u, 16u, &limited);
+    bits |= brace_bits_unsigned(message->k_xz_n_per_mm, 500.0f, 32u, 16u, &limited);
+    bits |= brace_bits_unsigned(message->k_zz_n_per_mm, 500.0f, 48u, 16u, &limited);
     brace_bits_store(bits, data);
     return limited;
 }
@@ -479,9 +479,9 @@ void brace_can_unpack_sigma_0(const uint8_t data[8], brace_can_sigma_0_t *messag
 {
     const uint64_t bits = brace_bits_load(data);
     message->sequence = brace_value_number(bits, 0u, 8u);
-    message->k_xx_n_per_mm = brace_value_unsigned(bits, 16u, 16u, 0.0005f);
-    message->k_xz_n_per_mm = brace_value_unsigned(bits, 32u, 16u, 0.0005f);
-    message->k_zz_n_per_mm = brace_value_unsigned(bits, 48u, 16u, 0.0005f);
+    message->k_xx_n_per_mm = brace_value_unsigned(bits, 16u, 16u, 0.002f);
+    message->k_xz_n_per_mm = brace_value_unsigned(bits, 32u, 16u, 0.002f);
+    message->k_zz_n_per_mm = brace_value_unsigned(bits, 48u, 16u, 0.002f);
 }
 
 uint32_t brace_can_pack_sigma_1(const brace_can_sigma_1_t *message, uint8_t data[8])
@@ -491,7 +491,7 @@ uint32_t brace_can_pack_sigma_1(const brace_can_sigma_1_t *message, uint8_t data
     bits = 16640u;
     bits |= brace_bits_number(message->sequence, 0u, 8u, &limited);
     bits |= brace_bits_unsigned(message->lambda_min_n_per_mm, 2000.0f, 16u, 16u, &limited);
-    bits |= brace_bits_unsigned(message->lambda_max_n_per_mm, 2000.0f, 32u, 16u, &limited);
+    bits |= brace_bits_unsigned(message->lambda_max_n_per_mm, 250.0f, 32u, 16u, &limited);
     bits |= brace_bits_unsigned(message->stiff_axis_rad, 10000.0f, 48u, 16u, &limited);
     brace_bits_store(bits, data);
     return limited;
@@ -502,7 +502,7 @@ void brace_can_unpack_sigma_1(const uint8_t data[8], brace_can_sigma_1_t *messag
     const uint64_t bits = brace_bits_load(data);
     message->sequence = brace_value_number(bits, 0u, 8u);
     message->lambda_min_n_per_mm = brace_value_unsigned(bits, 16u, 16u, 0.0005f);
-    message->lambda_max_n_per_mm = brace_value_unsigned(bits, 32u, 16u, 0.0005f);
+    message->lambda_max_n_per_mm = brace_value_unsigned(bits, 32u, 16u, 0.004f);
     message->stiff_axis_rad = brace_value_unsigned(bits, 48u, 16u, 0.0001f);
 }
 
@@ -512,9 +512,9 @@ uint32_t brace_can_pack_sigma_space_0(const brace_can_sigma_space_0_t *message, 
     uint64_t bits = 0u;
     bits = 20480u;
     bits |= brace_bits_number(message->sequence, 0u, 8u, &limited);
-    bits |= brace_bits_unsigned(message->k_xx_n_per_mm, 2000.0f, 16u, 16u, &limited);
-    bits |= brace_bits_unsigned(message->k_xy_n_per_mm, 2000.0f, 32u, 16u, &limited);
-    bits |= brace_bits_unsigned(message->k_xz_n_per_mm, 2000.0f, 48u, 16u, &limited);
+    bits |= brace_bits_unsigned(message->k_xx_n_per_mm, 500.0f, 16u, 16u, &limited);
+    bits |= brace_bits_unsigned(message->k_xy_n_per_mm, 500.0f, 32u, 16u, &limited);
+    bits |= brace_bits_unsigned(message->k_xz_n_per_mm, 500.0f, 48u, 16u, &limited);
     brace_bits_store(bits, data);
     return limited;
 }
@@ -523,9 +523,9 @@ void brace_can_unpack_sigma_space_0(const uint8_t data[8], brace_can_sigma_space
 {
     const uint64_t bits = brace_bits_load(data);
     message->sequence = brace_value_number(bits, 0u, 8u);
-    message->k_xx_n_per_mm = brace_value_unsigned(bits, 16u, 16u, 0.0005f);
-    message->k_xy_n_per_mm = brace_value_unsigned(bits, 32u, 16u, 0.0005f);
-    message->k_xz_n_per_mm = brace_value_unsigned(bits, 48u, 16u, 0.0005f);
+    message->k_xx_n_per_mm = brace_value_unsigned(bits, 16u, 16u, 0.002f);
+    message->k_xy_n_per_mm = brace_value_unsigned(bits, 32u, 16u, 0.002f);
+    message->k_xz_n_per_mm = brace_value_unsigned(bits, 48u, 16u, 0.002f);
 }
 
 uint32_t brace_can_pack_sigma_space_1(const brace_can_sigma_space_1_t *message, uint8_t data[8])
@@ -534,9 +534,9 @@ uint32_t brace_can_pack_sigma_space_1(const brace_can_sigma_space_1_t *message, 
     uint64_t bits = 0u;
     bits = 20736u;
     bits |= brace_bits_number(message->sequence, 0u, 8u, &limited);
-    bits |= brace_bits_unsigned(message->k_yy_n_per_mm, 2000.0f, 16u, 16u, &limited);
-    bits |= brace_bits_unsigned(message->k_yz_n_per_mm, 2000.0f, 32u, 16u, &limited);
-    bits |= brace_bits_unsigned(message->k_zz_n_per_mm, 2000.0f, 48u, 16u, &limited);
+    bits |= brace_bits_unsigned(message->k_yy_n_per_mm, 500.0f, 16u, 16u, &limited);
+    bits |= brace_bits_unsigned(message->k_yz_n_per_mm, 500.0f, 32u, 16u, &limited);
+    bits |= brace_bits_unsigned(message->k_zz_n_per_mm, 500.0f, 48u, 16u, &limited);
     brace_bits_store(bits, data);
     return limited;
 }
@@ -545,9 +545,9 @@ void brace_can_unpack_sigma_space_1(const uint8_t data[8], brace_can_sigma_space
 {
     const uint64_t bits = brace_bits_load(data);
     message->sequence = brace_value_number(bits, 0u, 8u);
-    message->k_yy_n_per_mm = brace_value_unsigned(bits, 16u, 16u, 0.0005f);
-    message->k_yz_n_per_mm = brace_value_unsigned(bits, 32u, 16u, 0.0005f);
-    message->k_zz_n_per_mm = brace_value_unsigned(bits, 48u, 16u, 0.0005f);
+    message->k_yy_n_per_mm = brace_value_unsigned(bits, 16u, 16u, 0.002f);
+    message->k_yz_n_per_mm = brace_value_unsigned(bits, 32u, 16u, 0.002f);
+    message->k_zz_n_per_mm = brace_value_unsigned(bits, 48u, 16u, 0.002f);
 }
 
 uint32_t brace_can_pack_sigma_space_2(const brace_can_sigma_space_2_t *message, uint8_t data[8])
@@ -557,8 +557,8 @@ uint32_t brace_can_pack_sigma_space_2(const brace_can_sigma_space_2_t *message, 
     bits = 20992u;
     bits |= brace_bits_number(message->sequence, 0u, 8u, &limited);
     bits |= brace_bits_unsigned(message->lambda_1_n_per_mm, 2000.0f, 16u, 16u, &limited);
-    bits |= brace_bits_unsigned(message->lambda_2_n_per_mm, 2000.0f, 32u, 16u, &limited);
-    bits |= brace_bits_unsigned(message->lambda_3_n_per_mm, 2000.0f, 48u, 16u, &limited);
+    bits |= brace_bits_unsigned(message->lambda_2_n_per_mm, 500.0f, 32u, 16u, &limited);
+    bits |= brace_bits_unsigned(message->lambda_3_n_per_mm, 250.0f, 48u, 16u, &limited);
     brace_bits_store(bits, data);
     return limited;
 }
@@ -568,8 +568,8 @@ void brace_can_unpack_sigma_space_2(const uint8_t data[8], brace_can_sigma_space
     const uint64_t bits = brace_bits_load(data);
     message->sequence = brace_value_number(bits, 0u, 8u);
     message->lambda_1_n_per_mm = brace_value_unsigned(bits, 16u, 16u, 0.0005f);
-    message->lambda_2_n_per_mm = brace_value_unsigned(bits, 32u, 16u, 0.0005f);
-    message->lambda_3_n_per_mm = brace_value_unsigned(bits, 48u, 16u, 0.0005f);
+    message->lambda_2_n_per_mm = brace_value_unsigned(bits, 32u, 16u, 0.002f);
+    message->lambda_3_n_per_mm = brace_value_unsigned(bits, 48u, 16u, 0.004f);
 }
 
 uint32_t brace_can_pack_sigma_space_3(const brace_can_sigma_space_3_t *message, uint8_t data[8])
@@ -578,7 +578,7 @@ uint32_t brace_can_pack_sigma_space_3(const brace_can_sigma_space_3_t *message, 
     uint64_t bits = 0u;
     bits = 21248u;
     bits |= brace_bits_number(message->sequence, 0u, 8u, &limited);
-    bits |= brace_bits_unsigned(message->k_across_n_per_mm, 2000.0f, 16u, 16u, &limited);
+    bits |= brace_bits_unsigned(message->k_across_n_per_mm, 500.0f, 16u, 16u, &limited);
     brace_bits_store(bits, data);
     return limited;
 }
@@ -587,7 +587,7 @@ void brace_can_unpack_sigma_space_3(const uint8_t data[8], brace_can_sigma_space
 {
     const uint64_t bits = brace_bits_load(data);
     message->sequence = brace_value_number(bits, 0u, 8u);
-    message->k_across_n_per_mm = brace_value_unsigned(bits, 16u, 16u, 0.0005f);
+    message->k_across_n_per_mm = brace_value_unsigned(bits, 16u, 16u, 0.002f);
 }
 
 uint32_t brace_can_pack_snapshot_fd(const brace_can_snapshot_fd_t *message, uint8_t data[64])

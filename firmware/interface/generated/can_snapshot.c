@@ -12,6 +12,12 @@ static bool is_beyond(float value, float most)
     return __builtin_fabsf(value) > most;
 }
 
+/* What is beyond is not known. */
+static float known_to(float value, float most)
+{
+    return is_beyond(value, most) ? __builtin_nanf("") : value;
+}
+
 void brace_can_make_stiffness_a(const brace_measured_t *measured, float age_ms, uint8_t *data)
 {
     const brace_can_stiffness_a_t message = {
@@ -280,9 +286,9 @@ void brace_can_make_sigma_0(const brace_measured_t *measured, float age_ms, uint
     (void)age_ms;
     const brace_can_sigma_0_t message = {
         .sequence = measured->sequence & 0xffu,
-        .k_xx_n_per_mm = measured->sigma_k_xx_n_per_mm,
-        .k_xz_n_per_mm = measured->sigma_k_xz_n_per_mm,
-        .k_zz_n_per_mm = measured->sigma_k_zz_n_per_mm,
+        .k_xx_n_per_mm = known_to(measured->sigma_k_xx_n_per_mm, BRACE_CAN_SIGMA_0_K_XX_N_PER_MM_MOST),
+        .k_xz_n_per_mm = known_to(measured->sigma_k_xz_n_per_mm, BRACE_CAN_SIGMA_0_K_XZ_N_PER_MM_MOST),
+        .k_zz_n_per_mm = known_to(measured->sigma_k_zz_n_per_mm, BRACE_CAN_SIGMA_0_K_ZZ_N_PER_MM_MOST),
     };
     (void)brace_can_pack_sigma_0(&message, data);
 }
@@ -292,9 +298,9 @@ void brace_can_make_sigma_1(const brace_measured_t *measured, float age_ms, uint
     (void)age_ms;
     const brace_can_sigma_1_t message = {
         .sequence = measured->sequence & 0xffu,
-        .lambda_min_n_per_mm = measured->sigma_lambda_min_n_per_mm,
-        .lambda_max_n_per_mm = measured->sigma_lambda_max_n_per_mm,
-        .stiff_axis_rad = measured->sigma_stiff_axis_rad,
+        .lambda_min_n_per_mm = known_to(measured->sigma_lambda_min_n_per_mm, BRACE_CAN_SIGMA_1_LAMBDA_MIN_N_PER_MM_MOST),
+        .lambda_max_n_per_mm = known_to(measured->sigma_lambda_max_n_per_mm, BRACE_CAN_SIGMA_1_LAMBDA_MAX_N_PER_MM_MOST),
+        .stiff_axis_rad = known_to(measured->sigma_stiff_axis_rad, BRACE_CAN_SIGMA_1_STIFF_AXIS_RAD_MOST),
     };
     (void)brace_can_pack_sigma_1(&message, data);
 }
@@ -304,9 +310,9 @@ void brace_can_make_sigma_space_0(const brace_measured_t *measured, float age_ms
     (void)age_ms;
     const brace_can_sigma_space_0_t message = {
         .sequence = measured->sequence & 0xffu,
-        .k_xx_n_per_mm = measured->sigma_space_k_xx_n_per_mm,
-        .k_xy_n_per_mm = measured->sigma_space_k_xy_n_per_mm,
-        .k_xz_n_per_mm = measured->sigma_space_k_xz_n_per_mm,
+        .k_xx_n_per_mm = known_to(measured->sigma_space_k_xx_n_per_mm, BRACE_CAN_SIGMA_SPACE_0_K_XX_N_PER_MM_MOST),
+        .k_xy_n_per_mm = known_to(measured->sigma_space_k_xy_n_per_mm, BRACE_CAN_SIGMA_SPACE_0_K_XY_N_PER_MM_MOST),
+        .k_xz_n_per_mm = known_to(measured->sigma_space_k_xz_n_per_mm, BRACE_CAN_SIGMA_SPACE_0_K_XZ_N_PER_MM_MOST),
     };
     (void)brace_can_pack_sigma_space_0(&message, data);
 }
@@ -316,9 +322,9 @@ void brace_can_make_sigma_space_1(const brace_measured_t *measured, float age_ms
     (void)age_ms;
     const brace_can_sigma_space_1_t message = {
         .sequence = measured->sequence & 0xffu,
-        .k_yy_n_per_mm = measured->sigma_space_k_yy_n_per_mm,
-        .k_yz_n_per_mm = measured->sigma_space_k_yz_n_per_mm,
-        .k_zz_n_per_mm = measured->sigma_space_k_zz_n_per_mm,
+        .k_yy_n_per_mm = known_to(measured->sigma_space_k_yy_n_per_mm, BRACE_CAN_SIGMA_SPACE_1_K_YY_N_PER_MM_MOST),
+        .k_yz_n_per_mm = known_to(measured->sigma_space_k_yz_n_per_mm, BRACE_CAN_SIGMA_SPACE_1_K_YZ_N_PER_MM_MOST),
+        .k_zz_n_per_mm = known_to(measured->sigma_space_k_zz_n_per_mm, BRACE_CAN_SIGMA_SPACE_1_K_ZZ_N_PER_MM_MOST),
     };
     (void)brace_can_pack_sigma_space_1(&message, data);
 }
@@ -328,9 +334,9 @@ void brace_can_make_sigma_space_2(const brace_measured_t *measured, float age_ms
     (void)age_ms;
     const brace_can_sigma_space_2_t message = {
         .sequence = measured->sequence & 0xffu,
-        .lambda_1_n_per_mm = measured->sigma_space_lambda_1_n_per_mm,
-        .lambda_2_n_per_mm = measured->sigma_space_lambda_2_n_per_mm,
-        .lambda_3_n_per_mm = measured->sigma_space_lambda_3_n_per_mm,
+        .lambda_1_n_per_mm = known_to(measured->sigma_space_lambda_1_n_per_mm, BRACE_CAN_SIGMA_SPACE_2_LAMBDA_1_N_PER_MM_MOST),
+        .lambda_2_n_per_mm = known_to(measured->sigma_space_lambda_2_n_per_mm, BRACE_CAN_SIGMA_SPACE_2_LAMBDA_2_N_PER_MM_MOST),
+        .lambda_3_n_per_mm = known_to(measured->sigma_space_lambda_3_n_per_mm, BRACE_CAN_SIGMA_SPACE_2_LAMBDA_3_N_PER_MM_MOST),
     };
     (void)brace_can_pack_sigma_space_2(&message, data);
 }
@@ -340,7 +346,7 @@ void brace_can_make_sigma_space_3(const brace_measured_t *measured, float age_ms
     (void)age_ms;
     const brace_can_sigma_space_3_t message = {
         .sequence = measured->sequence & 0xffu,
-        .k_across_n_per_mm = measured->sigma_k_across_n_per_mm,
+        .k_across_n_per_mm = known_to(measured->sigma_k_across_n_per_mm, BRACE_CAN_SIGMA_SPACE_3_K_ACROSS_N_PER_MM_MOST),
     };
     (void)brace_can_pack_sigma_space_3(&message, data);
 }
@@ -428,7 +434,7 @@ void brace_can_make_sigma_fd(const brace_measured_t *measured, float age_ms, uin
     (void)age_ms;
     const brace_can_sigma_fd_t message = {
         .sequence = measured->sequence & 0xffu,
-        .stiff_axis_rad = measured->sigma_stiff_axis_rad,
+        .stiff_axis_rad = known_to(measured->sigma_stiff_axis_rad, BRACE_CAN_SIGMA_FD_STIFF_AXIS_RAD_MOST),
         .k_xx_n_per_mm = measured->sigma_k_xx_n_per_mm,
         .k_xz_n_per_mm = measured->sigma_k_xz_n_per_mm,
         .k_zz_n_per_mm = measured->sigma_k_zz_n_per_mm,

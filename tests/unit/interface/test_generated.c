@@ -213,6 +213,26 @@ static void test_a_frame_carries_the_measured_values(void)
     TEST_ASSERT_EQUAL_HEX32(0xef01, posture.parameter_tag);
 }
 
+/* An uncertainty never seems smaller than it is: beyond what its frame carries it is not known. */
+static void test_an_uncertainty_that_is_too_large_is_not_known(void)
+{
+    uint8_t data[8];
+    brace_measured_t measured = {0};
+    float *const told[] = {&measured.sigma_k_xx_n_per_mm, &measured.sigma_k_xz_n_per_mm, &measured.sigma_k_zz_n_per_mm};
+    for (uint32_t i = 0; i < 3u; i++) {
+        brace_can_sigma_0_t frame;
+        *told[i] = BRACE_CAN_SIGMA_0_K_XX_N_PER_MM_MOST;
+        brace_can_make_sigma_0(&measured, 0.0f, data);
+        brace_can_unpack_sigma_0(data, &frame);
+        const float *got[] = {&frame.k_xx_n_per_mm, &frame.k_xz_n_per_mm, &frame.k_zz_n_per_mm};
+        TEST_ASSERT_FLOAT_WITHIN(0.001f, BRACE_CAN_SIGMA_0_K_XX_N_PER_MM_MOST, *got[i]);
+        *told[i] = i == 1u ? INFINITY : BRACE_CAN_SIGMA_0_K_XX_N_PER_MM_MOST + 0.01f;
+        brace_can_make_sigma_0(&measured, 0.0f, data);
+        brace_can_unpack_sigma_0(data, &frame);
+        TEST_ASSERT_TRUE(isnan(*got[i]));
+    }
+}
+
 /* Sixteen flags and thirty-two faults: each bit arrives in the bit that it left in. */
 static void test_every_flag_and_every_fault_has_room(void)
 {
@@ -426,6 +446,7 @@ int main(void)
     RUN_TEST(test_a_value_that_any_frame_of_the_snapshot_limits_is_flagged);
     RUN_TEST(test_a_value_that_any_frame_of_the_load_limits_is_flagged);
     RUN_TEST(test_a_frame_carries_the_measured_values);
+    RUN_TEST(test_an_uncertainty_that_is_too_large_is_not_known);
     RUN_TEST(test_every_flag_and_every_fault_has_room);
     RUN_TEST(test_an_answer_s_frames_carry_its_fields);
     RUN_TEST(test_a_request_s_frame_carries_its_fields);

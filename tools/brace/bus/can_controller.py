@@ -23,7 +23,7 @@ from brace.bus.drift import TAKE_UPS, Drift, drift_of, take_up_of
 from brace.bus.entries import index_of
 from brace.bus.load import ACROSS_ENTRIES, LOAD_ENTRIES, Load, load_of
 from brace.bus.session import Session
-from brace.bus.sigma import SIGMA_ENTRIES, Sigma, sigma_of
+from brace.bus.sigma import SIGMA_ENTRIES, SPACE_ENTRIES, Sigma, sigma_of
 from brace.bus.snapshot import Snapshot
 from brace.bus.space import SpaceAnswer, space_answer
 from brace.errors import DeviceFaultError, NoDeviceError, NotVerifiedError, VersionMismatchError
@@ -103,7 +103,8 @@ class CanController:
 
     def sigma(self) -> Sigma:
         """Entry by entry, as the load."""
-        return sigma_of(self._entries([f"sigma_{name}" for name in SIGMA_ENTRIES]), "sigma_")
+        names = (*SIGMA_ENTRIES, *SPACE_ENTRIES)
+        return sigma_of(self._entries([f"sigma_{name}" for name in names]), "sigma_")
 
     def _entries(self, names: Iterable[str]) -> dict[str, Value]:
         words = {name: struct.pack("<I", self.read_entry(name)) for name in names}

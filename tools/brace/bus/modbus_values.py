@@ -28,7 +28,7 @@ SPACE = _between("k_is_in_space", "play_coxa")
 DRIFT = _between("drift_state", "drift_next_step")
 TAKE_UP_OF = _between("take_up_coxa", "take_up_tibia")
 LOAD = _between("unloaded_k_xx", "unloaded_k_across")
-SIGMA = _between("sigma_k_xx", "sigma_stiff_axis")
+SIGMA = _between("sigma_k_xx", "sigma_k_across")
 
 
 def decoded(registers: Sequence[Register], words: Sequence[int]) -> dict[str, Value]:

@@ -9,13 +9,18 @@ from dataclasses import dataclass
 from brace.wire.layout import Value
 
 SIGMA_ENTRIES = ("k_xx", "k_xz", "k_zz", "lambda_min", "lambda_max", "stiff_axis")
+SPACE_ENTRIES = (
+    *(f"space_k_{name}" for name in ("xx", "xy", "xz", "yy", "yz", "zz")),
+    *(f"space_lambda_{number}" for number in (1, 2, 3)), "k_across",
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
 class Sigma:
-    """One sigma of K in the limb's plane; None: not known."""
+    """One sigma of K in the limb's plane, and of a limb with a coxa joint of K in space; None: not known."""
 
     values: Mapping[str, Value]  # by SIGMA_ENTRIES: N/mm, stiff_axis in rad
+    space: Mapping[str, Value] | None = None  # by SPACE_ENTRIES: N/mm; None: it has not come (yet)
 
     @property
     def k(self) -> tuple[Value, Value, Value]:
@@ -46,10 +51,18 @@ class Sigma:
     def as_json(self) -> dict[str, object]:
         """Names with units."""
         units = ("n_per_mm",) * 5 + ("rad",)
-        return {f"sigma_{name}_{unit}": self.values[name] for name, unit in zip(SIGMA_ENTRIES, units, strict=True)}
+        told = {f"sigma_{name}_{unit}": self.values[name] for name, unit in zip(SIGMA_ENTRIES, units, strict=True)}
+        return told | {f"sigma_{name}_n_per_mm": value for name, value in (self.space or {}).items()}
 
 
 def sigma_of(values: Mapping[str, Value], prefix: str = "") -> Sigma:
-    """From the fields of frames, or from measured values, whose names begin with a prefix."""
-    found = {name: values[prefix + name] for name in SIGMA_ENTRIES}
-    return Sigma({name: None if isinstance(v, float) and math.isnan(v) else v for name, v in found.items()})
+    """From the fields of frames, or from measured values, whose names begin with a prefix. That of K in space is there
+    where one of its values is known."""
+    plane, space = (
+        {name: _known(values.get(prefix + name)) for name in names} for names in (SIGMA_ENTRIES, SPACE_ENTRIES)
+    )
+    return Sigma(plane, space if any(value is not None for value in space.values()) else None)
+
+
+def _known(value: Value) -> Value:
+    return None if isinstance(value, float) and math.isnan(value) else value

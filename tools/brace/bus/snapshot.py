@@ -25,7 +25,7 @@ _DETAILS = _CONDITION.identifier
 _PART_BYTE = _CONDITION.part_at // 8
 # Number of a part -> its group, and its place there.
 _PARTS = {layout.part: (name, place) for name, group in GROUPS.items() for place, layout in enumerate(group)}
-_OF_SNAPSHOTS = frozenset(("space", "load", "load_across", "sigma"))
+_OF_SNAPSHOTS = frozenset(("space", "load", "load_across", "sigma", "sigma_space"))
 _PARTS_FD = {layout.part: (name, layout) for name, group in FD_GROUPS.items() for layout in group}
 
 
@@ -299,8 +299,9 @@ class Joiner:
         begun.parts[part] = frame.data
         if not begun.is_whole:
             return None
-        return self._join_space(node) if message == "space" else self._join_sigma(node) if message == "sigma" else \
-            self._join_load(node)
+        if message == "space":
+            return self._join_space(node)
+        return self._join_sigma(node) if message in ("sigma", "sigma_space") else self._join_load(node)
 
     def _forget_across(self, node: int, load: _Parts, next_sequence: int) -> None:
         """A node that has sent a load without what is across does not send that any more: its coxa joint is gone."""
@@ -326,8 +327,14 @@ class Joiner:
         return None if space is None else self._add_space(node, space.time_s, space.sequence, space.values())
 
     def _join_sigma(self, node: int, adds: str = "sigma") -> Snapshot | None:
-        sigma = self._whole_of_newest("sigma", node)
-        return None if sigma is None else self._add_sigma(node, sigma.time_s, sigma.sequence, sigma.values(), adds)
+        """How sure K is, first in the plane, then in space too where the node sends that."""
+        sigma, space = self._whole_of_newest("sigma", node), self._whole_of_newest("sigma_space", node)
+        if sigma is None:
+            return None
+        values = sigma.values()
+        if space is not None and space.sequence == sigma.sequence:
+            values |= {name if name == "k_across" else f"space_{name}": v for name, v in space.values().items()}
+        return self._add_sigma(node, sigma.time_s, sigma.sequence, values, adds)
 
     def _whole_of_newest(self, message: str, node: int) -> _Parts | None:
         """What has come of a message, if it is whole and of the newest snapshot."""
@@ -355,10 +362,10 @@ class Joiner:
     def _add_sigma(
         self, node: int, time_s: float, sequence: Value, values: Mapping[str, Value], adds: str = "sigma"
     ) -> Snapshot | None:
-        newest = self._of_newest(node, time_s, sequence)
-        if newest is None or newest.sigma is not None:
+        newest, sigma = self._of_newest(node, time_s, sequence), sigma_of(values)
+        if newest is None or newest.sigma == sigma:
             return None
-        self._newest[node] = newest._replace(adds=adds, sigma=sigma_of(values))
+        self._newest[node] = newest._replace(adds=adds, sigma=sigma)
         return self._newest[node]
 
     def _of_newest(self, node: int, time_s: float, sequence: Value) -> Snapshot | None:

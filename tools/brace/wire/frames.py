@@ -5,7 +5,7 @@ from __future__ import annotations
 from brace.wire import codes
 from brace.wire.layout import Field, Layout
 
-DICTIONARY_HASH = 0x948966C2
+DICTIONARY_HASH = 0x73099839
 PROTOCOL = 2
 REQUEST_ID = 0x600
 ANSWER_ID = 0x580
@@ -150,39 +150,39 @@ GROUPS: dict[str, tuple[Layout, ...]] = {
     "sigma": (
         Layout("sigma_0", 0x200, None, (
             Field("sequence", 0, 8),
-            Field("k_xx", 16, 16, kind="value", step=0.0005, unit="N/mm"),
-            Field("k_xz", 32, 16, kind="value", step=0.0005, unit="N/mm"),
-            Field("k_zz", 48, 16, kind="value", step=0.0005, unit="N/mm"),
+            Field("k_xx", 16, 16, kind="value", step=0.002, unit="N/mm"),
+            Field("k_xz", 32, 16, kind="value", step=0.002, unit="N/mm"),
+            Field("k_zz", 48, 16, kind="value", step=0.002, unit="N/mm"),
         ), part=64, part_at=8),
         Layout("sigma_1", 0x200, None, (
             Field("sequence", 0, 8),
             Field("lambda_min", 16, 16, kind="value", step=0.0005, unit="N/mm"),
-            Field("lambda_max", 32, 16, kind="value", step=0.0005, unit="N/mm"),
+            Field("lambda_max", 32, 16, kind="value", step=0.004, unit="N/mm"),
             Field("stiff_axis", 48, 16, kind="value", step=0.0001, unit="rad"),
         ), part=65, part_at=8),
     ),
     "sigma_space": (
         Layout("sigma_space_0", 0x200, None, (
             Field("sequence", 0, 8),
-            Field("k_xx", 16, 16, kind="value", step=0.0005, unit="N/mm"),
-            Field("k_xy", 32, 16, kind="value", step=0.0005, unit="N/mm"),
-            Field("k_xz", 48, 16, kind="value", step=0.0005, unit="N/mm"),
+            Field("k_xx", 16, 16, kind="value", step=0.002, unit="N/mm"),
+            Field("k_xy", 32, 16, kind="value", step=0.002, unit="N/mm"),
+            Field("k_xz", 48, 16, kind="value", step=0.002, unit="N/mm"),
         ), part=80, part_at=8),
         Layout("sigma_space_1", 0x200, None, (
             Field("sequence", 0, 8),
-            Field("k_yy", 16, 16, kind="value", step=0.0005, unit="N/mm"),
-            Field("k_yz", 32, 16, kind="value", step=0.0005, unit="N/mm"),
-            Field("k_zz", 48, 16, kind="value", step=0.0005, unit="N/mm"),
+            Field("k_yy", 16, 16, kind="value", step=0.002, unit="N/mm"),
+            Field("k_yz", 32, 16, kind="value", step=0.002, unit="N/mm"),
+            Field("k_zz", 48, 16, kind="value", step=0.002, unit="N/mm"),
         ), part=81, part_at=8),
         Layout("sigma_space_2", 0x200, None, (
             Field("sequence", 0, 8),
             Field("lambda_1", 16, 16, kind="value", step=0.0005, unit="N/mm"),
-            Field("lambda_2", 32, 16, kind="value", step=0.0005, unit="N/mm"),
-            Field("lambda_3", 48, 16, kind="value", step=0.0005, unit="N/mm"),
+            Field("lambda_2", 32, 16, kind="value", step=0.002, unit="N/mm"),
+            Field("lambda_3", 48, 16, kind="value", step=0.004, unit="N/mm"),
         ), part=82, part_at=8),
         Layout("sigma_space_3", 0x200, None, (
             Field("sequence", 0, 8),
-            Field("k_across", 16, 16, kind="value", step=0.0005, unit="N/mm"),
+            Field("k_across", 16, 16, kind="value", step=0.002, unit="N/mm"),
         ), part=83, part_at=8),
     ),
 }

@@ -14,7 +14,7 @@
 #include <stdint.h>
 
 /* Of every frame, entry and parameter, with types, steps and units: what two ends must agree on. */
-#define BRACE_DICTIONARY_HASH 0x948966c2u
+#define BRACE_DICTIONARY_HASH 0x73099839u
 #define BRACE_PROTOCOL 2u
 
 /* Identifiers of node 0; a controller adds its node number, 1-127. */
@@ -534,16 +534,16 @@ void brace_can_unpack_load_across_1(const uint8_t data[8], brace_can_load_across
 typedef struct {
     /* the number of the snapshot; the frames of one snapshot carry the same number */
     uint32_t sequence;
-    /* one sigma of k_xx [N/mm, 0 to 32.767] */
+    /* one sigma of k_xx [N/mm, 0 to 131.068] */
     float k_xx_n_per_mm;
-    /* one sigma of k_xz [N/mm, 0 to 32.767] */
+    /* one sigma of k_xz [N/mm, 0 to 131.068] */
     float k_xz_n_per_mm;
-    /* one sigma of k_zz [N/mm, 0 to 32.767] */
+    /* one sigma of k_zz [N/mm, 0 to 131.068] */
     float k_zz_n_per_mm;
 } brace_can_sigma_0_t;
-#define BRACE_CAN_SIGMA_0_K_XX_N_PER_MM_MOST 32.767f
-#define BRACE_CAN_SIGMA_0_K_XZ_N_PER_MM_MOST 32.767f
-#define BRACE_CAN_SIGMA_0_K_ZZ_N_PER_MM_MOST 32.767f
+#define BRACE_CAN_SIGMA_0_K_XX_N_PER_MM_MOST 131.068f
+#define BRACE_CAN_SIGMA_0_K_XZ_N_PER_MM_MOST 131.068f
+#define BRACE_CAN_SIGMA_0_K_ZZ_N_PER_MM_MOST 131.068f
 uint32_t brace_can_pack_sigma_0(const brace_can_sigma_0_t *message, uint8_t data[8]);
 void brace_can_unpack_sigma_0(const uint8_t data[8], brace_can_sigma_0_t *message);
 
@@ -554,13 +554,13 @@ typedef struct {
     uint32_t sequence;
     /* one sigma of lambda_min [N/mm, 0 to 32.767] */
     float lambda_min_n_per_mm;
-    /* one sigma of lambda_max [N/mm, 0 to 32.767] */
+    /* one sigma of lambda_max [N/mm, 0 to 262.136] */
     float lambda_max_n_per_mm;
     /* one sigma of stiff_axis [rad, 0 to 6.5534] */
     float stiff_axis_rad;
 } brace_can_sigma_1_t;
 #define BRACE_CAN_SIGMA_1_LAMBDA_MIN_N_PER_MM_MOST 32.767f
-#define BRACE_CAN_SIGMA_1_LAMBDA_MAX_N_PER_MM_MOST 32.767f
+#define BRACE_CAN_SIGMA_1_LAMBDA_MAX_N_PER_MM_MOST 262.136f
 #define BRACE_CAN_SIGMA_1_STIFF_AXIS_RAD_MOST 6.5534f
 uint32_t brace_can_pack_sigma_1(const brace_can_sigma_1_t *message, uint8_t data[8]);
 void brace_can_unpack_sigma_1(const uint8_t data[8], brace_can_sigma_1_t *message);
@@ -570,16 +570,16 @@ void brace_can_unpack_sigma_1(const uint8_t data[8], brace_can_sigma_1_t *messag
 typedef struct {
     /* the number of the snapshot; the frames of one snapshot carry the same number */
     uint32_t sequence;
-    /* one sigma of k_xx in space [N/mm, 0 to 32.767] */
+    /* one sigma of k_xx in space [N/mm, 0 to 131.068] */
     float k_xx_n_per_mm;
-    /* one sigma of k_xy in space [N/mm, 0 to 32.767] */
+    /* one sigma of k_xy in space [N/mm, 0 to 131.068] */
     float k_xy_n_per_mm;
-    /* one sigma of k_xz in space [N/mm, 0 to 32.767] */
+    /* one sigma of k_xz in space [N/mm, 0 to 131.068] */
     float k_xz_n_per_mm;
 } brace_can_sigma_space_0_t;
-#define BRACE_CAN_SIGMA_SPACE_0_K_XX_N_PER_MM_MOST 32.767f
-#define BRACE_CAN_SIGMA_SPACE_0_K_XY_N_PER_MM_MOST 32.767f
-#define BRACE_CAN_SIGMA_SPACE_0_K_XZ_N_PER_MM_MOST 32.767f
+#define BRACE_CAN_SIGMA_SPACE_0_K_XX_N_PER_MM_MOST 131.068f
+#define BRACE_CAN_SIGMA_SPACE_0_K_XY_N_PER_MM_MOST 131.068f
+#define BRACE_CAN_SIGMA_SPACE_0_K_XZ_N_PER_MM_MOST 131.068f
 uint32_t brace_can_pack_sigma_space_0(const brace_can_sigma_space_0_t *message, uint8_t data[8]);
 void brace_can_unpack_sigma_space_0(const uint8_t data[8], brace_can_sigma_space_0_t *message);
 
@@ -588,16 +588,16 @@ void brace_can_unpack_sigma_space_0(const uint8_t data[8], brace_can_sigma_space
 typedef struct {
     /* the number of the snapshot; the frames of one snapshot carry the same number */
     uint32_t sequence;
-    /* one sigma of k_yy in space [N/mm, 0 to 32.767] */
+    /* one sigma of k_yy in space [N/mm, 0 to 131.068] */
     float k_yy_n_per_mm;
-    /* one sigma of k_yz in space [N/mm, 0 to 32.767] */
+    /* one sigma of k_yz in space [N/mm, 0 to 131.068] */
     float k_yz_n_per_mm;
-    /* one sigma of k_zz in space [N/mm, 0 to 32.767] */
+    /* one sigma of k_zz in space [N/mm, 0 to 131.068] */
     float k_zz_n_per_mm;
 } brace_can_sigma_space_1_t;
-#define BRACE_CAN_SIGMA_SPACE_1_K_YY_N_PER_MM_MOST 32.767f
-#define BRACE_CAN_SIGMA_SPACE_1_K_YZ_N_PER_MM_MOST 32.767f
-#define BRACE_CAN_SIGMA_SPACE_1_K_ZZ_N_PER_MM_MOST 32.767f
+#define BRACE_CAN_SIGMA_SPACE_1_K_YY_N_PER_MM_MOST 131.068f
+#define BRACE_CAN_SIGMA_SPACE_1_K_YZ_N_PER_MM_MOST 131.068f
+#define BRACE_CAN_SIGMA_SPACE_1_K_ZZ_N_PER_MM_MOST 131.068f
 uint32_t brace_can_pack_sigma_space_1(const brace_can_sigma_space_1_t *message, uint8_t data[8]);
 void brace_can_unpack_sigma_space_1(const uint8_t data[8], brace_can_sigma_space_1_t *message);
 
@@ -608,14 +608,14 @@ typedef struct {
     uint32_t sequence;
     /* one sigma of lambda_1 in space [N/mm, 0 to 32.767] */
     float lambda_1_n_per_mm;
-    /* one sigma of lambda_2 in space [N/mm, 0 to 32.767] */
+    /* one sigma of lambda_2 in space [N/mm, 0 to 131.068] */
     float lambda_2_n_per_mm;
-    /* one sigma of lambda_3 in space [N/mm, 0 to 32.767] */
+    /* one sigma of lambda_3 in space [N/mm, 0 to 262.136] */
     float lambda_3_n_per_mm;
 } brace_can_sigma_space_2_t;
 #define BRACE_CAN_SIGMA_SPACE_2_LAMBDA_1_N_PER_MM_MOST 32.767f
-#define BRACE_CAN_SIGMA_SPACE_2_LAMBDA_2_N_PER_MM_MOST 32.767f
-#define BRACE_CAN_SIGMA_SPACE_2_LAMBDA_3_N_PER_MM_MOST 32.767f
+#define BRACE_CAN_SIGMA_SPACE_2_LAMBDA_2_N_PER_MM_MOST 131.068f
+#define BRACE_CAN_SIGMA_SPACE_2_LAMBDA_3_N_PER_MM_MOST 262.136f
 uint32_t brace_can_pack_sigma_space_2(const brace_can_sigma_space_2_t *message, uint8_t data[8]);
 void brace_can_unpack_sigma_space_2(const uint8_t data[8], brace_can_sigma_space_2_t *message);
 
@@ -624,10 +624,10 @@ void brace_can_unpack_sigma_space_2(const uint8_t data[8], brace_can_sigma_space
 typedef struct {
     /* the number of the snapshot; the frames of one snapshot carry the same number */
     uint32_t sequence;
-    /* one sigma of k_across [N/mm, 0 to 32.767] */
+    /* one sigma of k_across [N/mm, 0 to 131.068] */
     float k_across_n_per_mm;
 } brace_can_sigma_space_3_t;
-#define BRACE_CAN_SIGMA_SPACE_3_K_ACROSS_N_PER_MM_MOST 32.767f
+#define BRACE_CAN_SIGMA_SPACE_3_K_ACROSS_N_PER_MM_MOST 131.068f
 uint32_t brace_can_pack_sigma_space_3(const brace_can_sigma_space_3_t *message, uint8_t data[8]);
 void brace_can_unpack_sigma_space_3(const uint8_t data[8], brace_can_sigma_space_3_t *message);
 
