@@ -51,7 +51,7 @@ typed_event_t typed_take(typed_t *typed, uint8_t byte, uint32_t now_us)
         typed->heard_us = now_us;
         return TYPED_NOTHING;
     }
-    if (typed->count == 0u && !typed->is_spoilt && byte == (uint8_t)TEXT_PREFIX[0]) {
+    if (typed->count == 0u && byte == (uint8_t)TEXT_PREFIX[0]) {
         typed->is_deaf = true;
         typed->heard_us = now_us;
         return TYPED_ECHO;

@@ -329,6 +329,41 @@ static void test_a_guarded_board_becomes_a_bench_when_confirmed(void)
     TEST_ASSERT_EQUAL(BRACE_SETTING_BENCH, brace_app_setting(&app));
 }
 
+static int32_t found_key;
+
+static int32_t find_key(void *context, uint8_t key[BRACE_HAL_KEY_BYTES])
+{
+    (void)context;
+    (void)key;
+    return found_key;
+}
+
+/* Whatever is no whole key is none: the board refuses motion, and says why. */
+static void test_a_damaged_key_is_none(void)
+{
+    static const struct {
+        int32_t found;
+        brace_setting_t setting;
+        const char *words;
+    } all[] = {
+        {BRACE_HAL_KEY_LOCKED, BRACE_SETTING_GUARDED, "# key: kept, and its memory is locked\r\n"},
+        {BRACE_HAL_KEY_OPEN, BRACE_SETTING_GUARDED, "# key: kept, but its memory is not locked"},
+        {BRACE_HAL_KEY_NONE, BRACE_SETTING_NO_KEY, "# key: none yet"},
+        {BRACE_HAL_E_DAMAGED, BRACE_SETTING_NO_KEY, "# key: none: its memory holds a piece of one"},
+        {BRACE_HAL_E_DEVICE, BRACE_SETTING_NO_KEY, "# key: its memory does not answer"},
+    };
+    for (uint32_t i = 0; i < sizeof all / sizeof all[0]; i++) {
+        brace_fake_guarded(&fake, NULL);
+        fake.hal.key_read = find_key;
+        found_key = all[i].found;
+        forget_said();
+        board_starts();
+        passes_ms(100u, 1u);
+        TEST_ASSERT_EQUAL_MESSAGE(all[i].setting, brace_app_setting(&app), all[i].words);
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(said, all[i].words), said);
+    }
+}
+
 static void test_a_key_is_typed_in_two_lines(void)
 {
     guarded_starts(NULL);
@@ -402,6 +437,7 @@ int main(void)
     RUN_TEST(test_the_slot_test_leaves_the_set_in_force);
     RUN_TEST(test_drives_are_asked_on_a_bench_alone);
     RUN_TEST(test_a_guarded_board_becomes_a_bench_when_confirmed);
+    RUN_TEST(test_a_damaged_key_is_none);
     RUN_TEST(test_a_key_is_typed_in_two_lines);
     RUN_TEST(test_a_key_is_not_taken_from_a_terminal_that_echoes);
     RUN_TEST(test_a_key_that_nobody_types_is_not_waited_for_for_ever);

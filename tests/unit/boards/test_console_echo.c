@@ -111,6 +111,19 @@ static void test_an_echo_is_told_where_nobody_has_listened(void)
     TEST_ASSERT_EQUAL_UINT32(1u, count_of("\r\n# this terminal echoes"));
 }
 
+/* A question ends when the console hears itself: the digits that were right before are not its answer any more. */
+static void test_an_echo_ends_a_question(void)
+{
+    start_at(SILENT);
+    person_types("restart\r");
+    char digits[6];
+    read_digits(digits);
+    person_types("# some line of its own\r\n");
+    passes_ms(2500u, TICK_EVERY_MS);
+    person_types(digits);
+    assert_nothing_changed("question");
+}
+
 static void test_random_bytes_change_nothing(void)
 {
     start_at(SILENT);
@@ -212,6 +225,7 @@ int main(void)
     RUN_TEST(test_whatever_a_person_types_at_an_echoing_terminal);
     RUN_TEST(test_it_hears_again_when_it_has_been_quiet_for_2_s);
     RUN_TEST(test_an_echo_is_told_where_nobody_has_listened);
+    RUN_TEST(test_an_echo_ends_a_question);
     RUN_TEST(test_random_bytes_change_nothing);
     RUN_TEST(test_random_words_change_nothing);
     RUN_TEST(test_its_own_words_without_their_beginnings_change_nothing);

@@ -14,7 +14,7 @@
 #include <stdint.h>
 
 /* Of every frame, entry and parameter, with types, steps and units: what two ends must agree on. */
-#define BRACE_DICTIONARY_HASH 0x73099839u
+#define BRACE_DICTIONARY_HASH 0xff34ef97u
 #define BRACE_PROTOCOL 2u
 
 /* Identifiers of node 0; a controller adds its node number, 1-127. */
