@@ -527,16 +527,55 @@ static void test_over_can_fd_an_uncertainty_is_a_frame_of_its_own(void)
     brace_bus_frame_t frame = {.id = BRACE_CAN_ID_DETAILS_FD + NODE, .length = 64u, .fd = true, .received_us = 1000u};
     const brace_can_sigma_fd_t sent = {.sequence = 7u, .k_xx_n_per_mm = 1.0f, .k_xz_n_per_mm = 2.0f,
                                        .k_zz_n_per_mm = 3.0f, .lambda_min_n_per_mm = 4.0f,
-                                       .lambda_max_n_per_mm = NAN, .stiff_axis_rad = 0.5f};
+                                       .lambda_max_n_per_mm = NAN, .stiff_axis_rad = 0.5f,
+                                       .space_k_yy_n_per_mm = 6.0f, .space_lambda_3_n_per_mm = 7.0f,
+                                       .k_across_n_per_mm = 8.0f};
     (void)brace_can_pack_sigma_fd(&sent, frame.data);
     const brace_client_snapshot_t *s = brace_joiner_add(&joiner, NODE, &frame, 0u);
     TEST_ASSERT_NOT_NULL(s);
-    TEST_ASSERT_EQUAL_UINT32(BRACE_PART_SIGMA, s->parts);
+    TEST_ASSERT_EQUAL_UINT32(BRACE_PART_SIGMA | BRACE_PART_SIGMA_SPACE, s->parts);
+    TEST_ASSERT_EQUAL_FLOAT(6.0f, s->space_sigma.k_yy_n_per_mm);
+    TEST_ASSERT_EQUAL_FLOAT(7.0f, s->space_sigma.lambda_n_per_mm[2]);
+    TEST_ASSERT_EQUAL_FLOAT(8.0f, s->space_sigma.k_across_n_per_mm);
     TEST_ASSERT_EQUAL_FLOAT(1.0f, s->sigma.k_xx_n_per_mm);
     TEST_ASSERT_EQUAL_FLOAT(3.0f, s->sigma.k_zz_n_per_mm);
     TEST_ASSERT_EQUAL_FLOAT(4.0f, s->sigma.lambda_min_n_per_mm);
     TEST_ASSERT_EQUAL_FLOAT(0.5f, s->sigma.stiff_axis_rad);
     TEST_ASSERT_TRUE(isnan(s->sigma.lambda_max_n_per_mm));
+}
+
+static void test_an_uncertainty_in_space_is_four_frames(void)
+{
+    brace_joiner_t joiner = {0};
+    const brace_can_sigma_space_0_t x = {
+        .sequence = 5u, .k_xx_n_per_mm = 1.0f, .k_xy_n_per_mm = 2.0f, .k_xz_n_per_mm = 3.0f};
+    const brace_can_sigma_space_1_t yz = {
+        .sequence = 5u, .k_yy_n_per_mm = 4.0f, .k_yz_n_per_mm = 5.0f, .k_zz_n_per_mm = 6.0f};
+    const brace_can_sigma_space_2_t lambda = {
+        .sequence = 5u, .lambda_1_n_per_mm = 7.0f, .lambda_2_n_per_mm = 8.0f, .lambda_3_n_per_mm = 9.0f};
+    const brace_can_sigma_space_3_t across = {.sequence = 5u, .k_across_n_per_mm = 10.0f};
+    brace_bus_frame_t frames[4];
+    for (uint32_t i = 0u; i < 4u; i++) {
+        frames[i] = (brace_bus_frame_t){.id = BRACE_CAN_ID_DETAILS + NODE, .length = 8u, .received_us = 1000u + i};
+    }
+    (void)brace_can_pack_sigma_space_0(&x, frames[0].data);
+    (void)brace_can_pack_sigma_space_1(&yz, frames[1].data);
+    (void)brace_can_pack_sigma_space_2(&lambda, frames[2].data);
+    (void)brace_can_pack_sigma_space_3(&across, frames[3].data);
+    const brace_client_snapshot_t *s = NULL;
+    for (uint32_t i = 0u; i < 4u; i++) {
+        s = brace_joiner_add(&joiner, NODE, &frames[i], 0u);
+        TEST_ASSERT_EQUAL(i == 3u, s != NULL);
+    }
+    TEST_ASSERT_EQUAL_UINT32(BRACE_PART_SIGMA_SPACE, s->parts);
+    const brace_client_space_sigma_t *got = &s->space_sigma;
+    const float found[] = {got->k_xx_n_per_mm, got->k_xy_n_per_mm, got->k_xz_n_per_mm, got->k_yy_n_per_mm,
+                           got->k_yz_n_per_mm, got->k_zz_n_per_mm, got->lambda_n_per_mm[0], got->lambda_n_per_mm[1],
+                           got->lambda_n_per_mm[2], got->k_across_n_per_mm};
+    for (uint32_t i = 0u; i < 10u; i++) {
+        TEST_ASSERT_FLOAT_WITHIN(1e-3f, (float)(i + 1u), found[i]);
+    }
+    TEST_ASSERT_TRUE(isnan(s->sigma.k_xx_n_per_mm));
 }
 
 /* Faults of a K in the plane; a new tick for each call. */
@@ -591,6 +630,7 @@ int main(void)
     RUN_TEST(test_over_can_fd_a_load_is_a_frame_of_its_own);
     RUN_TEST(test_an_uncertainty_is_of_its_k_s_tick);
     RUN_TEST(test_over_can_fd_an_uncertainty_is_a_frame_of_its_own);
+    RUN_TEST(test_an_uncertainty_in_space_is_four_frames);
     RUN_TEST(test_faults_are_those_last_heard);
     return UNITY_END();
 }

@@ -15,7 +15,7 @@ ROS = PROJECT / "tools" / "client" / "ros2"
 sys.path.insert(0, str(ROS / "brace_bridge"))
 
 from brace_bridge.decode import ERROR, OK, WARN, Decoder, LimbHealth, LimbLoad  # noqa: E402
-from brace_bridge.decode import LimbStiffness, LimbStiffnessInSpace  # noqa: E402
+from brace_bridge.decode import LimbStiffness, LimbStiffnessInSpace, LimbUncertainty  # noqa: E402
 
 from brace.bus.frame import Frame  # noqa: E402
 from brace.wire.frames import DICTIONARY_HASH, GROUPS, MESSAGES  # noqa: E402
@@ -62,7 +62,7 @@ def across_frames(sequence: int = 7, node: int = 3, time_s: float = 100.0, **cha
     return [Frame(time_s, layout.identifier + node, layout.encode(values)) for layout in GROUPS["load_across"]]
 
 
-@pytest.mark.parametrize("kind", [LimbStiffness, LimbStiffnessInSpace, LimbLoad])
+@pytest.mark.parametrize("kind", [LimbStiffness, LimbStiffnessInSpace, LimbLoad, LimbUncertainty])
 def test_fields_are_the_messages(kind: type) -> None:
     text = (ROS / "brace_msgs" / "msg" / f"{kind.__name__}.msg").read_text()
     named = re.findall(r"^(?!std_msgs)\w+ +([a-z]\w*) *(?:#|$)", text, re.MULTILINE)
@@ -72,7 +72,7 @@ def test_fields_are_the_messages(kind: type) -> None:
 @pytest.mark.parametrize("kind", [LimbStiffness, LimbStiffnessInSpace])
 def test_constants_are_the_dictionarys(kind: type) -> None:
     text = (ROS / "brace_msgs" / "msg" / f"{kind.__name__}.msg").read_text()
-    constants = {name: int(value) for name, value in re.findall(r"^uint8 ([A-Z_]+)=(\d+)", text, re.MULTILINE)}
+    constants = {name: int(value) for name, value in re.findall(r"^uint(?:8|16) ([A-Z_]+)=(\d+)", text, re.MULTILINE)}
     of = {(name, field.name): field for name, layout in MESSAGES.items() for field in layout.fields}
     wanted = {f"FLAG_{name}": 1 << bit for bit, name in enumerate(of["stiffness_b", "flags"].bit_names)}
     wanted |= {f"PLAY_{name}": code for code, name in of["stiffness_b", "play_femur"].names.items()}
@@ -189,6 +189,27 @@ def test_the_load_across_the_plane_comes_with_the_load(order: tuple[int, ...]) -
     assert len(later) == 1 and math.isnan(later[0].force_y) and later[0].force_x == pytest.approx(2.0)
 
 
+def test_an_uncertainty_in_si_units_and_k_but_once() -> None:
+    decoder = Decoder()
+    k = [frame("stiffness_a", sequence=7, k_xx=4.0, age=2.0), frame("stiffness_b", sequence=7)]
+    values = {"sequence": 7, "k_xx": 0.1, "k_xz": 0.05, "k_zz": 0.2}
+    values |= {"lambda_min": 0.01, "lambda_max": 0.3, "stiff_axis": 0.25}
+    sigma = [Frame(100.0, layout.identifier + 3, layout.encode(values)) for layout in GROUPS["sigma"]]
+    messages = [m for one in (*k, *sigma) for m in decoder.add(one)]
+    assert [type(m) for m in messages] == [LimbStiffness, LimbUncertainty]
+    told = messages[1]
+    assert isinstance(told, LimbUncertainty) and (told.node, told.sequence, told.stiff_axis) == (3, 7, 0.25)
+    assert (told.k_xx, told.k_xz, told.k_zz) == pytest.approx((100.0, 50.0, 200.0))
+    assert (told.lambda_min, told.lambda_max) == pytest.approx((10.0, 300.0), rel=0.05)
+    assert math.isnan(told.space_k_yy) and math.isnan(told.k_across)
+    of_space = {"sequence": 7} | {f"k_{name}": 0.5 for name in ("xx", "xy", "xz", "yy", "yz", "zz", "across")}
+    of_space |= {f"lambda_{number}": 0.4 for number in (1, 2, 3)}
+    later = [m for layout in GROUPS["sigma_space"]
+             for m in decoder.add(Frame(100.0, layout.identifier + 3, layout.encode(of_space)))]
+    assert len(later) == 1 and isinstance(later[0], LimbUncertainty)
+    assert (later[0].k_xx, later[0].space_k_yy, later[0].k_across) == pytest.approx((100.0, 500.0, 500.0))
+
+
 def test_space_and_load_of_one_snapshot() -> None:
     decoder = Decoder()
     k = [frame("stiffness_a", sequence=7, k_xx=4.0, age=2.0), frame("stiffness_b", sequence=7)]
@@ -230,6 +251,8 @@ def test_the_node_publishes_what_is_decoded(monkeypatch: pytest.MonkeyPatch) -> 
 
     frames = [frame("stiffness_a", sequence=1, k_xx=4.0), frame("stiffness_b", sequence=1, k_zz=0.25)]
     frames += [*space_frames(sequence=1), *load_frames(sequence=1)]
+    known = dict.fromkeys(("k_xx", "k_xz", "k_zz", "lambda_min", "lambda_max", "stiff_axis"), 0.1) | {"sequence": 1}
+    frames += [Frame(100.0, layout.identifier + 3, layout.encode(known)) for layout in GROUPS["sigma"]]
     frames.append(frame("emergency", error_code=0xFF01, drift_cause=1, faults=1 << 7))
     running = iter([True] * (len(frames) + 1) + [False])
     module("rclpy", ok=lambda: next(running), try_shutdown=lambda: None)
@@ -242,7 +265,8 @@ def test_the_node_publishes_what_is_decoded(monkeypatch: pytest.MonkeyPatch) -> 
         return SimpleNamespace(header=SimpleNamespace(stamp=stamp, frame_id=""), **content)
 
     module("brace_msgs")
-    module("brace_msgs.msg", LimbLoad=message, LimbStiffness=message, LimbStiffnessInSpace=message)
+    module("brace_msgs.msg", LimbLoad=message, LimbStiffness=message, LimbStiffnessInSpace=message,
+           LimbUncertainty=message)
     module("diagnostic_msgs")
     module("diagnostic_msgs.msg", DiagnosticArray=message, DiagnosticStatus=message, KeyValue=SimpleNamespace)
     sys.modules.pop("brace_bridge.node", None)
@@ -254,11 +278,13 @@ def test_the_node_publishes_what_is_decoded(monkeypatch: pytest.MonkeyPatch) -> 
     node._listener.join(timeout=5)
     assert node.failure is None
     topics = [topic for topic, _ in published]
-    assert topics == ["limb_3/stiffness", "limb_3/stiffness_in_space", "limb_3/load", "/diagnostics"]
-    plane, space, load, diagnostic = (content for _, content in published)
+    limb = ["stiffness", "stiffness_in_space", "load", "uncertainty"]
+    assert topics == [*(f"limb_3/{name}" for name in limb), "/diagnostics"]
+    plane, space, load, sigma, diagnostic = (content for _, content in published)
     assert (plane.header.frame_id, space.header.frame_id) == ("limb_3", "base_link") and plane.header.stamp.sec == 100
     assert (plane.k_xx, plane.k_zz) == pytest.approx((4000.0, 250.0)) and space.k_xy == pytest.approx(-1500.0)
     assert load.header.frame_id == "limb_3" and load.force_z == pytest.approx(-3.0)
+    assert sigma.header.frame_id == "limb_3" and sigma.k_zz == pytest.approx(100.0)
     [status] = diagnostic.status
     assert (status.level, status.hardware_id) == (bytes([WARN]), "limb_3") and "femur_link" in status.message
     assert {pair.key: pair.value for pair in status.values} == {"faults": "model_drift", "drift_cause": "femur_link"}

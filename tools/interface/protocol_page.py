@@ -24,11 +24,12 @@ A frame of the identifier 0x001, with or without data, is a stop for every contr
 they are. Anybody may send it. `controller.stop_id` can be another number, from 0x001 to 0x07f.
 
 All frames of one snapshot carry the same sequence: put together only what agrees. Two ends that do not have the same
-dictionary hash (heartbeat, `identify`) speak different languages and have to say so. Pass over a part or an answer whose number
-you do not know.
+dictionary hash (heartbeat, `identify`) speak different languages and have to say so. Pass over a part or an answer whose
+number you do not know.
 
-An example: `cansend can0 601#030920A107804F12` asks node 1 for K at theta1 = 0.5 rad and theta2 = 1.2 rad (request 3), with the
-token 9. The answer has four frames. `581#0309A81E0018F1FF` is the first (number 3): k_xx is 3.924 N/mm, k_xz -1.908 N/mm.
+An example: `cansend can0 601#030920A107804F12` asks node 1 for K at theta1 = 0.5 rad and theta2 = 1.2 rad (request 3),
+with the token 9. The answer has four frames. `581#0309A81E0018F1FF` is the first (number 3): k_xx is 3.924 N/mm, k_xz
+is -1.908 N/mm.
 
 ## Identifiers
 

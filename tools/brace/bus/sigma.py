@@ -51,7 +51,9 @@ class Sigma:
     def as_json(self) -> dict[str, object]:
         """Names with units."""
         units = ("n_per_mm",) * 5 + ("rad",)
-        told = {f"sigma_{name}_{unit}": self.values[name] for name, unit in zip(SIGMA_ENTRIES, units, strict=True)}
+        told: dict[str, object] = {
+            f"sigma_{name}_{unit}": self.values[name] for name, unit in zip(SIGMA_ENTRIES, units, strict=True)
+        }
         return told | {f"sigma_{name}_n_per_mm": value for name, value in (self.space or {}).items()}
 
 

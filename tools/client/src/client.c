@@ -78,7 +78,7 @@ brace_client_status_t brace_client_read(brace_client_t *client, uint32_t wanted,
     if (wanted == 0u || wanted > PARTS_MOST) {
         return brace_client_fail(client, BRACE_CLIENT_E_USAGE,
                                  "parts 0x%x: want BRACE_PART_K or more of BRACE_PART_ALL, _SPACE, _LOAD, "
-                                 "_LOAD_ACROSS, _SIGMA",
+                                 "_LOAD_ACROSS, _SIGMA, _SIGMA_SPACE",
                                  (unsigned)wanted);
     }
     return client->bus != NULL ? brace_can_read(client, wanted, brace_client_deadline_after(timeout_ms), snapshot)

@@ -516,6 +516,9 @@ static const char *part_in_words(uint32_t wanted)
     return (wanted & BRACE_PART_LOAD_ACROSS) != 0u
                ? "the load across the plane (only a limb with a coxa joint sends it, where controller.load_hz is not 0)"
            : (wanted & BRACE_PART_LOAD) != 0u ? "the load (it is sent where controller.load_hz is not 0)"
+           : (wanted & BRACE_PART_SIGMA_SPACE) != 0u
+               ? "the uncertainty of K in space (only a limb with a coxa joint sends it, where controller.sigma_hz is "
+                 "not 0)"
            : (wanted & BRACE_PART_SIGMA) != 0u
                ? "K's uncertainty (it is sent where controller.sigma_hz is not 0)"
            : (wanted & BRACE_PART_SPACE) != 0u

@@ -98,15 +98,26 @@ static void take_load(const brace_measured_t *m, brace_client_load_t *load)
     };
 }
 
-static void take_sigma(const brace_measured_t *m, brace_client_sigma_t *sigma)
+static void take_sigma(const brace_measured_t *m, brace_client_snapshot_t *s)
 {
-    *sigma = (brace_client_sigma_t){
+    s->sigma = (brace_client_sigma_t){
         .k_xx_n_per_mm = m->sigma_k_xx_n_per_mm,
         .k_xz_n_per_mm = m->sigma_k_xz_n_per_mm,
         .k_zz_n_per_mm = m->sigma_k_zz_n_per_mm,
         .lambda_min_n_per_mm = m->sigma_lambda_min_n_per_mm,
         .lambda_max_n_per_mm = m->sigma_lambda_max_n_per_mm,
         .stiff_axis_rad = m->sigma_stiff_axis_rad,
+    };
+    s->space_sigma = (brace_client_space_sigma_t){
+        .k_xx_n_per_mm = m->sigma_space_k_xx_n_per_mm,
+        .k_xy_n_per_mm = m->sigma_space_k_xy_n_per_mm,
+        .k_xz_n_per_mm = m->sigma_space_k_xz_n_per_mm,
+        .k_yy_n_per_mm = m->sigma_space_k_yy_n_per_mm,
+        .k_yz_n_per_mm = m->sigma_space_k_yz_n_per_mm,
+        .k_zz_n_per_mm = m->sigma_space_k_zz_n_per_mm,
+        .lambda_n_per_mm = {m->sigma_space_lambda_1_n_per_mm, m->sigma_space_lambda_2_n_per_mm,
+                            m->sigma_space_lambda_3_n_per_mm},
+        .k_across_n_per_mm = m->sigma_k_across_n_per_mm,
     };
 }
 
@@ -137,7 +148,7 @@ static void take(const brace_measured_t *m, uint64_t received_us, const brace_me
     };
     take_space(unknown, &s->space);
     take_load(unknown, &s->load);
-    take_sigma(unknown, &s->sigma);
+    take_sigma(unknown, s);
 }
 
 /* Reads some measured values at once, so that they are of one snapshot. The others stay unknown: NaN for a float, all
@@ -180,14 +191,15 @@ static brace_client_status_t read_space(brace_client_t *client, uint64_t deadlin
     return status;
 }
 
-static brace_client_status_t read_sigma(brace_client_t *client, uint64_t deadline_us, brace_client_snapshot_t *snapshot)
+static brace_client_status_t read_sigma(brace_client_t *client, uint64_t deadline_us, bool is_in_space,
+                                        brace_client_snapshot_t *snapshot)
 {
-    enum { FIRST = PLACE_OF(sigma_k_xx_n_per_mm), COUNT = PLACE_OF(sigma_stiff_axis_rad) - FIRST + 1 };
+    enum { FIRST = PLACE_OF(sigma_k_xx_n_per_mm), COUNT = PLACE_OF(sigma_k_across_n_per_mm) - FIRST + 1 };
     brace_measured_t measured;
     const brace_client_status_t status = read_measured(client, FIRST, COUNT, deadline_us, &measured);
     if (status == BRACE_CLIENT_OK) {
-        take_sigma(&measured, &snapshot->sigma);
-        snapshot->parts |= BRACE_PART_SIGMA;
+        take_sigma(&measured, snapshot);
+        snapshot->parts |= BRACE_PART_SIGMA | (is_in_space ? BRACE_PART_SIGMA_SPACE : 0u);
     }
     return status;
 }
@@ -241,7 +253,7 @@ brace_client_status_t brace_modbus_read(brace_client_t *client, uint32_t wanted,
     memset(&unknown, 0xff, sizeof unknown);
     take(&measured, brace_bus_now_us(), &unknown, &taken);
     const bool is_in_space = has_coxa_joint(&measured);
-    if (!is_in_space && (wanted & (BRACE_PART_SPACE | BRACE_PART_LOAD_ACROSS)) != 0u) {
+    if (!is_in_space && (wanted & (BRACE_PART_SPACE | BRACE_PART_LOAD_ACROSS | BRACE_PART_SIGMA_SPACE)) != 0u) {
         return brace_client_fail(client, BRACE_CLIENT_E_UNSUPPORTED,
                                  "%s: the limb has no coxa joint, so there is no K in space; want BRACE_PART_ALL",
                                  client->url);
@@ -253,8 +265,8 @@ brace_client_status_t brace_modbus_read(brace_client_t *client, uint32_t wanted,
         status = brace_modbus_load(client, deadline_us, &taken.load);
         taken.parts |= BRACE_PART_LOAD | (is_in_space ? BRACE_PART_LOAD_ACROSS : 0u);
     }
-    if (status == BRACE_CLIENT_OK && (wanted & BRACE_PART_SIGMA) != 0u) {
-        status = read_sigma(client, deadline_us, &taken);
+    if (status == BRACE_CLIENT_OK && (wanted & (BRACE_PART_SIGMA | BRACE_PART_SIGMA_SPACE)) != 0u) {
+        status = read_sigma(client, deadline_us, is_in_space, &taken);
     }
     if (status == BRACE_CLIENT_OK) {
         *snapshot = taken;

@@ -15,10 +15,12 @@ enum {
     LOAD_0 = 1u << 11,
     ACROSS_0 = 1u << 17,
     SIGMA_0 = 1u << 19,
+    SIGMA_SPACE_0 = 1u << 21,
     SPACE = 0x7fu * SPACE_0,
     LOAD = 0x3fu * LOAD_0,
     ACROSS = 3u * ACROSS_0,
-    SIGMA = 3u * SIGMA_0
+    SIGMA = 3u * SIGMA_0,
+    SIGMA_SPACE = 0xfu * SIGMA_SPACE_0
 };
 
 static void begin(brace_joiner_slot_t *slot, uint32_t sequence, uint64_t received_us)
@@ -41,6 +43,7 @@ static void begin(brace_joiner_slot_t *slot, uint32_t sequence, uint64_t receive
     space->theta0_rad = space->k_across_n_per_mm = NAN;
     k->flags = space->play_coxa = UINT32_MAX;
     s->sigma = (brace_client_sigma_t){NAN, NAN, NAN, NAN, NAN, NAN};
+    s->space_sigma = (brace_client_space_sigma_t){NAN, NAN, NAN, NAN, NAN, NAN, {NAN, NAN, NAN}, NAN};
     s->load = (brace_client_load_t){false, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
     s->flags = s->play_femur = s->play_tibia = s->parameter_tag = s->mode = s->faults = UINT32_MAX;
 }
@@ -259,11 +262,49 @@ static void take_sigma_1(brace_client_snapshot_t *s, const uint8_t *data)
     TAKE_SIGMA(lambda_min_n_per_mm), TAKE_SIGMA(lambda_max_n_per_mm), TAKE_SIGMA(stiff_axis_rad);
 }
 
+#define TAKE_SPACE_SIGMA(member) s->space_sigma.member = got.member
+
+static void take_sigma_space_0(brace_client_snapshot_t *s, const uint8_t *data)
+{
+    UNPACKED(sigma_space_0);
+    TAKE_SPACE_SIGMA(k_xx_n_per_mm), TAKE_SPACE_SIGMA(k_xy_n_per_mm), TAKE_SPACE_SIGMA(k_xz_n_per_mm);
+}
+
+static void take_sigma_space_1(brace_client_snapshot_t *s, const uint8_t *data)
+{
+    UNPACKED(sigma_space_1);
+    TAKE_SPACE_SIGMA(k_yy_n_per_mm), TAKE_SPACE_SIGMA(k_yz_n_per_mm), TAKE_SPACE_SIGMA(k_zz_n_per_mm);
+}
+
+static void take_sigma_space_2(brace_client_snapshot_t *s, const uint8_t *data)
+{
+    UNPACKED(sigma_space_2);
+    s->space_sigma.lambda_n_per_mm[0] = got.lambda_1_n_per_mm;
+    s->space_sigma.lambda_n_per_mm[1] = got.lambda_2_n_per_mm;
+    s->space_sigma.lambda_n_per_mm[2] = got.lambda_3_n_per_mm;
+}
+
+static void take_sigma_space_3(brace_client_snapshot_t *s, const uint8_t *data)
+{
+    UNPACKED(sigma_space_3);
+    TAKE_SPACE_SIGMA(k_across_n_per_mm);
+}
+
 static void take_whole_sigma(brace_client_snapshot_t *s, const uint8_t *data)
 {
     UNPACKED(sigma_fd);
     TAKE_SIGMA(k_xx_n_per_mm), TAKE_SIGMA(k_xz_n_per_mm), TAKE_SIGMA(k_zz_n_per_mm);
     TAKE_SIGMA(lambda_min_n_per_mm), TAKE_SIGMA(lambda_max_n_per_mm), TAKE_SIGMA(stiff_axis_rad);
+    s->space_sigma = (brace_client_space_sigma_t){
+        .k_xx_n_per_mm = got.space_k_xx_n_per_mm,
+        .k_xy_n_per_mm = got.space_k_xy_n_per_mm,
+        .k_xz_n_per_mm = got.space_k_xz_n_per_mm,
+        .k_yy_n_per_mm = got.space_k_yy_n_per_mm,
+        .k_yz_n_per_mm = got.space_k_yz_n_per_mm,
+        .k_zz_n_per_mm = got.space_k_zz_n_per_mm,
+        .lambda_n_per_mm = {got.space_lambda_1_n_per_mm, got.space_lambda_2_n_per_mm, got.space_lambda_3_n_per_mm},
+        .k_across_n_per_mm = got.k_across_n_per_mm,
+    };
 }
 
 typedef struct {
@@ -295,10 +336,14 @@ static const kind_t kinds[] = {
     {BRACE_CAN_ID_DETAILS, BRACE_CAN_PART_LOAD_ACROSS_1, ACROSS_0 << 1, 8u, take_across_1},
     {BRACE_CAN_ID_DETAILS, BRACE_CAN_PART_SIGMA_0, SIGMA_0, 8u, take_sigma_0},
     {BRACE_CAN_ID_DETAILS, BRACE_CAN_PART_SIGMA_1, SIGMA_0 << 1, 8u, take_sigma_1},
+    {BRACE_CAN_ID_DETAILS, BRACE_CAN_PART_SIGMA_SPACE_0, SIGMA_SPACE_0, 8u, take_sigma_space_0},
+    {BRACE_CAN_ID_DETAILS, BRACE_CAN_PART_SIGMA_SPACE_1, SIGMA_SPACE_0 << 1, 8u, take_sigma_space_1},
+    {BRACE_CAN_ID_DETAILS, BRACE_CAN_PART_SIGMA_SPACE_2, SIGMA_SPACE_0 << 2, 8u, take_sigma_space_2},
+    {BRACE_CAN_ID_DETAILS, BRACE_CAN_PART_SIGMA_SPACE_3, SIGMA_SPACE_0 << 3, 8u, take_sigma_space_3},
     {BRACE_CAN_ID_SNAPSHOT_FD, 0u, A | B | EIGENVALUES | POSTURE, 64u, take_whole},
     {BRACE_CAN_ID_DETAILS_FD, BRACE_CAN_PART_SPACE_FD, SPACE, 64u, take_whole_space},
     {BRACE_CAN_ID_DETAILS_FD, BRACE_CAN_PART_LOAD_FD, LOAD | ACROSS, 64u, take_whole_load},
-    {BRACE_CAN_ID_DETAILS_FD, BRACE_CAN_PART_SIGMA_FD, SIGMA, 64u, take_whole_sigma},
+    {BRACE_CAN_ID_DETAILS_FD, BRACE_CAN_PART_SIGMA_FD, SIGMA | SIGMA_SPACE, 64u, take_whole_sigma},
 };
 
 /* Which of the frames with this identifier it is. */
@@ -380,7 +425,8 @@ const brace_client_snapshot_t *brace_joiner_add(brace_joiner_t *joiner, uint32_t
                ((slot->frames & SPACE) == SPACE ? BRACE_PART_SPACE : 0u) |
                ((slot->frames & LOAD) == LOAD ? BRACE_PART_LOAD : 0u) |
                ((slot->frames & ACROSS) == ACROSS ? BRACE_PART_LOAD_ACROSS : 0u) |
-               ((slot->frames & SIGMA) == SIGMA ? BRACE_PART_SIGMA : 0u);
+               ((slot->frames & SIGMA) == SIGMA ? BRACE_PART_SIGMA : 0u) |
+               ((slot->frames & SIGMA_SPACE) == SIGMA_SPACE ? BRACE_PART_SIGMA_SPACE : 0u);
     s->k_is_valid = s->parts & BRACE_PART_K && isfinite(s->k_xx_n_per_mm) && isfinite(s->k_xz_n_per_mm) &&
                     isfinite(s->k_zz_n_per_mm);
     s->space.k_is_valid = s->parts & BRACE_PART_SPACE && is_space_k_known(&s->space.k);

@@ -55,7 +55,8 @@ enum {
     BRACE_PART_SPACE = 8,       /* K in space of a limb whose coxa joint is fitted: in every snapshot */
     BRACE_PART_LOAD = 16,       /* the load that K counts: at controller.load_hz, which is 0 at first */
     BRACE_PART_LOAD_ACROSS = 32, /* its y and K across without load, of a limb whose coxa joint is fitted: beside it */
-    BRACE_PART_SIGMA = 64       /* how sure K is: 10 Hz (controller.sigma_hz) */
+    BRACE_PART_SIGMA = 64,       /* how sure K is: 10 Hz (controller.sigma_hz) */
+    BRACE_PART_SIGMA_SPACE = 128 /* how sure K in space is, of a limb whose coxa joint is fitted: beside it */
 };
 
 /* K in the robot's base frame. */
@@ -74,11 +75,18 @@ typedef struct {
     uint32_t play_coxa;      /* state of the coxa joint's backlash, numbered as play_femur */
 } brace_client_space_t;
 
-/* One sigma of each value of K in the limb's plane; NaN: not known. */
+/* One sigma of each value of K in the limb's plane, every gap closed; NaN: not known. */
 typedef struct {
     float k_xx_n_per_mm, k_xz_n_per_mm, k_zz_n_per_mm;
     float lambda_min_n_per_mm, lambda_max_n_per_mm, stiff_axis_rad;
 } brace_client_sigma_t;
+
+/* The same of K in space, and of K across the limb's plane. */
+typedef struct {
+    float k_xx_n_per_mm, k_xy_n_per_mm, k_xz_n_per_mm, k_yy_n_per_mm, k_yz_n_per_mm, k_zz_n_per_mm;
+    float lambda_n_per_mm[3]; /* of the eigenvalues, ascending */
+    float k_across_n_per_mm;
+} brace_client_space_sigma_t;
 
 /* The load that K counts, and what it does to the limb. x and z in the limb's plane, y across it, to the left: NaN for
  * a limb in its plane, and over CAN in a snapshot without BRACE_PART_LOAD_ACROSS. */
@@ -109,6 +117,7 @@ typedef struct {
     uint32_t faults; /* bits as docs/protocol.md lists them; all ones: not heard yet. Over CAN they come at a change and
                         with each heartbeat (controller.heartbeat_hz), so these are the newest that were heard */
     brace_client_sigma_t sigma;
+    brace_client_space_sigma_t space_sigma;
     brace_client_space_t space;
     brace_client_load_t load;
 } brace_client_snapshot_t;

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from brace.bus.frame import Frame
 from brace.bus.drift import cause_text
 from brace.bus.load import Load
+from brace.bus.sigma import SIGMA_ENTRIES, SPACE_ENTRIES, Sigma
 from brace.bus.snapshot import Heartbeat, Joiner, Snapshot, condition_of, emergency_of, heartbeat_of
 from brace.bus.space import SpaceSnapshot
 from brace.wire.codes import FAULT, PLAY
@@ -92,6 +93,31 @@ class LimbLoad:
 
 
 @dataclass(frozen=True)
+class LimbUncertainty:
+    """The fields of msg/LimbUncertainty.msg, in SI units; stamp_s takes the header's place."""
+
+    stamp_s: float
+    node: int
+    sequence: int
+    k_xx: float
+    k_xz: float
+    k_zz: float
+    lambda_min: float
+    lambda_max: float
+    stiff_axis: float
+    space_k_xx: float
+    space_k_xy: float
+    space_k_xz: float
+    space_k_yy: float
+    space_k_yz: float
+    space_k_zz: float
+    space_lambda_1: float
+    space_lambda_2: float
+    space_lambda_3: float
+    k_across: float
+
+
+@dataclass(frozen=True)
 class LimbHealth:
     """What a diagnostic says of a limb."""
 
@@ -103,7 +129,7 @@ class LimbHealth:
     drift_cause: str  # none: no drift; empty: a drift whose cause was told before this bridge listened
 
 
-Message = LimbStiffness | LimbStiffnessInSpace | LimbLoad | LimbHealth
+Message = LimbStiffness | LimbStiffnessInSpace | LimbLoad | LimbUncertainty | LimbHealth
 OK, WARN, ERROR = range(3)
 _NOT_HEARD = 0xFFFFFFFF
 _NO_K = {"sensor_femur", "sensor_tibia", "encoder_stuck"}
@@ -117,11 +143,12 @@ class Decoder:
         self._joiner = Joiner()
         self._told: dict[int, tuple[int, float]] = {}  # by node: the snapshot whose K in the plane has been given
         self._load_told: dict[int, tuple[int, float]] = {}  # the same of its load
+        self._sigma_told: dict[int, tuple[tuple[int, float], Sigma]] = {}  # and of its uncertainty
         self._cause: dict[int, str] = {}
         self._strangers: set[int] = set()  # nodes with another dictionary: their frames mean something else
 
     def add(self, frame: Frame) -> list[Message]:
-        """What this frame completes: K alone; K in space; its load; K with eigenvalues and posture once more; with a
+        """What this frame completes: K alone; K in space; its load; its uncertainty; K with eigenvalues and posture once more; with a
         condition or an emergency the limb's health. Of a controller whose heartbeat tells of another dictionary: that
         it does, and nothing else."""
         heartbeat = heartbeat_of(frame)
@@ -148,7 +175,7 @@ class Decoder:
     def _messages_of(self, snapshot: Snapshot) -> list[Message]:
         messages: list[Message] = []
         this = (snapshot.sequence, snapshot.time_s)
-        if snapshot.adds not in ("space", "load") or self._told.get(snapshot.node) != this:
+        if snapshot.adds not in ("space", "load", "sigma") or self._told.get(snapshot.node) != this:
             messages.append(message_of(snapshot))
         self._told[snapshot.node] = this
         if snapshot.adds == "space" and snapshot.space is not None:
@@ -156,6 +183,9 @@ class Decoder:
         if snapshot.load is not None and self._load_told.get(snapshot.node) != this:
             self._load_told[snapshot.node] = this
             messages.append(load_message_of(snapshot, snapshot.load))
+        if snapshot.sigma is not None and self._sigma_told.get(snapshot.node) != (this, snapshot.sigma):
+            self._sigma_told[snapshot.node] = (this, snapshot.sigma)
+            messages.append(uncertainty_message_of(snapshot, snapshot.sigma))
         return messages
 
     def _health(self, time_s: float, node: int, faults: tuple[str, ...]) -> LimbHealth:
@@ -241,6 +271,19 @@ def load_message_of(snapshot: Snapshot, load: Load) -> LimbLoad:
         unloaded_k_across=_per_m(v.get("unloaded_k_across")),
         gravity_direction=_or_nan(v["gravity_direction"]),
         gravity_lean=_or_nan(v["gravity_lean"]),
+    )
+
+
+def uncertainty_message_of(snapshot: Snapshot, sigma: Sigma) -> LimbUncertainty:
+    """How sure K is, in SI units."""
+    plane, space = sigma.values, sigma.space or {}
+    return LimbUncertainty(
+        _sampled_s(snapshot),
+        snapshot.node,
+        snapshot.sequence,
+        *(_per_m(plane[name]) for name in SIGMA_ENTRIES[:-1]),
+        stiff_axis=_or_nan(plane["stiff_axis"]),
+        **{name: _per_m(space.get(name)) for name in SPACE_ENTRIES},
     )
 
 

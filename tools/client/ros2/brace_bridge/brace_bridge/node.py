@@ -1,6 +1,6 @@
 """ros2 run brace_bridge brace_bridge --ros-args -p bus:=can0: a topic limb_N/stiffness for each controller heard, with
-a coxa joint limb_N/stiffness_in_space too, where the load is sent (controller.load_hz) limb_N/load, and on /diagnostics
-each limb's faults and the cause of a drift.
+a coxa joint limb_N/stiffness_in_space too, where they are sent (controller.load_hz, sigma_hz) limb_N/load and
+limb_N/uncertainty, and on /diagnostics each limb's faults and the cause of a drift.
 
 Parameters: bus (can0, slcan:/dev/ttyACM0, tcp://host:port), frame_prefix ("limb_": header.frame_id is limb_N),
 base_frame ("base_link": header.frame_id of K in space).
@@ -19,12 +19,21 @@ from brace.errors import BraceError
 from brace_msgs.msg import LimbLoad as LimbLoadMessage
 from brace_msgs.msg import LimbStiffness as LimbStiffnessMessage
 from brace_msgs.msg import LimbStiffnessInSpace as LimbStiffnessInSpaceMessage
+from brace_msgs.msg import LimbUncertainty as LimbUncertaintyMessage
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.qos import qos_profile_sensor_data
 
-from brace_bridge.decode import Decoder, LimbHealth, LimbLoad, LimbStiffness, LimbStiffnessInSpace, Message
+from brace_bridge.decode import (
+    Decoder,
+    LimbHealth,
+    LimbLoad,
+    LimbStiffness,
+    LimbStiffnessInSpace,
+    LimbUncertainty,
+    Message,
+)
 
 WAIT_S = 0.2
 DIAGNOSTICS_KEPT = 10
@@ -65,6 +74,9 @@ class Bridge(Node):
         elif isinstance(message, LimbLoad):
             topic = self._topic(f"{limb}/load", LimbLoadMessage, qos_profile_sensor_data)
             topic.publish(_filled(LimbLoadMessage(), message, f"{self._prefix}{message.node}"))
+        elif isinstance(message, LimbUncertainty):
+            topic = self._topic(f"{limb}/uncertainty", LimbUncertaintyMessage, qos_profile_sensor_data)
+            topic.publish(_filled(LimbUncertaintyMessage(), message, f"{self._prefix}{message.node}"))
         else:
             self._topic("/diagnostics", DiagnosticArray, DIAGNOSTICS_KEPT).publish(_diagnostic(limb, message))
 
@@ -80,10 +92,10 @@ def _seconds(stamp_s: float) -> tuple[int, int]:
 
 
 def _filled(
-    message: LimbStiffnessMessage | LimbStiffnessInSpaceMessage | LimbLoadMessage,
-    stiffness: LimbStiffness | LimbStiffnessInSpace | LimbLoad,
+    message: LimbStiffnessMessage | LimbStiffnessInSpaceMessage | LimbLoadMessage | LimbUncertaintyMessage,
+    stiffness: LimbStiffness | LimbStiffnessInSpace | LimbLoad | LimbUncertainty,
     frame_id: str,
-) -> LimbStiffnessMessage | LimbStiffnessInSpaceMessage | LimbLoadMessage:
+) -> LimbStiffnessMessage | LimbStiffnessInSpaceMessage | LimbLoadMessage | LimbUncertaintyMessage:
     message.header.stamp.sec, message.header.stamp.nanosec = _seconds(stiffness.stamp_s)
     message.header.frame_id = frame_id
     for field in fields(stiffness):
