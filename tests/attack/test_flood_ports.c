@@ -320,6 +320,7 @@ static void test_masters_of_a_bus_take_turns(void)
     enum { OURS = 0xf0, TURNS_MOST = 16 };
     uint32_t asked = 0, answered = 0, others = 0, refusals = 0, turns = 0, worst = 0;
     bool waits = false;
+    has_coxa = false;
     start_limb(false, NULL);
     const uint32_t lost_before = counters().requests_lost;
     for (uint32_t i = 0; i < 4000u; i++) {
@@ -355,12 +356,52 @@ static void test_masters_of_a_bus_take_turns(void)
            (unsigned)(counters().requests_lost - lost_before), (unsigned)worst);
 }
 
+/* While CAN is full of commands, whoever asks for K as text still gets it: of questions that are worked out in steps no
+ * flood of commands takes every tick. */
+static void k_is_answered(bool in_space, uint32_t each_ticks)
+{
+    enum { ASKED = 10 };
+    uint32_t answered = 0;
+    char part[16];
+    uint8_t data[8], sink[600];
+    has_coxa = in_space;
+    start_limb(true, the_key);
+    open_session();
+    (void)brace_fake_bytes_arrive(&fake, BRACE_SERIAL_SLCAN, (const uint8_t *)"O\r", 2);
+    (void)snprintf(part, sizeof part, "t5858%02X31", (unsigned)BRACE_K_AT_POSTURE_ANSWER_0);
+    memset(&line, 0, sizeof line);
+    for (uint32_t i = 0; i < ASKED * each_ticks; i++) {
+        if (i % each_ticks == 0u) {
+            brace_can_pack_k_at_posture_request(&(brace_can_k_at_posture_request_t){0x31, 0.8f, 1.1f}, data);
+            text_of(0x600u + NODE, data, 8);
+        }
+        line_carries(BRACE_SERIAL_SLCAN);
+        flooded_tick(FORGED_SEALS, REQUESTS_PER_MS);
+        sink[brace_fake_bytes_take(&fake, BRACE_SERIAL_SLCAN, sink, sizeof sink - 1u)] = '\0';
+        answered += strstr((const char *)sink, part) != NULL;
+    }
+    TEST_ASSERT_EQUAL(ASKED, answered);
+    TEST_ASSERT_EQUAL(0, counters().frames_lost);
+    brace_session_report_t report;
+    brace_app_session(&app, &report);
+    TEST_ASSERT_EQUAL(BRACE_OWNER_CAN, report.owner); /* its signs of life were among them */
+    TEST_ASSERT_EQUAL(0, report.silences);
+}
+
+/* One tick in five has room, and K in the plane takes two steps, which others may take in turn. */
+static void test_commands_leave_room_for_questions(void)
+{
+    k_is_answered(false, 60);
+    k_is_answered(true, 400);
+}
+
 /* Fourteen connections ask without end, the fifteenth now and then: it waits for fourteen turns at most. */
 static void test_connections_take_turns(void)
 {
     const uint8_t read[] = {4, 0, 0, 0, 2};
     uint32_t asked = 0, ours = 0, turns = 0, worst = 0;
     bool waits = false;
+    has_coxa = false;
     start_limb(false, NULL);
     brace_fake_with_connections(&fake);
     uint32_t answers = 0, busy = 0;
@@ -406,6 +447,7 @@ int main(int count, char **arguments)
     UNITY_BEGIN();
     RUN_TEST(test_a_stop_is_heard_on_every_port);
     RUN_TEST(test_masters_of_a_bus_take_turns);
+    RUN_TEST(test_commands_leave_room_for_questions);
     RUN_TEST(test_connections_take_turns);
     return UNITY_END();
 }

@@ -4,6 +4,9 @@
  * that floods the line sends in every third tick: bytes, a silent tick, and the tick that answers. */
 enum { SLOT_BYTES = 12288, LINE_REQUEST_TICKS = 3 };
 
+/* Requests of a full bus at 1 Mbit/s in a millisecond, and what a ring holds after a late tick. */
+enum { REQUESTS_PER_MS = 8, RING_FRAMES = 64, REQUEST_CODES = 36 };
+
 uint32_t world_now_us;
 
 static world_manner_t manner;
@@ -120,11 +123,14 @@ static int32_t door_can_receive(void *context, brace_can_frame_t *frame)
     if (frames_waiting == 0u) {
         return 0;
     }
+    static uint32_t noise = 1;
     frames_waiting--;
-    frame->id = 0x600u + (frames_waiting & 0x7fu);
+    frame->id = manner.flooded ? request_id : 0x600u + (frames_waiting & 0x7fu);
     for (int i = 0; i < 8; i++) {
-        frame->data[i] = (uint8_t)frames_waiting;
+        noise = 1664525u * noise + 1013904223u;
+        frame->data[i] = (uint8_t)(noise >> 24);
     }
+    frame->data[0] = manner.flooded ? (uint8_t)(frame->data[0] % REQUEST_CODES) : (uint8_t)frames_waiting;
     return 1;
 }
 
@@ -447,7 +453,9 @@ void world_step(dice_t *dice)
     force_answer = !manner.cooperative && dice_in(dice, 100) ? BRACE_HAL_E_DEVICE : BRACE_HAL_OK;
     command_answer = manner.drives_fail && dice_in(dice, 20) ? BRACE_HAL_E_DEVICE : BRACE_HAL_OK;
     send_answer = dice_in(dice, 10) ? BRACE_HAL_AGAIN : BRACE_HAL_OK;
-    frames_waiting = dice_in(dice, 4) ? dice_below(dice, 20) : 0u;
+    frames_waiting = manner.flooded       ? (dice_in(dice, 2000) ? RING_FRAMES : REQUESTS_PER_MS)
+                     : dice_in(dice, 4) ? dice_below(dice, 20)
+                                        : 0u;
     fresh_bus_off = fresh_bus_off || dice_in(dice, 20000);
     bus_off = fresh_bus_off;
 }

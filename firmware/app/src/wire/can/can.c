@@ -6,7 +6,9 @@
 
 #define FRAMES_PER_TICK 72u /* looked at: a ring of 64, and what comes while it is emptied */
 #define LINES_PER_TICK 512u /* the same as text: a board's line carries fewer, a host's TCP connection more */
-#define SESSION_PER_MS 10u  /* requests of a session that are obeyed: as many as 1 Mbit/s carries */
+#define SESSION_PER_MS 11u  /* requests of a session that are obeyed: more than 1 Mbit/s carries, which is 8 or 9 */
+#define ROOM_TICKS 5u       /* in each fifth tick only one is, so that questions and jobs go on in any flood */
+#define REFUSALS_PER_TICK 2u /* of questions too many; more of them are only counted */
 #define NODE_MOST 127u
 #define STORING_PARTS 2u /* of the answer to a commit, which comes by itself */
 #define DATA_WAIT_MOST 16u /* ticks with answers in a row, in which no process data leave */
@@ -106,7 +108,8 @@ static void keep_silent(can_t *can, way_t way, const wire_tick_t *tick)
 static void refuse_busy(can_requests_t *requests, const wire_tick_t *tick, const uint8_t *data)
 {
     brace_count(&tick->counters->questions_busy);
-    if (can_answers_have_room(&requests->answers, 1u + ROOM_FOR_REFUSALS)) {
+    if (requests->refusals_left > 0u && can_answers_have_room(&requests->answers, 1u + ROOM_FOR_REFUSALS)) {
+        requests->refusals_left--;
         can_answers_refuse(&requests->answers, data[0], data[1], BRACE_REFUSED_CROWDED, CAN_QUESTIONS_EACH);
     } else {
         brace_count(&tick->counters->requests_lost);
@@ -131,7 +134,9 @@ static bool sort_frame(can_t *can, way_t way, const wire_tick_t *tick, const bra
     if (!is_request(can, tick, frame) || (way == ON_BUS && !has_number(can))) {
         return false;
     }
-    brace_can_unpack_request(frame->data, &asked);
+    if (frame->data[0] == (uint8_t)BRACE_REQUEST_WRITE_ENTRY) { /* the others' code says it all */
+        brace_can_unpack_request(frame->data, &asked);
+    }
     const answer_rank_t rank = answer_rank(frame->data[0], &asked);
     if (rank == ANSWER_QUESTION) {
         if (!can_queue_put_question(&requests->queue, frame->data)) {
@@ -309,23 +314,26 @@ static uint32_t speak(can_t *can, way_t way, const wire_tick_t *tick, uint32_t m
 
 bool can_hear(can_t *can, const wire_tick_t *tick)
 {
+    can->bus_port.requests.refusals_left = can->text_port.requests.refusals_left = REFUSALS_PER_TICK;
     const bool stops_on_bus = hear_bus(can, tick);
     return hear_text(can, tick) || stops_on_bus;
 }
 
 uint32_t can_obey(can_t *can, const wire_tick_t *tick)
 {
-    const uint32_t most = SESSION_PER_MS * brace_app_parameters(tick->app)->controller.tick_us / 1000u;
+    const uint32_t each_tick = SESSION_PER_MS * brace_app_parameters(tick->app)->controller.tick_us / 1000u;
+    can->ticks_to_room = (uint8_t)((can->ticks_to_room + 1u) % ROOM_TICKS);
+    const uint32_t most = can->ticks_to_room == 0u ? 1u : each_tick;
     return obey_session(can, ON_BUS, tick, most) + obey_session(can, AS_TEXT, tick, most);
 }
 
-uint32_t can_answer(can_t *can, const wire_tick_t *tick)
+uint32_t can_answer(can_t *can, const wire_tick_t *tick, bool has_room)
 {
     can_bus_watch(&can->bus, tick->hal, brace_app_parameters(tick->app)->controller.tick_us);
     tick->counters->frames_lost = can->bus.frames_lost;
     can_requests_tick(&can->bus_port.requests, tick);
     can_requests_tick(&can->text_port.requests, tick);
-    return answer_question(can, ON_BUS, tick) + answer_question(can, AS_TEXT, tick);
+    return has_room ? answer_question(can, ON_BUS, tick) + answer_question(can, AS_TEXT, tick) : WIRE_NOTHING;
 }
 
 uint32_t can_speak(can_t *can, const wire_tick_t *tick, uint32_t most)

@@ -41,6 +41,7 @@ typedef struct {
     can_bus_t bus;
     slcan_t text;
     bool text_first;         /* in the last tick the text port spoke before the bus did */
+    uint8_t ticks_to_room;   /* until sessions leave a tick to questions and jobs [0, 4] */
     uint8_t data_waited;     /* ticks in a row in which process data have waited for answers */
     uint32_t data_done;      /* in this tick, by process_tick */
     can_port_t bus_port;
@@ -60,13 +61,15 @@ bool can_hear(can_t *can, const wire_tick_t *tick);
  * nothing any more. */
 void can_stop(can_t *can);
 
-/* Behind it: obeys what belongs to a session, at most ten requests of each port for each millisecond of a tick.
+/* Behind it: obeys what belongs to a session, at most eleven requests of each port for each millisecond of a tick, and
+ * one in each fifth tick.
  * returns how much both have done (wire/wire.h) */
 uint32_t can_obey(can_t *can, const wire_tick_t *tick);
 
 /* At the end of the tick: answers a question of each port.
+ *   has_room: questions may be answered; else they wait
  * returns how much both have done (wire/wire.h) */
-uint32_t can_answer(can_t *can, const wire_tick_t *tick);
+uint32_t can_answer(can_t *can, const wire_tick_t *tick, bool has_room);
 
 /* Then: sends what is due.
  *   most: frames of process data that may leave, at most PROCESS_FRAMES_PER_TICK; 0: they wait, but not for more than

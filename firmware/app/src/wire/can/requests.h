@@ -19,6 +19,7 @@ typedef struct {
     uint8_t storing;        /* code of the commit or roll-back that is answered once the store has ended; 0: none */
     uint8_t storing_token;
     brace_seal_t seal[CAN_SEALS]; /* that have come, each for the command with its token */
+    uint8_t refusals_left;  /* of questions too many, in this tick */
     uint8_t oldest_seal;    /* the next one to be given up */
     bool waits;             /* the queue's question is being worked out: it is asked again in each tick */
 } can_requests_t;

@@ -290,7 +290,7 @@ static uint32_t close_unanswered(modbus_line_t *line, modbus_server_t *server, c
 bool modbus_line_hear(modbus_line_t *line, modbus_server_t *server, const wire_tick_t *tick, uint32_t *done)
 {
     modbus_link_t *link = &line->link;
-    if (link->is_sending) {
+    if (link->is_sending || line->has_question) {
         uint16_t looked = 0;
         gather_ahead(line, tick);
         return obey_stop(server, tick, line->ahead, line->ahead_count, &looked);
@@ -338,9 +338,9 @@ static uint32_t answer_question(modbus_line_t *line, modbus_server_t *server, co
     return waited ? WIRE_NOTHING : WIRE_TAKEN;
 }
 
-uint32_t modbus_line_answer(modbus_line_t *line, modbus_server_t *server, const wire_tick_t *tick)
+uint32_t modbus_line_answer(modbus_line_t *line, modbus_server_t *server, const wire_tick_t *tick, bool has_room)
 {
-    const uint32_t done = answer_question(line, server, tick);
+    const uint32_t done = has_room ? answer_question(line, server, tick) : (uint32_t)WIRE_NOTHING;
     if (line->link.is_sending) {
         seal(line, tick);
         modbus_link_send(&line->link, tick, BRACE_SERIAL_MODBUS);

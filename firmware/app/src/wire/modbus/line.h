@@ -28,7 +28,7 @@ typedef struct {
     modbus_half_t half;    /* of a value */
     uint16_t sound;        /* so many bytes were a sound frame in a tick in which none came; 0: none are */
     uint16_t looked;       /* through so many bytes for a stop */
-    bool has_question;     /* the link holds one, to be answered at the end of this tick */
+    bool has_question;     /* the link holds one, to be answered at the end of this tick, or of one that has room */
     uint8_t asked_count;   /* bytes of the question that is being worked out, without its check; 0: none is */
     uint8_t asked[MODBUS_LINE_QUESTION_BYTES];
     uint8_t ahead_count;   /* what has come while the link holds an answer */
@@ -49,6 +49,6 @@ bool modbus_line_hear(modbus_line_t *line, modbus_server_t *server, const wire_t
  * Its check is worked out while it leaves, a part in each tick, ahead of the line. A master that sends another request
  * has given up the one before: what waits for its K is forgotten then, and counted. At most 1,500 instructions.
  * returns how much it has done (wire/wire.h) */
-uint32_t modbus_line_answer(modbus_line_t *line, modbus_server_t *server, const wire_tick_t *tick);
+uint32_t modbus_line_answer(modbus_line_t *line, modbus_server_t *server, const wire_tick_t *tick, bool has_room);
 
 #endif

@@ -27,13 +27,13 @@ bool modbus_hear(modbus_t *modbus, const wire_tick_t *tick, uint32_t *done)
     return stops;
 }
 
-uint32_t modbus_answer(modbus_t *modbus, const wire_tick_t *tick)
+uint32_t modbus_answer(modbus_t *modbus, const wire_tick_t *tick, bool has_room)
 {
     uint32_t done = WIRE_NOTHING;
     if (modbus->line.link.is_fitted) {
-        done += modbus_line_answer(&modbus->line, &modbus->server, tick);
+        done += modbus_line_answer(&modbus->line, &modbus->server, tick, has_room);
     }
-    if (modbus->tcp.link.is_fitted) {
+    if (modbus->tcp.link.is_fitted && has_room) {
         done += modbus_tcp_answer(&modbus->tcp, &modbus->server, tick);
     }
     return done;

@@ -30,7 +30,8 @@ void modbus_start(modbus_t *modbus, const brace_hal_t *hal, const brace_paramete
 bool modbus_hear(modbus_t *modbus, const wire_tick_t *tick, uint32_t *done);
 
 /* The end of a tick: answers a question of each port. At most 3,000 instructions.
+ *   has_room: questions may be answered; else they wait
  * returns how much both have done (wire/wire.h) */
-uint32_t modbus_answer(modbus_t *modbus, const wire_tick_t *tick);
+uint32_t modbus_answer(modbus_t *modbus, const wire_tick_t *tick, bool has_room);
 
 #endif

@@ -129,7 +129,7 @@ static void tick(void)
     const wire_tick_t now = {&fake.hal, &controller, &counters, &measured, fake.now_us};
     uint32_t done = 0;
     (void)modbus_hear(&modbus, &now, &done);
-    (void)modbus_answer(&modbus, &now);
+    (void)modbus_answer(&modbus, &now, true);
 }
 
 static bytes_t heard(brace_serial_port_t port)
