@@ -121,6 +121,41 @@ static void test_k_in_space(void)
     TEST_ASSERT_EQUAL_UINT32(UINT32_MAX, told_of(&counters).space_flags);
 }
 
+static void expect_sigma(const brace_measured_t *m, float first)
+{
+    const float sigma[] = {m->sigma_k_xx_n_per_mm,           m->sigma_k_xz_n_per_mm,
+                           m->sigma_k_zz_n_per_mm,           m->sigma_lambda_min_n_per_mm,
+                           m->sigma_lambda_max_n_per_mm,     m->sigma_stiff_axis_rad,
+                           m->sigma_space_k_xx_n_per_mm,     m->sigma_space_k_xy_n_per_mm,
+                           m->sigma_space_k_xz_n_per_mm,     m->sigma_space_k_yy_n_per_mm,
+                           m->sigma_space_k_yz_n_per_mm,     m->sigma_space_k_zz_n_per_mm,
+                           m->sigma_space_lambda_1_n_per_mm, m->sigma_space_lambda_2_n_per_mm,
+                           m->sigma_space_lambda_3_n_per_mm, m->sigma_k_across_n_per_mm};
+    for (int i = 0; i < 16; i++) {
+        TEST_ASSERT_TRUE(isnan(first) ? isnan(sigma[i]) : sigma[i] == first + (float)i);
+    }
+}
+
+/* Infinite or not known is told as not known, never as a number. */
+static void test_one_sigma_of_k(void)
+{
+    const brace_app_counters_t counters = {0};
+    brace_snapshot_t *s = newest();
+    s->sigma = (brace_stiffness_sigma_t){1.0f, 2.0f, 3.0f, 4.0f, 5.0f, 6.0f, 0u};
+    s->sigma_space =
+        (brace_space_sigma_t){7.0f, 8.0f, 9.0f, 10.0f, 11.0f, 12.0f, {13.0f, 14.0f, 15.0f}, 16.0f};
+    s->sigma_is_known = true;
+    brace_measured_t m = told_of(&counters);
+    expect_sigma(&m, 1.0f);
+    s->sigma_is_known = false;
+    m = told_of(&counters);
+    expect_sigma(&m, NAN);
+    s->sigma_is_known = true;
+    s->sigma.k_zz_n_per_mm = s->sigma_space.across_n_per_mm = INFINITY;
+    m = told_of(&counters);
+    TEST_ASSERT_TRUE(isnan(m.sigma_k_zz_n_per_mm) && isnan(m.sigma_k_across_n_per_mm));
+}
+
 static void test_joints_and_what_is_around_them(void)
 {
     const brace_app_counters_t counters = {0};
@@ -276,6 +311,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_k_in_the_plane_and_its_load);
     RUN_TEST(test_k_in_space);
+    RUN_TEST(test_one_sigma_of_k);
     RUN_TEST(test_joints_and_what_is_around_them);
     RUN_TEST(test_counters_and_who_owns_it);
     RUN_TEST(test_a_loading_test_that_is_done);
