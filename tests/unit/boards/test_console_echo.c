@@ -3,7 +3,7 @@
 #include "console_board.h"
 
 /* A minute of simulated time on a host; an emulated processor, which takes long for it, plays a tenth. */
-enum { PLAYED_MS = ON_BOARD ? 6000 : 60000, TICK_EVERY_MS = 20 };
+enum { PLAYED_MS = ON_BOARD ? 6000 : 60000, TICK_EVERY_MS = ON_BOARD ? 200 : 20 };
 
 static uint8_t memory_before[BRACE_NVM_SLOT_COUNT][BRACE_FAKE_SLOT_BYTES];
 static brace_parameters_t in_store;
