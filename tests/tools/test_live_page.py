@@ -17,6 +17,7 @@ import pytest
 from conftest import LIMB, Outcome, spawn
 from test_sim_command import FREE, running
 
+from brace.bus.sigma import sigma_of
 from brace.bus.snapshot import Heartbeat, Snapshot
 from brace.bus.watch import NodeState
 from brace.bus.url import parse
@@ -75,6 +76,19 @@ def test_what_is_not_known_is_told_as_that() -> None:
     assert words["lengths_mm"] is None and view["relative_sigma"] is None and view["theta_rad"][1] is None
     assert words["lengths_why"] == "nobody told"
     assert view["k_n_per_mm"][0] is None
+
+
+def test_the_controller_s_own_uncertainty_is_what_the_page_shows(limb_file: Path) -> None:
+    """Of late; else the one that the limb's file gives."""
+    values = {"k_xx": 0.1, "k_xz": 0.05, "k_zz": 0.02, "lambda_min": 0.031, "lambda_max": 0.2, "stiff_axis": 0.01}
+    newest, card = snapshot(), card_of(load_limb(limb_file))
+    by_file = limb_numbers(3, NodeState(snapshot=newest, posture=newest, last_s=100.0), card, 100.5)
+    for age_s in (0.5, 5.0):
+        told = snapshot(sigma=sigma_of(values), time_s=100.0 - age_s)
+        view = limb_numbers(3, NodeState(snapshot=newest, posture=newest, sigma=told, last_s=100.0), card, 100.5)
+        is_new = age_s < 1.0
+        assert view["sigma_k_n_per_mm"] == ([0.1, 0.05, 0.02] if is_new else None)
+        assert view["relative_sigma"] == ([0.1, 0.05] if is_new else by_file["relative_sigma"])
 
 
 def test_heartbeats_alone_make_a_limb() -> None:
