@@ -1,5 +1,7 @@
 #include "flank/flank.h"
 
+#include "brace/play.h"
+
 #define LEAST_GAP_RAD 1e-5f /* below it there is no play to watch */
 
 #define TAKEUP_RATE_RAD_PER_S 0.1f
@@ -8,9 +10,6 @@
 #define TAKEUP_SPARE_RAD 0.004f
 #define TAKEUP_TRAVEL_MOST_RAD 1.0f
 #define TAKEUP_DROOP_RAD 0.2f /* by which a soft servo gives way at the take-up's torque */
-
-#define SENSOR_SIGMAS 6.0f
-#define LEVER_OFF_RATIO 0.02f /* how far levers and weights may be off, of the load */
 
 /* The take-up may travel the gap and three tenths of it more, and what the joint's spring gives way by. */
 static brace_takeup_bounds_t takeup_bounds(const brace_drive_t *drive, const brace_joint_t *joint)
@@ -46,22 +45,32 @@ void flank_configure(flank_t *flank, int joint_index, const joints_t *joints, co
     ours->watched = ours->has_play && brace_backlash_init(&ours->machine, &params) == BRACE_OK;
 }
 
-void flank_expect_load(brace_backlash_sample_t *sample, int index, const tip_force_t *force, const posture_t *posture,
+int flank_expect_load(brace_backlash_sample_t *sample, int index, const tip_force_t *force, const posture_t *posture,
                        brace_vec3_t down, const brace_parameters_t *parameters)
 {
     const brace_point_t lever = index == BRACE_FEMUR ? posture->pose.lever_femur : posture->pose.lever_tibia;
     const float expected_n_mm = posture_gravity_n_mm(posture, &parameters->gravity, down, index) +
                                 posture_tip_load_n_mm(posture, force->x_n, force->z_n, index);
     const brace_drive_t *drive = &parameters->drive[index];
-    /* The spring carries up to the load and the friction; friction holds up to coulomb + ratio * |spring|. */
-    const float friction_n_mm = (drive->coulomb_n_mm + drive->coulomb_per_load_ratio * __builtin_fabsf(expected_n_mm)) /
-                                (1.0f - drive->coulomb_per_load_ratio);
-    const float noise_n_mm = SENSOR_SIGMAS * parameters->sensor.noise_n *
-                             (__builtin_fabsf(lever.x_mm) + __builtin_fabsf(lever.z_mm));
-    const float trust_ratio = LEVER_OFF_RATIO + SENSOR_SIGMAS * parameters->limb.uncertainty.gain_rel;
+    const brace_play_joint_t joint = {.coulomb_n_mm = drive->coulomb_n_mm,
+                                      .coulomb_per_load_ratio = drive->coulomb_per_load_ratio,
+                                      .noise_n = parameters->sensor.noise_n,
+                                      .gain_rel = parameters->limb.uncertainty.gain_rel};
+    const brace_play_t play =
+        brace_play_under_load(&joint, expected_n_mm, __builtin_fabsf(lever.x_mm) + __builtin_fabsf(lever.z_mm));
     sample->load_is_expected = true;
     sample->expected_n_mm = expected_n_mm;
-    sample->expected_off_n_mm = noise_n_mm + trust_ratio * __builtin_fabsf(expected_n_mm) + friction_n_mm;
+    sample->expected_off_n_mm = play.off_n_mm;
+    return play.flank;
+}
+
+/* Proven by the motor's torque, or named by the machine and held by the load, where the load is told by the tip's
+ * force. Where nobody tells the load, the side that the machine names is assumed. */
+static void engage(flank_joint_t *ours, bool is_expected, int held)
+{
+    const bool is_named = ours->out.flank != 0 && (!is_expected || held == ours->out.flank);
+    ours->is_engaged = ours->out.valid || is_named;
+    ours->is_assumed = is_named && !ours->out.valid;
 }
 
 void flank_tick(flank_t *flank, const joints_t *joints, const tip_force_t *force, const posture_t *posture,
@@ -70,6 +79,7 @@ void flank_tick(flank_t *flank, const joints_t *joints, const tip_force_t *force
     for (int i = 0; i < BRACE_LINK_COUNT; i++) {
         const joint_t *joint = &joints->joint[i];
         flank_joint_t *ours = &flank->joint[i];
+        ours->is_engaged = ours->is_assumed = false;
         if (!joint->fitted) {
             ours->out.valid = false;
         } else if (!ours->watched) {
@@ -90,10 +100,10 @@ void flank_tick(flank_t *flank, const joints_t *joints, const tip_force_t *force
             /* A take-up proves its flank by the load itself. The force across the plane is not sensed. */
             const bool is_expected = i != BRACE_COXA && force->known && posture->has_levers &&
                                      ours->machine.phase == BRACE_TAKEUP_IDLE;
-            if (is_expected) {
-                flank_expect_load(&sample, i, force, posture, down, parameters);
-            }
+            const int held =
+                is_expected ? flank_expect_load(&sample, i, force, posture, down, parameters) : 0;
             (void)brace_backlash_tick(&ours->machine, &sample, &ours->out);
+            engage(ours, is_expected, held);
         }
     }
 }
@@ -118,7 +128,16 @@ uint32_t flank_open_gaps(const flank_t *flank)
     uint32_t open = 0;
     for (int i = 0; i < BRACE_LINK_COUNT; i++) {
         const flank_joint_t *ours = &flank->joint[i];
-        open |= ours->has_play && !ours->out.valid ? 1u << i : 0u;
+        open |= ours->has_play && !ours->is_engaged ? 1u << i : 0u;
     }
     return open;
+}
+
+uint32_t flank_assumed(const flank_t *flank)
+{
+    uint32_t assumed = 0;
+    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
+        assumed |= flank->joint[i].is_assumed ? 1u << i : 0u;
+    }
+    return assumed;
 }

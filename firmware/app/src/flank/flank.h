@@ -16,6 +16,8 @@ typedef struct {
     bool watched;              /* the state machine is set up */
     brace_backlash_t machine;  /* while watched */
     brace_backlash_out_t out;  /* of this tick; a joint without play is engaged */
+    bool is_engaged;           /* its side is proven, or the load says so */
+    bool is_assumed;           /* only the load says so */
 } flank_joint_t;
 
 typedef struct {
@@ -36,8 +38,9 @@ void flank_tick(flank_t *flank, const joints_t *joints, const tip_force_t *force
                 brace_vec3_t down, const brace_parameters_t *parameters, bool stands, uint32_t now_us);
 
 /* Adds to a joint's sample what the joint should carry: its share of the sensed tip force, and the weight; and how
- * far that may be off. index: BRACE_FEMUR or BRACE_TIBIA; the force is known and the posture has levers. */
-void flank_expect_load(brace_backlash_sample_t *sample, int index, const tip_force_t *force, const posture_t *posture,
+ * far that may be off. index: BRACE_FEMUR or BRACE_TIBIA; the force is known and the posture has levers.
+ * returns which side the load holds (brace/play.h) */
+int flank_expect_load(brace_backlash_sample_t *sample, int index, const tip_force_t *force, const posture_t *posture,
                        brace_vec3_t down, const brace_parameters_t *parameters);
 
 /* The controller tells a joint's load as a mean over 20 ms. This is how far the load now may be from the mean [N mm]:
@@ -50,5 +53,8 @@ float flank_lag_n_mm(const flank_t *flank, const joints_t *joints, int index);
 
 /* Joints whose gap is open or may be, as bits 1 << joint. */
 uint32_t flank_open_gaps(const flank_t *flank);
+
+/* Joints that count as engaged because the load says so, not proven, as bits 1 << joint. */
+uint32_t flank_assumed(const flank_t *flank);
 
 #endif

@@ -173,9 +173,9 @@ static brace_status_t turn(float theta0_rad, const engaged_t *engaged, const bra
     return is_open ? brace_spatial_turn(theta0_rad, &plane->now, across_now_n_per_mm, &space->now) : BRACE_OK;
 }
 
-/* open: gaps, as flank_open_gaps tells them */
+/* open, assumed: joints, as flank_open_gaps and flank_assumed tell them */
 static void take_space(const engaged_t *engaged, const brace_gap_stiffness_t *plane, float theta0_rad,
-                       bool coxa_is_sound, uint32_t open, brace_space_stiffness_t *space)
+                       bool coxa_is_sound, uint32_t open, uint32_t assumed, brace_space_stiffness_t *space)
 {
     const bool coxa_is_open = (open & 1u << BRACE_COXA) != 0u;
     const float across_now_n_per_mm = coxa_is_open ? 0.0f : engaged->across_n_per_mm;
@@ -191,6 +191,7 @@ static void take_space(const engaged_t *engaged, const brace_gap_stiffness_t *pl
     space->across_n_per_mm = across_now_n_per_mm;
     space->engaged_across_n_per_mm = engaged->across_n_per_mm;
     space->now.flags |= coxa_is_open ? (uint32_t)BRACE_FLAG_GAP_OPEN : 0u;
+    space->now.flags |= (assumed & 1u << BRACE_COXA) != 0u ? (uint32_t)BRACE_FLAG_PLAY_ASSUMED : 0u;
 }
 
 void stiffness_take(model_t *model, const brace_parameters_t *parameters, brace_parameter_origin_t origin,
@@ -202,6 +203,7 @@ void stiffness_take(model_t *model, const brace_parameters_t *parameters, brace_
     const bool sound = joints_plane_is_sound(joints), inside = posture->is_inside_travel;
     uint32_t flags = (origin == BRACE_PARAMETERS_DEFAULT ? (uint32_t)BRACE_FLAG_UNCALIBRATED : 0u) |
                      (sound ? 0u : (uint32_t)BRACE_FLAG_STALE) |
+                     ((flank_assumed(flank) & plane_joints) != 0u ? (uint32_t)BRACE_FLAG_PLAY_ASSUMED : 0u) |
                      (inside ? 0u : (uint32_t)BRACE_FLAG_OUT_OF_RANGE);
     brace_loaded_joint_t springs[BRACE_LINK_COUNT];
     engaged_t engaged;
@@ -225,7 +227,7 @@ void stiffness_take(model_t *model, const brace_parameters_t *parameters, brace_
     snapshot->k_is_valid = true;
     if (model->is_spatial) {
         take_space(&engaged, &snapshot->stiffness, posture->unbent_rad[BRACE_COXA], joints->joint[BRACE_COXA].sound,
-                   open, &snapshot->space);
+                   open, flank_assumed(flank), &snapshot->space);
     } else if (snapshot->space.now.flags != 0u) { /* Else this snapshot has none since it was started. */
         no_space_k(&snapshot->space, 0);
     }

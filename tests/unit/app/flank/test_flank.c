@@ -167,7 +167,10 @@ static void test_the_load_that_is_expected(void)
         parameters.drive[joint].coulomb_n_mm = 30.0f;
         parameters.drive[joint].coulomb_per_load_ratio = 0.1f;
         brace_backlash_sample_t sample = {.load_is_expected = false};
-        flank_expect_load(&sample, joint, &force, &posture, down, &parameters);
+        const int held = flank_expect_load(&sample, joint, &force, &posture, down, &parameters);
+        TEST_ASSERT_EQUAL((sample.expected_n_mm > sample.expected_off_n_mm) -
+                              (sample.expected_n_mm < -sample.expected_off_n_mm),
+                          held);
         const double weighs = joint == BRACE_FEMUR ? 1.0 * 100.0 + 1.0 * 100.0 + 1.5 * 175.0 : -1.5 * 75.0;
         const double turns = joint == BRACE_FEMUR ? -(80.0 * 3.0 - 250.0 * 8.0) : 130.0 * 3.0 - 150.0 * 8.0;
         const double wanted = weighs + turns, levers = joint == BRACE_FEMUR ? 330.0 : 280.0;
