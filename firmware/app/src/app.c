@@ -13,6 +13,7 @@
 #define GUARDED_WORDS_FEWER 3u
 #define TOLD_MOST 3u /* a tick in which the wires have done more (wire/wire.h) has no room for a job's step */
 #define STEPS_IN_A_QUIET_TICK 2u
+#define UNWATCHED_MOST 17u /* ticks after one another in which a job works and the sensors' watch waits */
 #define LISTENED_US 20000u /* a tick that comes later has not listened meanwhile, and has not moved the limb either */
 #define OLDEST_US 0x40000000 /* 18 minutes: no sample counts as older, or the clock would go round and make it young */
 #define LATE_PERIODS 3u /* a tick that comes more than three periods after the one before is more than two late */
@@ -462,6 +463,9 @@ static bool work(controller_t *controller, const brace_snapshot_t *now, uint32_t
     if (controller->parameters.comes_in_force) { /* then the model may be that of the set before */
         return false;
     }
+    if (controller->ticks_unwatched >= UNWATCHED_MOST) {
+        return false;
+    }
     if (sigma_job_is_overdue(&controller->sigma) && work_on_sigma(controller)) {
         return true;
     }
@@ -486,10 +490,13 @@ static bool work(controller_t *controller, const brace_snapshot_t *now, uint32_t
 }
 
 /* Watches sensors and memory. A tick in which a job has worked skips the sensors and looks over less memory. That
- * delays little, because the proof of a stuck sensor takes a quarter of a second anyway. */
+ * delays little, because the proof of a stuck sensor takes a quarter of a second anyway. Where masters ask in every
+ * tick, a job has work in every tick; after UNWATCHED_MOST of them none works. */
 static void step_watches(controller_t *controller, bool has_worked)
 {
+    controller->ticks_unwatched += has_worked;
     if (!has_worked) {
+        controller->ticks_unwatched = 0;
         watch_sensors(controller);
     }
     step_guard(controller, has_worked);

@@ -68,6 +68,7 @@ typedef struct {
     uint32_t sequence;             /* of the newest snapshot */
     brace_snapshot_t snapshot[2];  /* the newest, and the one that the next tick writes */
     uint8_t newest;
+    uint8_t ticks_unwatched;       /* a job has worked in so many after one another */
 } controller_t;
 
 struct brace_app;
