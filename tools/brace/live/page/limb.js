@@ -101,7 +101,7 @@ export class Limb {
     const [least, most] = view.lambda_n_per_mm;
     const [ofLeast, ofMost] = view.relative_sigma ?? [null, null];
     const trust = (value, sigma) =>
-      value === null || sigma === null ? "" : ` \u00b1 ${number(2 * sigma * value, 2)}`;
+      value === null || sigma === null ? "" : ` \u00b1 ${number(sigma * value, 2)}`;
     this.row("softest", view.is_valid ? `${number(least)}${trust(least, ofLeast)} N/mm` : "K is not valid");
     this.row("stiffest", view.is_valid ? `${number(most)}${trust(most, ofMost)} N/mm` : null);
     this.row("K xx xz zz", view.is_valid ? numbers(view.k_n_per_mm, "N/mm") : null);
@@ -174,7 +174,7 @@ export class Limb {
     });
     const [ofLeast, ofMost] = view.relative_sigma ?? [0, 0];
     const band = [1, -1].map((side) =>
-      ellipsePath(Math.max(0, 1 + 2 * side * ofMost) * most * scale, Math.max(0, 1 + 2 * side * ofLeast) * least * scale));
+      ellipsePath(Math.max(0, 1 + side * ofMost) * most * scale, Math.max(0, 1 + side * ofLeast) * least * scale));
     set(this.find(".band"), { d: band.join(""), transform: place });
     const bar = rounded(most);
     const [line, label] = this.find(".scale").children;
