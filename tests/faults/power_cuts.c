@@ -2,6 +2,9 @@
  * nvm_model.h; and again in what follows. Nothing is sampled. After each failure the limb has to start with the old
  * set or the new one, whole, say which, and go on as if nothing had been.
  *
+ * No failure may look like a set that has rotted. Where one has, no failure of the next update may hide that the set in
+ * force is an older one.
+ *
  *   power_cuts              single failures with units of 1, 2, 4, 8 bytes; pairs of failures with units of 8
  *   power_cuts --in-turn    the single ones only; each step fails in one manner, the next step in the next manner
  *   power_cuts --broken     for a store broken on purpose; exit code 0 when the enumeration finds the mistake. It tries
@@ -19,6 +22,7 @@ enum {
     NO_SET = -1,
     STARTS_UNSTABLE = 4,  /* starts after a failure that leaves unstable units; else one */
     STEPS_MAX = 2000,     /* of an operation, a store step each */
+    ROTTEN_BEFORE = 1,    /* the set in force while the newer one has rotted */
     PAIR_MANNERS = 4,
     TURNS = PAIR_MANNERS * PAIR_MANNERS /* rounds of pairs in turn: then every pair has been tried */
 };
@@ -28,6 +32,7 @@ typedef enum { UPDATE = 'U', ROLL_BACK = 'R' } operation_t;
 static brace_parameters_t set[SETS];
 static bool expect_broken;
 static bool in_turn; /* a step fails in one manner only */
+static bool has_rotted; /* the newest set has, by itself, and none was stored since */
 static int32_t turn; /* how many manners the first step is ahead */
 static unsigned long cases, starts;
 
@@ -109,6 +114,12 @@ static void start(limb_t *limb, nvm_t *nvm)
     require((origin == BRACE_PARAMETERS_DEFAULT) == (limb->in_force == 0), "origin and set contradict each other",
             origin);
     require(status.in_force == origin, "status and start contradict each other", origin);
+    require(has_rotted || (!status.is_old && status.wanted_sequence == status.sequence),
+            "a power cut is taken for a rotten set", (int)status.wanted_sequence);
+    require(!has_rotted || limb->in_force != ROTTEN_BEFORE || (status.is_old && status.wanted_sequence == 2u),
+            "an older set that nobody calls one", (int)status.wanted_sequence);
+    require(!status.is_old || limb->in_force == ROTTEN_BEFORE, "a set that was stored anew is called an older one",
+            limb->in_force);
 }
 
 /* The set that a roll-back would bring; NO_SET: none. */
@@ -177,7 +188,9 @@ static void go_on(const nvm_t *left, uint32_t lot)
     nvm_power(&nvm, NVM_FOREVER, CUT_AFTER);
     start(&limb, &nvm);
     const int before = limb.in_force;
+    const bool had_rotted = has_rotted;
     complete(&limb, UPDATE, SETS - 1);
+    has_rotted = false; /* that has mended it */
     if (before != 0) {
         complete(&limb, ROLL_BACK, 0);
         require(limb.in_force == before, "the roll-back brings another set", limb.in_force);
@@ -185,6 +198,7 @@ static void go_on(const nvm_t *left, uint32_t lot)
     complete(&limb, UPDATE, SETS - 2);
     complete(&limb, UPDATE, SETS - 3);
     require(nvm.misuse == 0, "a unit is written twice", (int)nvm.misuse);
+    has_rotted = had_rotted;
 }
 
 typedef struct {
@@ -381,6 +395,54 @@ static int32_t run_program(const char *program, uint32_t unit, bool pairs, int f
     return steps;
 }
 
+/* Set 2 has followed set 1 and rots, in its block, in its mark, or as a whole. Power fails at each step of the update
+ * that mends it, in each manner. */
+static int32_t enumerate_while_rotten(uint32_t unit, int kind)
+{
+    static nvm_t nvm;
+    limb_t limb;
+    int32_t steps = 0;
+    nvm_init(&nvm, unit);
+    start(&limb, &nvm);
+    complete(&limb, UPDATE, ROTTEN_BEFORE);
+    complete(&limb, UPDATE, ROTTEN_BEFORE + 1);
+    uint8_t *newest = nvm.bytes[limb.store.in_force - 1u];
+    if (kind == 0) {
+        newest[100] ^= 4u;
+    } else if (kind == 1) {
+        newest[BRACE_STORE_MARKS_AT] ^= 4u;
+    } else {
+        memset(newest, 0xff, NVM_SLOT_BYTES);
+        memset(nvm.written[limb.store.in_force - 1u], 0, NVM_SLOT_BYTES);
+    }
+    has_rotted = true;
+    now.program = kind == 0 ? "a rotten block" : kind == 1 ? "a rotten mark" : "an erased slot";
+    now.operation = 0;
+    now.unit = unit;
+    steps = fail_everywhere(&nvm, UPDATE, ROTTEN_BEFORE + 2, false);
+    nvm_power(&nvm, NVM_FOREVER, CUT_AFTER);
+    start(&limb, &nvm);
+    require(limb.in_force == ROTTEN_BEFORE, "a rotten set is in force", limb.in_force);
+    complete(&limb, UPDATE, ROTTEN_BEFORE + 2);
+    has_rotted = false;
+    complete(&limb, ROLL_BACK, 0);
+    require(limb.in_force == ROTTEN_BEFORE, "the roll-back brings another set", limb.in_force);
+    return steps;
+}
+
+static void enumerate_rotten(void)
+{
+    const unsigned long before = cases;
+    int32_t steps = 0;
+    for (int kind = 0; kind < 3; kind++) {
+        for (uint32_t unit = 1; unit <= 8; unit *= 2) {
+            steps += enumerate_while_rotten(unit, kind);
+        }
+    }
+    printf("a rotten set: %lu cases on %d steps: the new set, or the older one, which says so\n", cases - before,
+           (int)steps);
+}
+
 static void enumerate_single(void)
 {
     /* Three updates in a row, all failing in turn; a fourth, into the other slot; roll-backs from and to either. */
@@ -417,6 +479,7 @@ int main(int argc, char **argv)
     if (single_in_turn || expect_broken) {
         in_turn = true;
         enumerate_single();
+        enumerate_rotten();
         if (single_in_turn) {
             return 0;
         }
@@ -426,6 +489,7 @@ int main(int argc, char **argv)
         in_turn = false;
     }
     enumerate_single();
+    enumerate_rotten();
     enumerate_pairs();
     if (expect_broken) {
         printf("power_cuts: a store broken on purpose was not found out\n");

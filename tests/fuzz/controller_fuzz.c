@@ -163,7 +163,9 @@ static void request(void)
         break;
     case 10: (void)brace_app_parameters_rollback(&app); break;
     default:
-        (void)brace_app_clear(&app, BRACE_FAULT_MODEL_DRIFT | BRACE_FAULT_CRASHED | BRACE_FAULT_ENCODER_STUCK);
+        (void)brace_app_clear(&app, BRACE_FAULT_MODEL_DRIFT | BRACE_FAULT_CRASHED | BRACE_FAULT_ENCODER_STUCK |
+                                        BRACE_FAULT_OLD_PARAMETERS | BRACE_FAULT_JUMP_COXA | BRACE_FAULT_JUMP_FEMUR |
+                                        BRACE_FAULT_JUMP_TIBIA);
         break;
     }
 }

@@ -31,10 +31,8 @@ BROKEN: dict[str, list[Edit]] = {
         ("store.c", "go_to(store, STAGE_WRITE)", "go_to(store, STAGE_COMMIT)"),
         (
             "store.c",
-            "return done(store);\n    }\n    store->failure = (int8_t)mark_failure(result);\n"
-            "    go_to(store, STAGE_UNDO);\n    return BRACE_STORE_BUSY;\n}\n\nstatic brace_store_state_t withdraw",
-            "go_to(store, STAGE_WRITE);\n        return BRACE_STORE_BUSY;\n    }\n    go_to(store, STAGE_UNDO);\n"
-            "    return BRACE_STORE_BUSY;\n}\n\nstatic brace_store_state_t withdraw",
+            "store->wanted_sequence = store->sequence;\n        go_to(store, STAGE_PAST);",
+            "go_to(store, STAGE_WRITE);",
         ),
         (
             "store.c",
@@ -48,7 +46,8 @@ BROKEN: dict[str, list[Edit]] = {
          "return store->in_force - 1u;\n    }\n    const")
     ],
     "does not affirm the slot in force": [
-        ("store.c", "settle(store, other, STORE_KEEP, STAGE_RETIRE)", GO_ON.format("STAGE_RETIRE"))
+        ("store.c", "settle(store, other, store->is_old ? STORE_PAST : STORE_KEEP, STAGE_RETIRE)",
+         GO_ON.format("STAGE_RETIRE"))
     ],
     "does not affirm the slot it rolls back to": [
         ("store.c", "settle(store, store->target, STORE_KEEP, STAGE_REREAD)", GO_ON.format("STAGE_REREAD"))
@@ -60,8 +59,21 @@ BROKEN: dict[str, list[Edit]] = {
         ("store.c", "settle(store, store->target, STORE_VOID, STAGE_SPOIL)",
          "settle(store, store->target, STORE_VOID, STAGE_ERASE)")
     ],
-    "believes any sound block": [("store_slot.c", "if (marks.kept)", "if (true)")],
-    "believes a void slot": [("store_slot.c", "marks.kept = false;\n", "\n")],
+    "believes any sound block": [
+        ("store_slot.c", "bool is_kept = marks.last_said == SAYS_KEEP ||", "bool is_kept = true ||")
+    ],
+    "believes a void slot": [("store_slot.c", '"VOID", 4) == 0 ? SAYS_VOID', '"VOID", 4) == 0 ? SAYS_NOTHING')],
+    "calls a spoilt slot rotten": [("store_slot.c", "memcmp(store->block, withdrawn, sizeof withdrawn) != 0 &&", "")],
+    "does not spoil again what an update had begun to spoil": [
+        ("store.c", "store->next_mark[store->target] != 0u ? STAGE_SPOIL : STAGE_ERASE", "STAGE_ERASE")
+    ],
+    "leaves no mark in the slot that was in force": [
+        ("store.c", "is_in_force(store, other) ? put_spare(store, other, STORE_PAST) : done(store)", "done(store)")
+    ],
+    "forgets while it stores that the set in force is old": [
+        ("store.c", "store->is_old ? STORE_PAST : STORE_KEEP", "STORE_KEEP")
+    ],
+    "sees no slot that has rotted": [("store.c", "has_gone || (claims[other].is_rotten && is_later)", "false")],
     "believes a damaged block": [
         ("store_slot.c", "status != BRACE_OK && status != BRACE_E_PARAMETER", "status == BRACE_E_NULL"),
         (
@@ -69,7 +81,7 @@ BROKEN: dict[str, list[Edit]] = {
             "return status == BRACE_OK ? BRACE_SLOT_COUNTS : BRACE_SLOT_REFUSED",
             "return brace_block_members(store->block, parameters), BRACE_SLOT_COUNTS",
         ),
-        ("store_slot.c", "if (marks.kept)", "if (true)"),
+        ("store_slot.c", "bool is_kept = marks.last_said == SAYS_KEEP ||", "bool is_kept = true ||"),
     ],
     "does not clear the next place": [("store.c", "if (!store->clean[slot])", "if (false)")],
     "takes the older set": [

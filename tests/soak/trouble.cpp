@@ -78,7 +78,8 @@ void Trouble::calm_down(brace_node_t *node, int limb, double t_s)
         } else {
             (void)brace_app_configuration_leave(app);
         }
-        const std::uint32_t by_hand = BRACE_FAULT_CRASHED | BRACE_FAULT_MODEL_DRIFT | BRACE_FAULT_ENCODER_STUCK;
+        const std::uint32_t by_hand = BRACE_FAULT_CRASHED | BRACE_FAULT_MODEL_DRIFT | BRACE_FAULT_ENCODER_STUCK |
+                                      BRACE_FAULT_JUMP_COXA | BRACE_FAULT_JUMP_FEMUR | BRACE_FAULT_JUMP_TIBIA;
         (void)brace_app_clear(app, there & by_hand);
     }
 }

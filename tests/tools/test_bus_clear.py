@@ -17,7 +17,10 @@ from brace.cli import clear_command
 from brace.wire.codes import FAULT
 
 FAULTS = FAULT.names
-MODEL_DRIFT, CRASHED, ENCODER_STUCK = (1 << FAULTS.index(name) for name in ("MODEL_DRIFT", "CRASHED", "ENCODER_STUCK"))
+MODEL_DRIFT, CRASHED, ENCODER_STUCK, OLD_PARAMETERS, JUMP_COXA, JUMP_FEMUR, JUMP_TIBIA = (
+    1 << FAULTS.index(name)
+    for name in ("MODEL_DRIFT", "CRASHED", "ENCODER_STUCK", "OLD_PARAMETERS", "JUMP_COXA", "JUMP_FEMUR", "JUMP_TIBIA")
+)
 
 
 @pytest.fixture
@@ -113,6 +116,29 @@ def test_what_is_asked_for_is_cleared_and_nothing_that_is_not_there(
     assert brace("clear", "encoder", "--bus", "can0").code == 0 and device.asked == ENCODER_STUCK == 1 << 2
     device = given(Controller(CRASHED))  # the drift check's evidence is not thrown away for nothing
     assert brace("clear", "drift", "--bus", "can0").code == 0 and device.asked == 0
+
+
+def test_jumps_are_cleared_together_or_one_by_one(
+    brace: Callable[..., Outcome], given: Callable[[Controller], Controller]
+) -> None:
+    device = given(Controller(JUMP_COXA | JUMP_TIBIA | CRASHED))
+    outcome = brace("clear", "jump", "--bus", "can0", "--json")
+    assert outcome.code == 0 and device.asked == JUMP_COXA | JUMP_TIBIA == 1 << 13 | 1 << 15
+    assert json.loads(outcome.out) == {"node": 5, "cleared": ["jump_coxa", "jump_tibia"], "faults": ["crashed"]}
+    device = given(Controller(JUMP_FEMUR | JUMP_TIBIA))
+    outcome = brace("clear", "jump_tibia", "--bus", "can0")
+    assert outcome.code == 0 and device.asked == JUMP_TIBIA and "faults now: jump_femur" in outcome.err
+    device = given(Controller(0))
+    outcome = brace("clear", "jump", "--bus", "can0")
+    assert outcome.code == 0 and device.asked == 0
+    assert "jump_coxa or jump_femur or jump_tibia is not there, nothing to clear" in outcome.err
+
+
+def test_an_older_set_is_taken(brace: Callable[..., Outcome], given: Callable[[Controller], Controller]) -> None:
+    device = given(Controller(OLD_PARAMETERS))
+    outcome = brace("clear", "parameters", "--bus", "can0")
+    assert outcome.code == 0 and device.asked == OLD_PARAMETERS == 1 << 12 and "cleared old_parameters" in outcome.err
+    assert brace("clear", "jump_everywhere", "--bus", "can0").code == 2
 
 
 def test_a_fault_that_is_back_at_once_is_told(

@@ -99,7 +99,7 @@ static question_inputs_t question_inputs(controller_t *controller)
 {
     return (question_inputs_t){.model = &controller->model,
                                .parameters = &controller->parameters.in_force,
-                               .origin = controller->parameters.origin,
+                               .is_calibrated = parameter_job_is_calibrated(&controller->parameters),
                                .joints = &controller->joints,
                                .down = controller->gravity.down};
 }
@@ -266,9 +266,9 @@ static void take_stiffness(controller_t *controller, brace_snapshot_t *snapshot)
         posture_settle(&controller->posture, NULL);
         stiffness_unknown(snapshot, BRACE_FLAG_STALE);
     } else {
-        stiffness_take(&controller->model, &controller->parameters.in_force, controller->parameters.origin,
-                       &controller->joints, &controller->flank, &controller->gravity, &controller->softening,
-                       &controller->posture, snapshot);
+        stiffness_take(&controller->model, &controller->parameters.in_force,
+                       parameter_job_is_calibrated(&controller->parameters), &controller->joints, &controller->flank,
+                       &controller->gravity, &controller->softening, &controller->posture, snapshot);
     }
     if (snapshot->k_is_valid) {
         sigma_tell(controller, snapshot);
@@ -515,7 +515,10 @@ static void update_faults(controller_t *controller, bool late, bool bus_off)
                             (bus_off ? (uint32_t)BRACE_FAULT_CAN_BUS_OFF : 0u) |
                             (drives_refuse(&controller->drives) ? (uint32_t)BRACE_FAULT_DRIVE_REFUSES : 0u) |
                             (controller->memory_is_wrong ? (uint32_t)BRACE_FAULT_MEMORY : 0u);
-    const uint32_t lasting = controller->parameters.faults |
+    const uint32_t jumps = (joint[BRACE_COXA].has_jumped ? (uint32_t)BRACE_FAULT_JUMP_COXA : 0u) |
+                           (joint[BRACE_FEMUR].has_jumped ? (uint32_t)BRACE_FAULT_JUMP_FEMUR : 0u) |
+                           (joint[BRACE_TIBIA].has_jumped ? (uint32_t)BRACE_FAULT_JUMP_TIBIA : 0u);
+    const uint32_t lasting = controller->parameters.faults | jumps |
                              (store_failed ? (uint32_t)BRACE_FAULT_STORE : 0u) |
                              (drift_job_alarms(&controller->drift) ? (uint32_t)BRACE_FAULT_MODEL_DRIFT : 0u) |
                              (controller->has_crashed ? (uint32_t)BRACE_FAULT_CRASHED : 0u);
@@ -560,6 +563,7 @@ static void publish(controller_t *controller, brace_snapshot_t *snapshot)
     snapshot->parameter_crc = controller->parameters.crc;
     snapshot->parameter_origin = controller->parameters.origin;
     snapshot->parameter_sequence = brace_store_sequence(&controller->parameters.store);
+    snapshot->parameter_sequence_wanted = brace_store_wanted_sequence(&controller->parameters.store);
     if (!mode_tells_k(snapshot->mode)) {
         stiffness_unknown(snapshot, snapshot->stiffness.now.flags | BRACE_FLAG_STALE);
     }

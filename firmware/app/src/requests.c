@@ -146,7 +146,13 @@ brace_status_t brace_app_clear(brace_app_t *app, uint32_t faults)
         return BRACE_E_NULL;
     }
     controller_t *controller = controller_of(app);
-    const uint32_t cleared_by_hand = BRACE_FAULT_MODEL_DRIFT | BRACE_FAULT_CRASHED | BRACE_FAULT_ENCODER_STUCK;
+    static const uint32_t jumped[BRACE_LINK_COUNT] = {
+        [BRACE_COXA] = BRACE_FAULT_JUMP_COXA,
+        [BRACE_FEMUR] = BRACE_FAULT_JUMP_FEMUR,
+        [BRACE_TIBIA] = BRACE_FAULT_JUMP_TIBIA};
+    const uint32_t cleared_by_hand = BRACE_FAULT_MODEL_DRIFT | BRACE_FAULT_CRASHED | BRACE_FAULT_ENCODER_STUCK |
+                                     BRACE_FAULT_OLD_PARAMETERS | BRACE_FAULT_JUMP_COXA | BRACE_FAULT_JUMP_FEMUR |
+                                     BRACE_FAULT_JUMP_TIBIA;
     if ((faults & ~cleared_by_hand) != 0u) {
         return BRACE_E_RANGE;
     }
@@ -155,6 +161,14 @@ brace_status_t brace_app_clear(brace_app_t *app, uint32_t faults)
     }
     if ((faults & BRACE_FAULT_ENCODER_STUCK) != 0u) {
         frozen_start(&controller->frozen);
+    }
+    if ((faults & BRACE_FAULT_OLD_PARAMETERS) != 0u) {
+        parameter_job_accept(&controller->parameters);
+    }
+    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
+        if ((faults & jumped[i]) != 0u) {
+            joints_believe(&controller->joints, i);
+        }
     }
     if ((faults & BRACE_FAULT_CRASHED) != 0u) {
         const brace_hal_t *hal = controller->hal;

@@ -112,6 +112,10 @@ bool sigma_begin(controller_t *controller)
 
 void sigma_tell(const controller_t *controller, brace_snapshot_t *snapshot)
 {
+    if (joints_plane_may_have_moved(&controller->joints)) {
+        stiffness_unknown_sigma(snapshot);
+        return;
+    }
     sigma_now_t now = {.unbent_rad = controller->posture.unbent_rad,
                        .kind = kind_of(controller, snapshot),
                        .now_us = controller->now_us};

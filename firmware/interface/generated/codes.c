@@ -423,6 +423,17 @@ static const meaning_t fault_meanings[] = {
      "A drive has refused its commands for 50 ms; what moved the limb was ended."},
     {11, "MEMORY",
      "Parameters or constants in RAM have changed by themselves; they are taken from the store again."},
+    {12, "OLD_PARAMETERS",
+     "A parameter set was stored and is not whole any more: the set before it is in force, and K is UNCALIBRATED."},
+    {13, "JUMP_COXA",
+     "An encoder of the coxa joint says what cannot be: it has jumped further than the joint can turn, or "
+     "contradicts the other one."},
+    {14, "JUMP_FEMUR",
+     "An encoder of the femur joint says what cannot be: it has jumped further than the joint can turn, or "
+     "contradicts the other one."},
+    {15, "JUMP_TIBIA",
+     "An encoder of the tibia joint says what cannot be: it has jumped further than the joint can turn, or "
+     "contradicts the other one."},
 };
 
 const char *brace_fault_name(int32_t number)

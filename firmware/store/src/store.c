@@ -4,8 +4,8 @@
 
 #include "store_slot.h"
 
-/* What is done, in this order. An update goes through the first ten, a roll-back through AFFIRM, REREAD,
- * WITHDRAW; UNDO is where a failed last mark goes. */
+/* What is done, in this order. An update goes through the first eleven, a roll-back through AFFIRM, REREAD, WITHDRAW,
+ * WITHDRAW_AGAIN; UNDO is where a failed last mark goes. */
 typedef enum {
     STAGE_CHECK,    /* may the set be? Until it is, nothing is touched */
     STAGE_SEAL,     /* the CRC of its block */
@@ -17,8 +17,10 @@ typedef enum {
     STAGE_WRITE,
     STAGE_READ_BACK,
     STAGE_COMMIT,   /* KEEP to what has been written: from here on it counts */
+    STAGE_PAST,     /* PAST to the slot that was in force: should the new set rot, that one knows that it is old */
     STAGE_REREAD,   /* roll-back: is the other slot whole, now? The only stage of a reload */
     STAGE_WITHDRAW, /* VOID to the slot in force: from here on the other one counts */
+    STAGE_WITHDRAW_AGAIN, /* once more, should the first one rot */
     STAGE_UNDO
 } stage_t;
 
@@ -49,10 +51,27 @@ static void choose(brace_store_t *store, uint32_t slot)
     }
 }
 
+/* Was a set kept after the one in force, that is not whole any more? A block that passes its CRC and is refused says
+ * its sequence rightly; of any other nobody knows whether it is the later one. */
+static void judge_age(brace_store_t *store, const store_claim_t claims[BRACE_NVM_SLOT_COUNT])
+{
+    if (store->in_force == BRACE_PARAMETERS_DEFAULT) {
+        return;
+    }
+    const uint32_t slot = store->in_force - 1u, other = other_than(slot);
+    const bool has_gone = claims[slot].is_past && store->slot[other].condition != BRACE_SLOT_COUNTS;
+    const bool is_later = store->slot[other].condition != BRACE_SLOT_REFUSED ||
+                          (int32_t)(claims[other].sequence - store->slot[slot].sequence) > 0;
+    store->is_old = has_gone || (claims[other].is_rotten && is_later);
+    store->wanted_sequence =
+        has_gone ? store->slot[slot].sequence + claims[slot].later : claims[other].sequence;
+}
+
 brace_parameter_origin_t brace_store_start(brace_store_t *store, const brace_hal_t *hal,
                                            brace_parameters_t *parameters)
 {
     brace_parameters_t second;
+    store_claim_t claims[BRACE_NVM_SLOT_COUNT];
     memset(store, 0, sizeof *store);
     store->hal = hal;
     brace_parameters_default(parameters);
@@ -61,15 +80,16 @@ brace_parameter_origin_t brace_store_start(brace_store_t *store, const brace_hal
         store->memory_fault = true;
         return BRACE_PARAMETERS_DEFAULT;
     }
-    store_look(store, 0, parameters);
+    store_look(store, 0, parameters, &claims[0]);
     choose(store, 0);
-    store_look(store, 1, &second);
+    store_look(store, 1, &second, &claims[1]);
     const bool newer = store->in_force == BRACE_PARAMETERS_DEFAULT ||
                        (int32_t)(store->slot[1].sequence - store->slot[0].sequence) > 0;
     if (newer && store->slot[1].condition == BRACE_SLOT_COUNTS) {
         *parameters = second;
         choose(store, 1);
     }
+    judge_age(store, claims);
     store->memory_fault = store->slot[0].condition == BRACE_SLOT_UNREADABLE ||
                           store->slot[1].condition == BRACE_SLOT_UNREADABLE;
     return (brace_parameter_origin_t)store->in_force;
@@ -119,13 +139,21 @@ static uint32_t slot_to_write(const brace_store_t *store)
     return b > a ? 1u : 0u;
 }
 
+static uint32_t later_of(uint32_t one, uint32_t other)
+{
+    return (int32_t)(other - one) > 0 ? other : one;
+}
+
+/* No set that was kept gets the number of one before, whole or not. */
 static uint32_t next_sequence(const brace_store_t *store)
 {
     const brace_slot_report_t *a = &store->slot[0], *b = &store->slot[1];
-    if (!store_is_ours(a) || !store_is_ours(b)) {
-        return (store_is_ours(a) ? a->sequence : store_is_ours(b) ? b->sequence : 0u) + 1u;
-    }
-    return ((int32_t)(b->sequence - a->sequence) > 0 ? b->sequence : a->sequence) + 1u;
+    const bool a_is_ours = store_is_ours(a), b_is_ours = store_is_ours(b);
+    const uint32_t newest = a_is_ours && b_is_ours ? later_of(a->sequence, b->sequence)
+                            : a_is_ours            ? a->sequence
+                            : b_is_ours            ? b->sequence
+                                                   : 0u;
+    return (store->is_old ? later_of(newest, store->wanted_sequence) : newest) + 1u;
 }
 
 brace_status_t brace_store_offer(brace_store_t *store, const brace_parameters_t *parameters)
@@ -294,7 +322,7 @@ static mark_result_t put_mark(brace_store_t *store, uint32_t slot, store_word_t 
     if (!store->clean[slot]) {
         return fill_places(store, slot);
     }
-    store_mark(mark, word, block_crc);
+    store_mark(mark, word, store->wanted_sequence - store->slot[slot].sequence, block_crc);
     store->affirmed[slot] = false;
     if (store->position == 0u) {
         store->position = sizeof mark;
@@ -351,7 +379,7 @@ static brace_store_state_t affirm(brace_store_t *store)
     }
     const uint32_t other = other_than(store->target);
     if (is_in_force(store, other)) {
-        return settle(store, other, STORE_KEEP, STAGE_RETIRE);
+        return settle(store, other, store->is_old ? STORE_PAST : STORE_KEEP, STAGE_RETIRE);
     }
     if (store_is_ours(&store->slot[other])) { /* the defaults are in force: it must not come back */
         return settle(store, other, STORE_VOID, STAGE_RETIRE);
@@ -365,14 +393,15 @@ static brace_store_state_t retire(brace_store_t *store)
     if (store_is_ours(&store->slot[store->target])) {
         return settle(store, store->target, STORE_VOID, STAGE_SPOIL);
     }
-    go_to(store, STAGE_ERASE);
+    /* Where marks stand, a set stood: an update may have been interrupted while it spoilt it. */
+    go_to(store, store->next_mark[store->target] != 0u ? STAGE_SPOIL : STAGE_ERASE);
     return BRACE_STORE_BUSY;
 }
 
 static brace_store_state_t done(brace_store_t *store)
 {
     store->in_force = (uint8_t)(store->target + 1u);
-    store->memory_fault = false;
+    store->is_old = false;
     return store->state = BRACE_STORE_DONE;
 }
 
@@ -395,11 +424,32 @@ static brace_store_state_t commit(brace_store_t *store)
         .schema_hash = BRACE_SCHEMA_HASH,
         .block_crc = crc};
     if (result == MARK_DONE) {
-        return done(store);
+        store->memory_fault = false;
+        store->wanted_sequence = store->sequence;
+        go_to(store, STAGE_PAST);
+        return BRACE_STORE_BUSY;
     }
     store->failure = (int8_t)mark_failure(result);
     go_to(store, STAGE_UNDO);
     return BRACE_STORE_BUSY;
+}
+
+/* A mark more than is needed, after the one that decides: without it the set is kept all the same. Where there is no
+ * room for it, it is left out; a memory that does not keep it is at fault. */
+static brace_store_state_t put_spare(brace_store_t *store, uint32_t slot, store_word_t word)
+{
+    const mark_result_t result = put_mark(store, slot, word, store->slot[slot].block_crc, BRACE_STORE_MARKS_KEPT_FREE);
+    if (result == MARK_BUSY) {
+        return BRACE_STORE_BUSY;
+    }
+    store->memory_fault = result != MARK_DONE && result != MARK_NO_ROOM;
+    return done(store);
+}
+
+static brace_store_state_t leave_behind(brace_store_t *store)
+{
+    const uint32_t other = other_than(store->target);
+    return is_in_force(store, other) ? put_spare(store, other, STORE_PAST) : done(store);
 }
 
 static brace_store_state_t withdraw(brace_store_t *store)
@@ -411,7 +461,10 @@ static brace_store_state_t withdraw(brace_store_t *store)
     }
     if (result == MARK_DONE) {
         store->slot[left].condition = BRACE_SLOT_VOID;
-        return done(store);
+        store->memory_fault = false;
+        store->clean[left] = false; /* zeros come between the two: no burst hits both */
+        go_to(store, STAGE_WITHDRAW_AGAIN);
+        return BRACE_STORE_BUSY;
     }
     store->failure = (int8_t)mark_failure(result);
     go_to(store, STAGE_UNDO);
@@ -562,8 +615,10 @@ brace_store_state_t brace_store_step(brace_store_t *store)
     case STAGE_WRITE: return write_block(store);
     case STAGE_READ_BACK: return read_back(store);
     case STAGE_COMMIT: return commit(store);
+    case STAGE_PAST: return leave_behind(store);
     case STAGE_REREAD: return reread(store);
     case STAGE_WITHDRAW: return withdraw(store);
+    case STAGE_WITHDRAW_AGAIN: return put_spare(store, other_than(store->target), STORE_VOID);
     case STAGE_UNDO:
     default: return undo(store);
     }
@@ -592,6 +647,11 @@ uint32_t brace_store_sequence(const brace_store_t *store)
     return store->in_force == BRACE_PARAMETERS_DEFAULT ? 0u : store->slot[store->in_force - 1u].sequence;
 }
 
+uint32_t brace_store_wanted_sequence(const brace_store_t *store)
+{
+    return store->is_old ? store->wanted_sequence : brace_store_sequence(store);
+}
+
 void brace_store_status(const brace_store_t *store, brace_store_status_t *status)
 {
     if (store == NULL || status == NULL) {
@@ -601,6 +661,8 @@ void brace_store_status(const brace_store_t *store, brace_store_status_t *status
     status->failure = (brace_store_failure_t)store->failure;
     status->in_force = (brace_parameter_origin_t)store->in_force;
     status->sequence = brace_store_sequence(store);
+    status->is_old = store->is_old;
+    status->wanted_sequence = brace_store_wanted_sequence(store);
     memcpy(status->slot, store->slot, sizeof status->slot);
     status->refusal = store->failure == BRACE_STORE_E_REFUSED ? (brace_status_t)store->refusal : BRACE_OK;
     status->wrong_index = store->failure == BRACE_STORE_E_REFUSED ? store->wrong_index : 0u;

@@ -4,6 +4,7 @@
 
 enum {
     CRC_BYTES = 4,
+    SEQUENCE_AT = 16, /* of a block; brace_block_compose puts it there */
     MARKS_BYTES = BRACE_STORE_MARK_COUNT * BRACE_STORE_MARK_BYTES
 };
 
@@ -28,9 +29,13 @@ bool store_is_ours(const brace_slot_report_t *report)
            report->condition == BRACE_SLOT_VOID || report->condition == BRACE_SLOT_REFUSED;
 }
 
-void store_mark(uint8_t mark[BRACE_STORE_MARK_BYTES], store_word_t word, uint32_t block_crc)
+void store_mark(uint8_t mark[BRACE_STORE_MARK_BYTES], store_word_t word, uint32_t later, uint32_t block_crc)
 {
-    memcpy(mark, word == STORE_KEEP ? "KEEP" : "VOID", 4);
+    memcpy(mark, word == STORE_KEEP ? "KEEP" : word == STORE_VOID ? "VOID" : "PS__", 4);
+    if (word == STORE_PAST) {
+        mark[2] = (uint8_t)later;
+        mark[3] = (uint8_t)(later >> 8);
+    }
     for (uint32_t i = 0; i < 4u; i++) {
         mark[4u + i] = (uint8_t)(block_crc >> (8u * i));
     }
@@ -67,31 +72,66 @@ static bool crc_fits(const brace_store_t *store, uint32_t slot, uint32_t block_b
     return read(store, slot, covered, piece, CRC_BYTES) && crc == get_u32(piece);
 }
 
+/* What a mark says. */
+typedef enum { SAYS_NOTHING, SAYS_KEEP, SAYS_VOID, SAYS_PAST } says_t;
+
+static says_t word_of(const uint8_t mark[BRACE_STORE_MARK_BYTES])
+{
+    return memcmp(mark, "KEEP", 4) == 0 ? SAYS_KEEP
+           : memcmp(mark, "VOID", 4) == 0 ? SAYS_VOID
+           : memcmp(mark, "PS", 2) == 0   ? SAYS_PAST
+                                          : SAYS_NOTHING;
+}
+
 /* The last legible mark of a block, and the last place where anything was ever written (-1: nowhere). */
 typedef struct {
-    bool readable, kept, voided;
+    bool readable;
+    says_t last_said; /* of marks that name the block's CRC */
+    uint32_t later;   /* of the last PAST */
+    says_t last_word; /* of marks that name any CRC, */
+    uint32_t crc;     /* which is this */
     int32_t last;
 } marks_t;
+
+static void take_mark(marks_t *marks, const uint8_t mark[BRACE_STORE_MARK_BYTES], uint32_t block_crc)
+{
+    const says_t word = word_of(mark);
+    if (word == SAYS_NOTHING) {
+        return;
+    }
+    marks->last_word = word;
+    marks->crc = get_u32(mark + 4);
+    if (marks->crc == block_crc) {
+        marks->last_said = word;
+        marks->later = word == SAYS_PAST ? (uint32_t)mark[2] | (uint32_t)mark[3] << 8 : 0u;
+    }
+}
 
 static marks_t read_marks(const brace_store_t *store, uint32_t slot, uint32_t block_crc)
 {
     marks_t marks = {.readable = true, .last = -1};
-    uint8_t keep[BRACE_STORE_MARK_BYTES], none[BRACE_STORE_MARK_BYTES], found[BRACE_STORE_MARK_BYTES];
-    store_mark(keep, STORE_KEEP, block_crc);
-    store_mark(none, STORE_VOID, block_crc);
+    uint8_t found[BRACE_STORE_MARK_BYTES];
     for (int32_t i = 0; i < BRACE_STORE_MARK_COUNT && marks.readable; i++) {
         const uint32_t at = BRACE_STORE_MARKS_AT + (uint32_t)i * BRACE_STORE_MARK_BYTES;
         marks.readable = read(store, slot, at, found, sizeof found);
-        if (memcmp(found, keep, sizeof found) == 0) {
-            marks.kept = true;
-            marks.voided = false;
-        } else if (memcmp(found, none, sizeof found) == 0) {
-            marks.kept = false;
-            marks.voided = true;
+        if (marks.readable) {
+            take_mark(&marks, found, block_crc);
+            marks.last = is_blank(found, sizeof found) ? marks.last : i;
         }
-        marks.last = is_blank(found, sizeof found) ? marks.last : i;
     }
     return marks;
+}
+
+/* Was the block in store->block once kept by a mark with this CRC? Its header still names it, or its CRC is still the
+ * mark's, or all but its CRC is still what the mark was put to. What an update has withdrawn has zeros in front. */
+static bool was_kept(const brace_store_t *store, const marks_t *marks)
+{
+    static const uint8_t withdrawn[2 * BRACE_STORE_MARK_BYTES];
+    brace_block_header_t header;
+    const uint32_t covered = BRACE_BLOCK_BYTES - CRC_BYTES;
+    return marks->last_word == SAYS_KEEP && memcmp(store->block, withdrawn, sizeof withdrawn) != 0 &&
+           (brace_block_header(store->block, BRACE_BLOCK_BYTES, &header) == BRACE_OK ||
+            get_u32(store->block + covered) == marks->crc || brace_crc32(0, store->block, covered) == marks->crc);
 }
 
 /* The block in store->block as parameters. */
@@ -124,11 +164,12 @@ static brace_slot_condition_t judge_block(brace_store_t *store, uint32_t slot, b
     return status == BRACE_OK ? BRACE_SLOT_COUNTS : BRACE_SLOT_REFUSED;
 }
 
-void store_look(brace_store_t *store, uint32_t slot, brace_parameters_t *parameters)
+void store_look(brace_store_t *store, uint32_t slot, brace_parameters_t *parameters, store_claim_t *claim)
 {
     brace_slot_report_t *report = &store->slot[slot];
     brace_parameters_t found;
     memset(report, 0, sizeof *report);
+    *claim = (store_claim_t){.is_past = false};
     store->affirmed[slot] = store->clean[slot] = false;
     if (!read(store, slot, 0, store->block, BRACE_BLOCK_BYTES)) {
         report->condition = BRACE_SLOT_UNREADABLE;
@@ -141,12 +182,16 @@ void store_look(brace_store_t *store, uint32_t slot, brace_parameters_t *paramet
         return;
     }
     store->next_mark[slot] = (uint8_t)(marks.last + 1);
-    if (report->condition != BRACE_SLOT_COUNTS) {
-        return;
-    }
-    if (marks.kept) {
+    const bool is_kept = marks.last_said == SAYS_KEEP || marks.last_said == SAYS_PAST;
+    if (report->condition == BRACE_SLOT_COUNTS && is_kept) {
         *parameters = found;
-    } else {
-        report->condition = marks.voided ? BRACE_SLOT_VOID : BRACE_SLOT_NOT_COMMITTED;
+        claim->is_past = marks.last_said == SAYS_PAST;
+        claim->later = marks.later;
+    } else if (report->condition == BRACE_SLOT_COUNTS) {
+        report->condition = marks.last_said == SAYS_VOID ? BRACE_SLOT_VOID : BRACE_SLOT_NOT_COMMITTED;
+    } else if (report->condition != BRACE_SLOT_OTHER_SCHEMA && was_kept(store, &marks)) {
+        report->condition = report->condition == BRACE_SLOT_REFUSED ? BRACE_SLOT_REFUSED : BRACE_SLOT_DAMAGED;
+        claim->is_rotten = true;
+        claim->sequence = get_u32(store->block + SEQUENCE_AT);
     }
 }

@@ -25,6 +25,7 @@ static void test_at(int turn, const brace_limb_t *limb, const brace_loading_setu
     truth = (symmetric_t){(double)k.k_xx_n_per_mm, (double)k.k_xz_n_per_mm, (double)k.k_zz_n_per_mm};
     brace_loading_setup_t next = *setup;
     next.axis = turn / 4 % 2 == 0 ? BRACE_AXIS_X : BRACE_AXIS_Z;
+    bench_believe();
     ticks(2);
     run(&next);
     TEST_ASSERT_EQUAL(BRACE_LOADING_DONE, result()->outcome);

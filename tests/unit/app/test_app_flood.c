@@ -242,12 +242,20 @@ static bool is_answered_over_tcp(void)
     return count > 7u && (bytes[7] & 0x80u) == 0u; /* the highest bit tells an exception */
 }
 
-/* A long answer comes in parts: it is there when its check is right. */
+/* How long the answer is that begins so. */
+static uint32_t answer_bytes(const uint8_t *byte)
+{
+    const bool is_read = byte[1] == 3u || byte[1] == 4u, is_exception = (byte[1] & 0x80u) != 0u;
+    return is_exception ? 5u : is_read ? 5u + byte[2] : 8u;
+}
+
+/* A long answer comes in parts: it is there when it is whole. A part's check may be right by chance. */
 static bool is_answered_on_line(void)
 {
     on_line.count += brace_fake_bytes_take(&fake, BRACE_SERIAL_MODBUS, on_line.byte + on_line.count,
                                               (uint32_t)sizeof on_line.byte - on_line.count);
-    if (on_line.count < 5u || crc_by_bits(on_line.byte, on_line.count) != 0u) {
+    if (on_line.count < 5u || on_line.count < answer_bytes(on_line.byte) ||
+        crc_by_bits(on_line.byte, on_line.count) != 0u) {
         return false;
     }
     on_line.count = 0;

@@ -232,6 +232,7 @@ static void test_runs_repetitions_and_postures_are_counted(void)
     TEST_ASSERT_EQUAL(0, result()->rep);
     fake.play = NULL;
     fake.joint[BRACE_FEMUR].sample.motor_rad = 0.8f;
+    bench_believe();
     ticks(5);
     TEST_ASSERT_EQUAL(BRACE_OK, brace_app_loading_start(&app, &quick));
     TEST_ASSERT_EQUAL(2, result()->config);

@@ -271,6 +271,7 @@ static void test_setups_that_cannot_be_are_refused(void)
     TEST_ASSERT_EQUAL(BRACE_E_RANGE, brace_app_loading_start(&app, &s));
     fake.play = NULL;
     fake.joint[BRACE_TIBIA].sample.motor_rad = 0.01f; /* nearly straight */
+    bench_believe();
     ticks(3);
     TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, brace_app_loading_start(&app, &along_x));
     brace_fake_without_commands(&fake);
@@ -310,6 +311,7 @@ static void test_a_rate_that_would_stand_far_out_is_refused(void)
         for (int j = 0; j < 2; j++) {
             app.controller.loading.start_motor_rad[j] = app.controller.joints.joint[BRACE_FEMUR + j].sample.motor_rad;
         }
+        bench_believe();
         ticks(1);
     }
     ASSERT_CLOSE(-32.0, app.controller.loading.along_mm, 0.0);

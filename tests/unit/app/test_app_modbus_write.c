@@ -218,6 +218,7 @@ static void test_k_at_a_posture(void)
     const reply_t reply = read_asks(4, 4096, 14);
     fake.joint[BRACE_FEMUR].sample.motor_rad = 0.7f;
     fake.joint[BRACE_TIBIA].sample.motor_rad = 1.1f;
+    bench_believe();
     ticks(5);
     const brace_stiffness_t *k = &now()->stiffness.engaged;
     TEST_ASSERT_EQUAL_FLOAT(k->k_xx_n_per_mm, float_at(&reply, 0));

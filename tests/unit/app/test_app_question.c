@@ -138,7 +138,7 @@ static question_inputs_t inputs_of_job(void)
 {
     return (question_inputs_t){.model = &app.controller.model,
                                .parameters = brace_app_parameters(&app),
-                               .origin = BRACE_PARAMETERS_SLOT_A,
+                               .is_calibrated = true,
                                .joints = &app.controller.joints,
                                .down = app.controller.gravity.down};
 }

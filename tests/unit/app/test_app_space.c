@@ -76,6 +76,7 @@ static void test_K_in_space_is_the_reference_at_every_posture(void)
         for (int joint = 0; joint < BRACE_LINK_COUNT; joint++) {
             fake.joint[joint].sample.motor_rad = posture[i][joint];
         }
+        bench_believe();
         ticks(2);
         const float *theta_rad = now()->theta_rad;
         const reference_spatial_t in_space = reference_spatial(
@@ -217,6 +218,7 @@ static void test_K_here_is_K_as_asked_for_here(void)
     for (int joint = 0; joint < BRACE_LINK_COUNT; joint++) {
         fake.joint[joint].sample.motor_rad = load_posture_rad[joint];
     }
+    bench_believe();
     fake.joint[BRACE_COXA].sample.torque_n_mm = 2500.0f;
     fake.force_x_n = -5.0f, fake.force_z_n = 12.0f;
     ticks(200);
@@ -398,6 +400,9 @@ static void test_frames_of_a_snapshot_come_whole_and_are_never_mixed(void)
     for (int i = 0; i < 5000; i++) {
         fake.joint[BRACE_COXA].sample.motor_rad = -1.0f + 4e-4f * (float)i;
         fake.joint[BRACE_FEMUR].sample.motor_rad = 0.5f + 4e-4f * (float)(i % 1500);
+        if (i % 1500 == 0) {
+            bench_believe();
+        }
         fake.can_room = i % 7 == 0 ? 0 : 64;
         ticks(1);
         kept[now()->sequence % KEPT] = *now();
@@ -558,6 +563,7 @@ enum { ENTRY_IN_SPACE = 0x1000 + 58, ENTRY_THETA0, ENTRY_K_XX, ENTRY_K_ACROSS = 
 static void test_registers_and_entries_tell_it(void)
 {
     fake.joint[BRACE_COXA].sample.motor_rad = 0.7f;
+    bench_believe();
     ticks(2);
     const brace_stiffness_spatial_t *k = &now()->space.now, *engaged = &now()->space.engaged;
     const reply_t reply = read_asks(4, 116, 84);

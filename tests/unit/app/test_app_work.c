@@ -66,7 +66,7 @@ static void test_questions_in_space_leave_room_too(void)
     start(true);
     const question_inputs_t inputs = {.model = &app.controller.model,
                                       .parameters = brace_app_parameters(&app),
-                                      .origin = BRACE_PARAMETERS_SLOT_A,
+                                      .is_calibrated = true,
                                       .joints = &app.controller.joints,
                                       .down = app.controller.gravity.down};
     for (int asker = 0; asker < (int)BRACE_ASKER_COUNT; asker++) {

@@ -59,6 +59,7 @@ static void test_K_at_the_tip_is_K_at_its_posture_both_knees(void)
 {
     for (int down = 0; down < 2; down++) {
         fake.joint[BRACE_TIBIA].sample.motor_rad = down ? -1.4f : 1.4f;
+        bench_believe();
         ticks(20);
         drain();
         const brace_stiffness_t k = now()->stiffness.now;

@@ -9,8 +9,15 @@ from brace.cli.bus_options import add_bus, controller
 from brace.cli.options import Subcommands, refused
 from brace.cli.subcommands import SUBCOMMANDS
 
-# said on the command line: the fault's name in the dictionary
-STAYING = {"drift": "model_drift", "crash": "crashed", "encoder": "encoder_stuck"}
+# said on the command line: the faults' names in the dictionary
+STAYING = {
+    "drift": ("model_drift",),
+    "crash": ("crashed",),
+    "encoder": ("encoder_stuck",),
+    "jump": ("jump_coxa", "jump_femur", "jump_tibia"),
+    "parameters": ("old_parameters",),
+}
+DRIFT = "model_drift"
 
 
 def add(commands: Subcommands) -> None:
@@ -22,26 +29,30 @@ def add(commands: Subcommands) -> None:
         "baseline it holds. A limb that is another one now wants its parameters instead: brace identify, brace params "
         "push. crash (crashed): the crash has been looked into; its record is gone afterwards, so read the console's "
         "banner first. encoder (encoder_stuck): the joint stands and its encoder works; one that does not is "
-        "seen again. All other faults end with their cause.",
+        "seen again. jump (jump_coxa, jump_femur, jump_tibia, or one of them by its name): the joint stands where its "
+        "encoders say, so look at it first; what they say next is believed. parameters (old_parameters): the set in "
+        "force is taken until the next start, though another one was stored after it; brace params push ends it for "
+        "good. All other faults end with their cause.",
         epilog="Exit codes: 0 it is not there (any more), 2 a fault that cannot be cleared, 4 no answer, 5 the device "
         "refuses or the fault is back at once, 6 another dictionary.",
     )
-    parser.add_argument("faults", nargs="+", type=_staying, metavar="FAULT", help=" or ".join(STAYING))
+    parser.add_argument("faults", nargs="+", type=_staying, metavar="FAULT", help=", ".join(STAYING))
     add_bus(parser)
     common.add_json(parser)
     parser.set_defaults(run=run)
 
 
-def _staying(text: str) -> str:
-    """A fault that is cleared on request, by either name."""
-    name = STAYING.get(text.lower(), text.lower())
-    if name not in STAYING.values():
+def _staying(text: str) -> tuple[str, ...]:
+    """Faults that are cleared on request, by either name."""
+    name = text.lower()
+    names = STAYING.get(name, (name,))
+    if not any(set(names) <= set(known) for known in STAYING.values()):
         raise refused(
             f"{text!r} is not a latched fault",
             f"the latched faults are {', '.join(STAYING)}; every other fault ends with its cause",
             "brace query shows which faults are there, docs/errors.md what each of them wants",
         )
-    return name
+    return names
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -51,8 +62,10 @@ def run(arguments: argparse.Namespace) -> int:
 
     with controller(arguments) as device:
         before = _names(device.read_entry("faults"))
-        asked = [name for name in dict.fromkeys(arguments.faults) if name in before]
-        cause = device.drift().cause if STAYING["drift"] in asked else "none"  # before it is cleared
+        wanted = list(dict.fromkeys(name for names in arguments.faults for name in names))
+        asked = [name for name in wanted if name in before]
+        absent = [" or ".join(names) for names in dict.fromkeys(arguments.faults) if not set(names) & set(before)]
+        cause = device.drift().cause if DRIFT in asked else "none"  # before it is cleared
         faults = _names(device.clear(_bits(asked))) if asked else before
         where = f"{device.url}, node {device.node}"
     back = [name for name in asked if name in faults]
@@ -64,11 +77,13 @@ def run(arguments: argparse.Namespace) -> int:
             next_step="docs/errors.md says what each fault wants; brace monitor shows when it comes",
         )
     if arguments.json:
-        told = {"drift_cause": cause} if STAYING["drift"] in asked else {}
+        told = {"drift_cause": cause} if DRIFT in asked else {}
         common.print_json({"node": device.node, "cleared": asked, "faults": faults, **told})
         return 0
-    for name in dict.fromkeys(arguments.faults):
-        common.say(f"{where}: {f'cleared {name}' if name in asked else f'{name} is not there, nothing to clear'}")
+    for name in asked:
+        common.say(f"{where}: cleared {name}")
+    for name in absent:
+        common.say(f"{where}: {name} is not there, nothing to clear")
     if cause != "none":
         common.say(f"the drift's likeliest cause was {cause_text(cause)}")
     common.say(f"faults now: {' '.join(faults) or 'none'}")

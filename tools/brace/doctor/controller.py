@@ -7,6 +7,19 @@ from collections.abc import Callable, Iterator
 from brace.doctor.finding import CONTROLLER, FAULTY, NOTE, OK, Finding
 from brace.wire.codes import FAULT
 
+_JUMP = "look at that joint: encoder, magnet, wires, drive; once it stands where its encoder says: brace clear jump"
+#: fault -> what to do; of the others docs/errors.md says it
+_FAULTS = {
+    "PARAMETERS": "brace params push FILE",
+    "OLD_PARAMETERS": "brace params push FILE stores the set again; brace clear parameters takes the older one for now",
+    "MODEL_DRIFT": "brace query says the likeliest cause; docs/drift.md",
+    "CRASHED": "read the console's banner, then: brace clear crash",
+    "ENCODER_STUCK": "free the joint and look at its encoder; one that works: brace clear encoder",
+    "JUMP_COXA": _JUMP,
+    "JUMP_FEMUR": _JUMP,
+    "JUMP_TIBIA": _JUMP,
+}
+
 #: counter -> what it means where it is not 0, and what to do
 _COUNTERS = {
     "ticks_late": ("ticks came late", "set a longer controller.tick_us"),
@@ -33,7 +46,8 @@ def controller(where: str, read_entry: Callable[[str], int]) -> Iterator[Finding
     bits = read_entry("faults")
     for code in FAULT.codes:
         if bits >> code.number & 1:
-            yield Finding(CONTROLLER, code.name.lower(), FAULTY, code.text, "docs/errors.md says what to do")
+            next_step = _FAULTS.get(code.name, "docs/errors.md says what to do")
+            yield Finding(CONTROLLER, code.name.lower(), FAULTY, code.text, next_step)
     if not bits:
         yield Finding(CONTROLLER, "faults", OK, f"{where}: none")
     for name, (meaning, next_step) in _COUNTERS.items():

@@ -143,6 +143,10 @@ FAULT = CodeTable("fault", True, (
     Code(9, "SENSOR_COXA", "The coxa joint's drive gives no sound sample."),
     Code(10, "DRIVE_REFUSES", "A drive has refused its commands for 50 ms; what moved the limb was ended."),
     Code(11, "MEMORY", "Parameters or constants in RAM have changed by themselves; they are taken from the store again."),
+    Code(12, "OLD_PARAMETERS", "A parameter set was stored and is not whole any more: the set before it is in force, and K is UNCALIBRATED."),
+    Code(13, "JUMP_COXA", "An encoder of the coxa joint says what cannot be: it has jumped further than the joint can turn, or contradicts the other one."),
+    Code(14, "JUMP_FEMUR", "An encoder of the femur joint says what cannot be: it has jumped further than the joint can turn, or contradicts the other one."),
+    Code(15, "JUMP_TIBIA", "An encoder of the tibia joint says what cannot be: it has jumped further than the joint can turn, or contradicts the other one."),
 ))
 
 # Quality of a K that is told all the same.

@@ -5,7 +5,7 @@ from __future__ import annotations
 from brace.wire import codes
 from brace.wire.layout import Field, Layout
 
-DICTIONARY_HASH = 0xFF34EF97
+DICTIONARY_HASH = 0xA44F4B80
 PROTOCOL = 2
 REQUEST_ID = 0x600
 ANSWER_ID = 0x580

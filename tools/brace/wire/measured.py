@@ -150,4 +150,5 @@ MEASURED: tuple[MeasuredEntry, ...] = (
     MeasuredEntry(0x108d, "sigma_space_lambda_2", "f32", "N/mm"),
     MeasuredEntry(0x108e, "sigma_space_lambda_3", "f32", "N/mm"),
     MeasuredEntry(0x108f, "sigma_k_across", "f32", "N/mm"),
+    MeasuredEntry(0x1090, "parameter_sequence_wanted", "u32", ""),
 )

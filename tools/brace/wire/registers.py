@@ -149,6 +149,7 @@ REGISTERS: tuple[Register, ...] = (
     Register("sigma_space_lambda_2", "input", 282, "f32", "N/mm", "ro"),
     Register("sigma_space_lambda_3", "input", 284, "f32", "N/mm", "ro"),
     Register("sigma_k_across", "input", 286, "f32", "N/mm", "ro"),
+    Register("parameter_sequence_wanted", "input", 288, "u32", "", "ro"),
     Register("asked_k_xx", "input", 4096, "f32", "N/mm", "ro"),
     Register("asked_k_xz", "input", 4098, "f32", "N/mm", "ro"),
     Register("asked_k_zz", "input", 4100, "f32", "N/mm", "ro"),

@@ -125,8 +125,10 @@ const brace_loading_result_t *brace_app_loading_result(const brace_app_t *app);
 uint32_t brace_app_row_count(const brace_app_t *app);
 brace_status_t brace_app_row(const brace_app_t *app, uint32_t index, brace_row_t *row);
 
-/* Clears MODEL_DRIFT (the drift check watches on from the baseline it holds), CRASHED, and ENCODER_STUCK (a joint that
- * is frozen is proven so anew by what the limb does next). faults: BRACE_FAULT_... bits
+/* Clears MODEL_DRIFT (the drift check watches on from the baseline it holds), CRASHED, ENCODER_STUCK (a joint that is
+ * frozen is proven so anew by what the limb does next), JUMP_COXA, JUMP_FEMUR and JUMP_TIBIA (what the joint's encoders
+ * say next is believed), and OLD_PARAMETERS (the set in force is taken until the next start, though another one was
+ * stored after it). faults: BRACE_FAULT_... bits
  * returns also BRACE_E_RANGE: a fault that no request clears */
 brace_status_t brace_app_clear(brace_app_t *app, uint32_t faults);
 

@@ -16,7 +16,8 @@
 
 /* Faults that make every K invalid and the mode FAULT. */
 #define BRACE_FAULTS_NO_K \
-    (BRACE_FAULT_SENSOR_FEMUR | BRACE_FAULT_SENSOR_TIBIA | BRACE_FAULT_ENCODER_STUCK | BRACE_FAULT_MEMORY)
+    (BRACE_FAULT_SENSOR_FEMUR | BRACE_FAULT_SENSOR_TIBIA | BRACE_FAULT_ENCODER_STUCK | BRACE_FAULT_MEMORY | \
+     BRACE_FAULT_JUMP_COXA | BRACE_FAULT_JUMP_FEMUR | BRACE_FAULT_JUMP_TIBIA)
 
 /* K in the robot's frame, of a limb whose coxa joint is fitted. A load couples the limb's plane with what is across it.
  * While a gap is open, that coupling is left out. */
@@ -73,6 +74,8 @@ typedef struct {
     uint32_t parameter_crc;
     brace_parameter_origin_t parameter_origin;
     uint32_t parameter_sequence; /* counts the sets stored; 0 for the defaults */
+    uint32_t parameter_sequence_wanted; /* of the set stored last; another one while BRACE_FAULT_OLD_PARAMETERS stands,
+                                           or did until it was cleared */
 } brace_snapshot_t;
 
 /* Troubles that are only counted. Every counter stays at its largest value. */

@@ -5,7 +5,8 @@
 
 /* Faults that stand as long as somebody says so. Every other fault comes and goes with its cause. */
 #define LASTING \
-    ((uint32_t)(BRACE_FAULT_PARAMETERS | BRACE_FAULT_STORE | BRACE_FAULT_MODEL_DRIFT | BRACE_FAULT_CRASHED))
+    ((uint32_t)(BRACE_FAULT_PARAMETERS | BRACE_FAULT_STORE | BRACE_FAULT_MODEL_DRIFT | BRACE_FAULT_CRASHED | \
+                BRACE_FAULT_OLD_PARAMETERS | BRACE_FAULT_JUMP_COXA | BRACE_FAULT_JUMP_FEMUR | BRACE_FAULT_JUMP_TIBIA))
 
 void faults_update(faults_t *faults, uint32_t causes, uint32_t lasting, bool may_begin, uint32_t tick_us)
 {

@@ -194,17 +194,28 @@ static void take_space(const engaged_t *engaged, const brace_gap_stiffness_t *pl
     space->now.flags |= (assumed & 1u << BRACE_COXA) != 0u ? (uint32_t)BRACE_FLAG_PLAY_ASSUMED : 0u;
 }
 
-void stiffness_take(model_t *model, const brace_parameters_t *parameters, brace_parameter_origin_t origin,
+/* Do the encoders of the plane's joints agree, and is the temperature known where their springs follow it? */
+static bool springs_are_known(const brace_parameters_t *parameters, const joints_t *joints)
+{
+    float temp_degc[BRACE_LINK_COUNT];
+    joints_temperatures(joints, temp_degc);
+    const bool is_measured = temp_degc[BRACE_FEMUR] == temp_degc[BRACE_FEMUR] &&
+                             temp_degc[BRACE_TIBIA] == temp_degc[BRACE_TIBIA];
+    return !joints->joint[BRACE_FEMUR].contradicts && !joints->joint[BRACE_TIBIA].contradicts &&
+           (is_measured || parameters->slow.joint_compliance_per_degc == 0.0f);
+}
+
+void stiffness_take(model_t *model, const brace_parameters_t *parameters, bool is_calibrated,
                     const joints_t *joints, const flank_t *flank, const gravity_t *gravity, softening_t *softening,
                     posture_t *posture, brace_snapshot_t *snapshot)
 {
     const uint32_t plane_joints = 1u << BRACE_FEMUR | 1u << BRACE_TIBIA;
     const uint32_t open = flank_open_gaps(flank);
     const bool sound = joints_plane_is_sound(joints), inside = posture->is_inside_travel;
-    uint32_t flags = (origin == BRACE_PARAMETERS_DEFAULT ? (uint32_t)BRACE_FLAG_UNCALIBRATED : 0u) |
-                     (sound ? 0u : (uint32_t)BRACE_FLAG_STALE) |
+    uint32_t flags = (is_calibrated ? 0u : (uint32_t)BRACE_FLAG_UNCALIBRATED) |
+                     (sound && !joints_plane_may_have_moved(joints) ? 0u : (uint32_t)BRACE_FLAG_STALE) |
                      ((flank_assumed(flank) & plane_joints) != 0u ? (uint32_t)BRACE_FLAG_PLAY_ASSUMED : 0u) |
-                     (inside ? 0u : (uint32_t)BRACE_FLAG_OUT_OF_RANGE);
+                     (inside && springs_are_known(parameters, joints) ? 0u : (uint32_t)BRACE_FLAG_OUT_OF_RANGE);
     brace_loaded_joint_t springs[BRACE_LINK_COUNT];
     engaged_t engaged;
 

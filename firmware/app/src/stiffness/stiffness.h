@@ -27,11 +27,14 @@ void stiffness_hold_measured_joints(const posture_t *posture, brace_loaded_joint
  * force and the limb's weight, where the force is known; the posture goes to that equilibrium.
  *   softening: what it tells of a limb in space is read; (out): where such a limb rests now
  *   snapshot: its forces are read; (out): stiffness, k_is_valid, space, load
- * Flags: UNCALIBRATED (safe defaults), STALE (no sound samples), OUT_OF_RANGE (outside a drive's travel), LOAD_UNKNOWN
- * (no load is counted), GAP_OPEN, and the model's own. Where there is no K: NEAR_SINGULAR (nothing yields in some
+ *   is_calibrated: the parameters are of this limb as it was measured last
+ * Flags: UNCALIBRATED, STALE (no sound samples; with a valid K: samples so
+ * old that their joints stand elsewhere by now), OUT_OF_RANGE (outside a drive's travel, or the encoders of a joint
+ * contradict each other, or the springs follow a temperature that is not known), LOAD_UNKNOWN (no load is counted),
+ * GAP_OPEN, and the model's own. Where there is no K: NEAR_SINGULAR (nothing yields in some
  * direction, or the force is beyond what the estimator takes), with SOFTENED where no stable equilibrium is near. At
  * most 3,600 instructions; 8,000 for a limb in space. */
-void stiffness_take(model_t *model, const brace_parameters_t *parameters, brace_parameter_origin_t origin,
+void stiffness_take(model_t *model, const brace_parameters_t *parameters, bool is_calibrated,
                     const joints_t *joints, const flank_t *flank, const gravity_t *gravity, softening_t *softening,
                     posture_t *posture, brace_snapshot_t *snapshot);
 

@@ -196,6 +196,7 @@ static void take_parameters(const brace_snapshot_t *snapshot, brace_measured_t *
     m->parameter_crc = snapshot->parameter_crc;
     m->parameter_origin = snapshot->parameter_origin;
     m->parameter_sequence = snapshot->parameter_sequence;
+    m->parameter_sequence_wanted = snapshot->parameter_sequence_wanted;
 }
 
 static void take_counters(const brace_app_counters_t *counters, brace_measured_t *m)

@@ -14,7 +14,7 @@
 #include <stdint.h>
 
 /* Of every frame, entry and parameter, with types, steps and units: what two ends must agree on. */
-#define BRACE_DICTIONARY_HASH 0xff34ef97u
+#define BRACE_DICTIONARY_HASH 0xa44f4b80u
 #define BRACE_PROTOCOL 2u
 
 /* Identifiers of node 0; a controller adds its node number, 1-127. */
@@ -185,9 +185,10 @@ uint32_t brace_can_details_fd_part(const uint8_t *data);
 /* a fault has come or gone, or the likeliest cause of a drift is another one */
 typedef struct {
     /* the CANopen code of the fault that came: 0x7300 SENSOR_FEMUR, SENSOR_TIBIA, SENSOR_COXA; 0x7305
-     * ENCODER_STUCK; 0x6100 TICK_LATE; 0x6320 PARAMETERS; 0x5530 STORE; 0x8140 CAN_BUS_OFF; 0xff01 MODEL_DRIFT;
-     * 0x6010 CRASHED; 0x7120 DRIVE_REFUSES; 0x5510 MEMORY; 0xff01 also where a drift has another cause now; 0x1000
-     * where one has gone and others are there; 0x0000 where the last one has gone */
+     * ENCODER_STUCK, JUMP_COXA, JUMP_FEMUR, JUMP_TIBIA; 0x6100 TICK_LATE; 0x6320 PARAMETERS, OLD_PARAMETERS;
+     * 0x5530 STORE; 0x8140 CAN_BUS_OFF; 0xff01 MODEL_DRIFT; 0x6010 CRASHED; 0x7120 DRIVE_REFUSES; 0x5510 MEMORY;
+     * 0xff01 also where a drift has another cause now; 0x1000 where one has gone and others are there; 0x0000
+     * where the last one has gone */
     uint32_t error_code;
     /* 1 while any fault is there */
     uint32_t error_register;

@@ -107,9 +107,20 @@ enum {
     /* A drive has refused its commands for 50 ms; what moved the limb was ended. */
     BRACE_FAULT_DRIVE_REFUSES = 1u << 10,
     /* Parameters or constants in RAM have changed by themselves; they are taken from the store again. */
-    BRACE_FAULT_MEMORY = 1u << 11
+    BRACE_FAULT_MEMORY = 1u << 11,
+    /* A parameter set was stored and is not whole any more: the set before it is in force, and K is UNCALIBRATED. */
+    BRACE_FAULT_OLD_PARAMETERS = 1u << 12,
+    /* An encoder of the coxa joint says what cannot be: it has jumped further than the joint can turn, or
+     * contradicts the other one. */
+    BRACE_FAULT_JUMP_COXA = 1u << 13,
+    /* An encoder of the femur joint says what cannot be: it has jumped further than the joint can turn, or
+     * contradicts the other one. */
+    BRACE_FAULT_JUMP_FEMUR = 1u << 14,
+    /* An encoder of the tibia joint says what cannot be: it has jumped further than the joint can turn, or
+     * contradicts the other one. */
+    BRACE_FAULT_JUMP_TIBIA = 1u << 15
 };
-enum { BRACE_FAULT_COUNT = 12 };
+enum { BRACE_FAULT_COUNT = 16 };
 /* X(fault, code) for every fault in the order of the bits: its CANopen emergency code. */
 #define BRACE_FAULTS(X) \
     X(BRACE_FAULT_SENSOR_FEMUR, 0x7300) \
@@ -123,6 +134,10 @@ enum { BRACE_FAULT_COUNT = 12 };
     X(BRACE_FAULT_CRASHED, 0x6010) \
     X(BRACE_FAULT_SENSOR_COXA, 0x7300) \
     X(BRACE_FAULT_DRIVE_REFUSES, 0x7120) \
-    X(BRACE_FAULT_MEMORY, 0x5510)
+    X(BRACE_FAULT_MEMORY, 0x5510) \
+    X(BRACE_FAULT_OLD_PARAMETERS, 0x6320) \
+    X(BRACE_FAULT_JUMP_COXA, 0x7305) \
+    X(BRACE_FAULT_JUMP_FEMUR, 0x7305) \
+    X(BRACE_FAULT_JUMP_TIBIA, 0x7305)
 
 #endif

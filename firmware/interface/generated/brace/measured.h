@@ -316,9 +316,12 @@ typedef struct {
     float sigma_space_lambda_3_n_per_mm;
     /* one sigma of k_across */
     float sigma_k_across_n_per_mm;
+    /* the sequence number of the set that was stored last; another one than parameter_sequence while
+     * OLD_PARAMETERS is there, because that set is not whole any more */
+    uint32_t parameter_sequence_wanted;
 } brace_measured_t;
 
-enum { BRACE_MEASURED_COUNT = 144 };
+enum { BRACE_MEASURED_COUNT = 145 };
 #ifndef __cplusplus
 _Static_assert(sizeof(brace_measured_t) == 4 * BRACE_MEASURED_COUNT, "32 bits each");
 #endif

@@ -1,14 +1,22 @@
 /* The parameter store: two slots of the non-volatile memory, of which the newest whole one is in force.
  *
  *     slot  0  parameter block (brace/parameters.h), up to 3584 bytes whatever firmware wrote it
- *        3584  64 marks of 8 bytes: a word "KEEP" or "VOID" and the block's CRC, little-endian; the rest stays erased
+ *        3584  64 marks of 8 bytes: a word and the block's CRC, little-endian; the rest stays erased. Words: "KEEP",
+ *              "VOID", or "PS" (past: kept, and another set has followed) with how many sequences later that set is
  *
- * A slot counts when its block is sound and its last legible mark is KEEP; of two that count, the one with the newer
- * sequence is in force (modulo 2^32). An update writes the other slot:
+ * A slot counts when its block is sound and its last legible mark is KEEP or PAST; of two that count, the one with the
+ * newer sequence is in force (modulo 2^32). An update writes the other slot:
  *     KEEP to the slot in force; VOID to the other, zeros over its first bytes, erase; the block, read back;
- *     KEEP to it
+ *     KEEP to it; PAST to the slot that was in force
  * and a roll-back puts the other slot in force:
- *     KEEP to the other; it is read again, whole; VOID to the one in force
+ *     KEEP to the other; it is read again, whole; VOID to the one in force, twice, so that no one flaw brings it back
+ *
+ * The set in force is old when another one was kept after it and is not whole any more (a cell has lost its charge):
+ *     the slot in force is PAST, and the other one does not count, whatever is left in it; or
+ *     the other slot's last legible mark is KEEP, and its block does not pass. An erase that was interrupted leaves
+ *     zeros over the block's first bytes, or nothing: that is no such slot
+ * While it is old, an update writes PAST in place of its first KEEP, so that a power cut leaves it old.
+ *
  * Every stage is one of those orders, so wherever power fails, a start finds the old set or the new one. The KEEP at
  * the beginning is there because power may have failed within the last one: a unit that was being written may read
  * differently each time, until something whole stands after it. What an interrupted operation left open (the old set or
@@ -73,6 +81,9 @@ brace_status_t brace_store_take(brace_store_t *store, brace_parameters_t *parame
 
 /* Sequence of the set in force; 0 for the defaults. */
 uint32_t brace_store_sequence(const brace_store_t *store);
+
+/* Sequence of the set that was kept last, as far as the slots say; the same while that one is in force. */
+uint32_t brace_store_wanted_sequence(const brace_store_t *store);
 
 /* All that can be told; null pointers are ignored. cost: 62 instructions */
 void brace_store_status(const brace_store_t *store, brace_store_status_t *status);

@@ -22,7 +22,7 @@ typedef enum {
     BRACE_SLOT_COUNTS = 1,        /* whole and kept: in force, or the one to go back to */
     BRACE_SLOT_NOT_COMMITTED = 2, /* sound, but its writing was not finished */
     BRACE_SLOT_VOID = 3,          /* sound, and taken out of force by an update or a roll-back */
-    BRACE_SLOT_DAMAGED = 4,       /* a block whose CRC does not fit */
+    BRACE_SLOT_DAMAGED = 4,       /* a block whose CRC does not fit, or a kept slot whose block is none any more */
     BRACE_SLOT_OTHER_SCHEMA = 5,  /* sound, of another firmware's dictionary (schema_hash): refused, left as it is */
     BRACE_SLOT_REFUSED = 6,       /* sound, of our dictionary, and a value is out of range (wrong_index) */
     BRACE_SLOT_UNREADABLE = 7     /* the memory does not answer */
@@ -59,6 +59,8 @@ typedef struct {
     const brace_hal_t *hal;
     brace_slot_report_t slot[BRACE_NVM_SLOT_COUNT];
     uint8_t next_mark[BRACE_NVM_SLOT_COUNT]; /* where the next mark goes */
+    bool is_old;              /* the set in force is not the one that was kept last */
+    uint32_t wanted_sequence; /* of that one, while is_old; while a slot gets the mark PAST: of the set that follows */
     bool affirmed[BRACE_NVM_SLOT_COUNT];     /* its last mark is a KEEP that this session has written whole */
     bool clean[BRACE_NVM_SLOT_COUNT];        /* nothing has touched that place since the erase */
     uint8_t in_force;                        /* brace_parameter_origin_t */
@@ -85,6 +87,9 @@ typedef struct {
     uint32_t wrong_index;
     brace_parameter_origin_t in_force;
     uint32_t sequence;             /* of the set in force; 0 for the defaults */
+    bool is_old;                   /* a newer set was kept and is not whole any more: BRACE_FAULT_OLD_PARAMETERS */
+    uint32_t wanted_sequence;      /* of the set that was kept last, as far as its slots say; the same as sequence while
+                                      not is_old */
     brace_slot_report_t slot[BRACE_NVM_SLOT_COUNT];
     bool can_roll_back;
     bool memory_fault;             /* the last update failed on the memory, or it does not answer: BRACE_FAULT_STORE */

@@ -121,7 +121,9 @@ static void test_in_which_modes_k_is_told(void)
  * that anew. Faults do not touch one another. */
 static void test_a_fault_lasts_a_while_after_its_cause(void)
 {
-    const uint32_t stands = BRACE_FAULT_PARAMETERS | BRACE_FAULT_STORE | BRACE_FAULT_MODEL_DRIFT | BRACE_FAULT_CRASHED;
+    const uint32_t stands = BRACE_FAULT_PARAMETERS | BRACE_FAULT_STORE | BRACE_FAULT_MODEL_DRIFT | BRACE_FAULT_CRASHED |
+                            BRACE_FAULT_OLD_PARAMETERS | BRACE_FAULT_JUMP_COXA | BRACE_FAULT_JUMP_FEMUR |
+                            BRACE_FAULT_JUMP_TIBIA;
     for (uint32_t bit = 0; bit < (uint32_t)BRACE_FAULT_COUNT; bit++) {
         const uint32_t fault = 1u << bit, another = 1u << (bit == 0u ? 1u : 0u);
         const int over = fault == (uint32_t)BRACE_FAULT_TICK_LATE ? 1000 : 100;
@@ -163,8 +165,9 @@ static void test_a_fault_ends_with_the_first_tick_beyond(void)
 static void test_some_faults_stand_as_long_as_somebody_says_so(void)
 {
     static const uint32_t stands[] = {BRACE_FAULT_PARAMETERS, BRACE_FAULT_STORE, BRACE_FAULT_MODEL_DRIFT,
-                                      BRACE_FAULT_CRASHED};
-    for (int i = 0; i < 4; i++) {
+                                      BRACE_FAULT_CRASHED,    BRACE_FAULT_OLD_PARAMETERS, BRACE_FAULT_JUMP_COXA,
+                                      BRACE_FAULT_JUMP_FEMUR, BRACE_FAULT_JUMP_TIBIA};
+    for (int i = 0; i < 8; i++) {
         faults_t faults = {.now = 0u};
         faults_update(&faults, 0u, stands[i], false, TICK_US);
         TEST_ASSERT_EQUAL_HEX32(stands[i], faults.now);

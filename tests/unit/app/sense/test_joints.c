@@ -97,9 +97,11 @@ static void test_the_mean_follows_what_two_samples_agree_on(void)
 /* Femur and tibia joint take the other's temperature where they have no sensor; the coxa joint has its own or none. */
 static void test_temperatures_of_joints(void)
 {
-    static const float given[][3] = {{33.0f, 30.0f, 40.0f}, {NAN, 30.0f, NAN}, {33.0f, NAN, 40.0f}, {NAN, NAN, NAN}};
-    static const float told[][3] = {{33.0f, 30.0f, 40.0f}, {NAN, 30.0f, 30.0f}, {33.0f, 40.0f, 40.0f}, {NAN, NAN, NAN}};
-    for (int i = 0; i < 4; i++) {
+    static const float given[][3] = {{33.0f, 30.0f, 40.0f}, {NAN, 30.0f, NAN},     {33.0f, NAN, 40.0f},
+                                     {NAN, NAN, NAN},       {150.0f, 40.0f, -60.0f}, {151.0f, 40.0f, -61.0f}};
+    static const float told[][3] = {{33.0f, 30.0f, 40.0f}, {NAN, 30.0f, 30.0f},    {33.0f, 40.0f, 40.0f},
+                                    {NAN, NAN, NAN},       {150.0f, 40.0f, -60.0f}, {NAN, 40.0f, 40.0f}};
+    for (int i = 0; i < 6; i++) {
         float temp_degc[BRACE_LINK_COUNT] = {-1.0f, -1.0f, -1.0f};
         for (int j = 0; j < BRACE_LINK_COUNT; j++) {
             joints.joint[j].sample.temp_degc = given[i][j];
@@ -143,6 +145,151 @@ static void test_an_angle_that_no_joint_could_have_reached_is_refused_once(void)
     TEST_ASSERT_EQUAL_FLOAT(1.31f, joint->sample.motor_rad);
     TEST_ASSERT_FALSE(joint->has_wild);
     TEST_ASSERT_EQUAL(4, bad);
+}
+
+static void wait_ms(uint32_t ms)
+{
+    answer = BRACE_HAL_AGAIN;
+    for (uint32_t i = 0; i < ms; i++) {
+        (void)read_at(1.0f, NAN, 100.0f);
+    }
+    answer = BRACE_HAL_OK;
+}
+
+/* Two samples that agree on what no joint can have done prove a jump and not a place: it stands until somebody has
+ * looked, whatever the encoder says later. */
+static void test_a_jump_stands_until_somebody_has_looked(void)
+{
+    (void)read_at(1.0f, NAN, 100.0f);
+    const joint_t *joint = read_at(1.5f, NAN, 100.0f);
+    TEST_ASSERT_FALSE(joint->has_jumped);
+    joint = read_at(1.5f, NAN, 100.0f);
+    TEST_ASSERT_TRUE(joint->has_jumped && joint->sound);
+    for (int i = 0; i < 100; i++) { /* nor does it end where the encoder comes back */
+        TEST_ASSERT_TRUE(read_at(i < 50 ? 1.5f : 1.0f, NAN, 100.0f)->has_jumped);
+    }
+    TEST_ASSERT_TRUE(joints.joint[BRACE_TIBIA].has_jumped);
+    joints_believe(&joints, BRACE_FEMUR);
+    TEST_ASSERT_FALSE(joint->has_jumped);
+    TEST_ASSERT_TRUE(joints.joint[BRACE_TIBIA].has_jumped); /* each joint has its own */
+    joint = read_at(-0.5f, NAN, 100.0f); /* what it says next is believed, */
+    TEST_ASSERT_EQUAL_FLOAT(-0.5f, joint->sample.motor_rad);
+    TEST_ASSERT_FALSE(joint->has_jumped || joint->has_wild);
+    (void)read_at(0.5f, NAN, 100.0f); /* and counts from there */
+    TEST_ASSERT_TRUE(read_at(0.5f, NAN, 100.0f)->has_jumped);
+}
+
+/* How far a joint may have moved: 50 rad/s and 0.01 rad while samples come, 0.25 rad at most; 0.06 rad once the last
+ * one is older than the age limit, however long that is, also when the clock has gone round. */
+static void test_a_gap_makes_nothing_trusted(void)
+{
+    static const struct {
+        uint32_t gap_ms;
+        float reached_rad, beyond_rad;
+    } row[] = {{0, 0.0599f, 0.0601f},    {1, 0.1099f, 0.1101f},   {3, 0.2099f, 0.2101f},
+               {4, 0.2499f, 0.2501f},    {18, 0.2499f, 0.2501f},  {20, 0.0599f, 0.0601f},
+               {1000, 0.0599f, 0.0601f}, {60000, 0.0599f, 0.0601f}};
+    for (uint32_t i = 0; i < sizeof row / sizeof *row; i++) {
+        for (int side = -1; side <= 1; side += 2) {
+            for (int goes_round = 0; goes_round < 2; goes_round++) {
+                setUp();
+                now_us = goes_round != 0 ? 0u - TICK_US * row[i].gap_ms / 2u : now_us;
+                (void)read_at(1.0f, NAN, 100.0f);
+                wait_ms(row[i].gap_ms);
+                const float reached_rad = 1.0f + (float)side * row[i].reached_rad;
+                TEST_ASSERT_EQUAL_FLOAT(reached_rad, read_at(reached_rad, NAN, 100.0f)->sample.motor_rad);
+                setUp();
+                (void)read_at(1.0f, NAN, 100.0f);
+                wait_ms(row[i].gap_ms);
+                const float beyond_rad = 1.0f + (float)side * row[i].beyond_rad;
+                TEST_ASSERT_EQUAL_FLOAT(1.0f, read_at(beyond_rad, NAN, 100.0f)->sample.motor_rad);
+                TEST_ASSERT_TRUE(read_at(beyond_rad, NAN, 100.0f)->has_jumped);
+            }
+        }
+    }
+}
+
+/* A drive whose time stamps jump ahead gains no reach by it. */
+static void test_time_stamps_give_no_reach(void)
+{
+    (void)read_at(1.0f, NAN, 100.0f);
+    for (uint32_t i = 0; i < 2u; i++) {
+        sample.motor_rad = 1.3f;
+        now_us += TICK_US;
+        sample.taken_us = now_us + 15000u;
+        joints_read(&joints, &hal, &parameters, now_us, &bad);
+        TEST_ASSERT_EQUAL(i == 1u, joints.joint[BRACE_FEMUR].has_jumped);
+    }
+}
+
+/* Each encoder is held against its own last angle: one that was away meanwhile is not believed because the other one
+ * was there. One that has never said anything is. */
+static void test_each_encoder_has_its_own_place(void)
+{
+    parameters.limb.joint[BRACE_FEMUR].gap_rad = parameters.limb.joint[BRACE_TIBIA].gap_rad = 1.0f;
+    (void)read_at(1.0f, NAN, 100.0f);
+    TEST_ASSERT_EQUAL(0, bad);
+    (void)read_at(1.0f, 0.7f, 100.0f);
+    for (int i = 0; i < 30; i++) {
+        (void)read_at(1.0f, NAN, 100.0f);
+    }
+    (void)read_at(1.0f, 0.75f, 100.0f);
+    TEST_ASSERT_EQUAL(0, bad);
+    for (int i = 0; i < 30; i++) {
+        (void)read_at(1.0f, NAN, 100.0f);
+    }
+    TEST_ASSERT_FALSE(read_at(1.0f, 0.9f, 100.0f)->has_jumped);
+    TEST_ASSERT_EQUAL(2, bad);
+    TEST_ASSERT_TRUE(read_at(1.0f, 0.9f, 100.0f)->has_jumped);
+    setUp(); /* the same of the motor, where the link's encoder goes on */
+    (void)read_at(1.0f, 1.0f, 100.0f);
+    for (int i = 0; i < 30; i++) {
+        (void)read_at(NAN, 1.0f, 100.0f);
+    }
+    TEST_ASSERT_TRUE(joints.joint[BRACE_FEMUR].is_link_only && joints.joint[BRACE_FEMUR].sound);
+    (void)read_at(1.1f, 1.0f, 100.0f);
+    TEST_ASSERT_TRUE(read_at(1.1f, 1.0f, 100.0f)->has_jumped);
+}
+
+/* How far the link may be from the motor: half the play, one and a half times what the spring gives way by under
+ * torque, bias, noise and friction, three sigmas of the zero, two steps and 0.005 rad. */
+static void test_encoders_that_contradict_each_other(void)
+{
+    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
+        parameters.limb.joint[i] = (brace_joint_t){1e-5f, 0.02f, 0.1f};
+        parameters.drive[i].torque_bias_n_mm = 100.0f;
+        parameters.drive[i].torque_noise_n_mm = 200.0f;
+        parameters.drive[i].motor_friction_n_mm = 300.0f;
+        parameters.drive[i].angle_step_rad = 0.001f;
+    }
+    parameters.limb.uncertainty.angle_rad = 0.002f;
+    parameters.limb.uncertainty.compliance_rel = 0.1f;
+    parameters.slow.creep_ratio = 0.2f;
+    /* the joint's true angle is 1.1; (1 + 0.5 + 0.3 + 0.2) * 1e-5 * (400 + 600) of spring */
+    const float most_rad = 0.01f + 0.02f + 0.006f + 0.002f + 0.005f;
+    for (int side = -1; side <= 1; side += 2) {
+        for (int beyond = 0; beyond < 2; beyond++) {
+            const float off_rad = (float)side * (most_rad + (beyond != 0 ? 1e-4f : -1e-4f));
+            joints_start(&joints, &hal);
+            for (int i = 1; i <= 60; i++) {
+                const joint_t *joint = read_at(1.0f, 1.1f + off_rad, (float)side * 400.0f);
+                TEST_ASSERT_EQUAL(beyond, joint->contradicts);
+                TEST_ASSERT_EQUAL(beyond != 0 && i >= 50, joint->has_jumped); /* 50 ms */
+            }
+        }
+    }
+    joints_start(&joints, &hal); /* shorter than that is a load that the motor has not taken up yet */
+    for (int i = 0; i < 200; i++) {
+        const float off_rad = most_rad + (i % 50 == 0 ? -1e-4f : 1e-4f);
+        TEST_ASSERT_FALSE(read_at(1.0f, 1.1f + off_rad, 400.0f)->has_jumped);
+    }
+    joints_start(&joints, &hal); /* without one of them, or with one that is old, there is nothing to compare */
+    (void)read_at(1.0f, 1.5f, 400.0f);
+    for (int i = 0; i < 200; i++) {
+        const joint_t *joint = read_at(1.0f, NAN, 400.0f);
+        TEST_ASSERT_EQUAL(i < 20, joint->contradicts);
+        TEST_ASSERT_FALSE(joint->has_jumped);
+    }
 }
 
 /* The controller checks a link's angle as it checks the motor's. An absurd or missing angle counts as not measured. */
@@ -209,7 +356,7 @@ static void test_absurd_samples_are_counted_and_grow_old(void)
     TEST_ASSERT_FALSE(joints_plane_is_sound(&joints));
     joints.joint[BRACE_TIBIA].sound = false, joints.joint[BRACE_FEMUR].sound = true;
     TEST_ASSERT_FALSE(joints_plane_is_sound(&joints));
-    TEST_ASSERT_TRUE(read_at(1.5f, NAN, 0.0f)->sound); /* what comes then is believed */
+    TEST_ASSERT_TRUE(read_at(1.05f, NAN, 0.0f)->sound); /* what comes then is believed, near where the joint was */
 }
 
 static void test_a_drive_that_refuses_or_has_nothing_newer(void)
@@ -254,6 +401,11 @@ int main(void)
     RUN_TEST(test_temperatures_of_joints);
     RUN_TEST(test_a_sound_sample_between_two_wild_ones_parts_them);
     RUN_TEST(test_an_angle_that_no_joint_could_have_reached_is_refused_once);
+    RUN_TEST(test_a_jump_stands_until_somebody_has_looked);
+    RUN_TEST(test_a_gap_makes_nothing_trusted);
+    RUN_TEST(test_time_stamps_give_no_reach);
+    RUN_TEST(test_each_encoder_has_its_own_place);
+    RUN_TEST(test_encoders_that_contradict_each_other);
     RUN_TEST(test_link_angles_are_watched_too);
     RUN_TEST(test_what_is_sound_is_no_absurd_link_angle);
     RUN_TEST(test_three_joints_have_three_numbers);

@@ -75,7 +75,7 @@ static void work_on_question(void)
     controller_t *controller = &app.controller;
     const question_inputs_t inputs = {.model = &controller->model,
                                       .parameters = &controller->parameters.in_force,
-                                      .origin = controller->parameters.origin,
+                                      .is_calibrated = parameter_job_is_calibrated(&controller->parameters),
                                       .joints = &controller->joints,
                                       .down = controller->gravity.down};
     TEST_ASSERT_TRUE(question_job_work(&controller->question, &inputs, 2));

@@ -13,12 +13,24 @@ static void judge(parameter_job_t *job)
     brace_store_status(&job->store, &status);
     job->origin = status.in_force;
     job->faults = (status.in_force == BRACE_PARAMETERS_DEFAULT ? (uint32_t)BRACE_FAULT_PARAMETERS : 0u) |
-                  (status.memory_fault ? (uint32_t)BRACE_FAULT_STORE : 0u);
+                  (status.memory_fault ? (uint32_t)BRACE_FAULT_STORE : 0u) |
+                  (status.is_old && !job->is_accepted ? (uint32_t)BRACE_FAULT_OLD_PARAMETERS : 0u);
+}
+
+bool parameter_job_is_calibrated(const parameter_job_t *job)
+{
+    return job->origin != BRACE_PARAMETERS_DEFAULT && (job->faults & (uint32_t)BRACE_FAULT_OLD_PARAMETERS) == 0u;
+}
+
+void parameter_job_accept(parameter_job_t *job)
+{
+    job->is_accepted = true;
+    judge(job);
 }
 
 void parameter_job_start(parameter_job_t *job, const brace_hal_t *hal)
 {
-    job->storing = job->comes_in_force = job->has_staged = false;
+    job->storing = job->comes_in_force = job->has_staged = job->is_accepted = false;
     job->idle_us = 0;
     job->apart_us = APART_US;
     (void)brace_store_start(&job->store, hal, &job->in_force);

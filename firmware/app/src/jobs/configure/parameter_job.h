@@ -24,7 +24,9 @@ typedef struct {
     uint32_t apart_us;               /* since the last erase, up to 10 s */
     uint32_t commits_refused;        /* too soon, or another set than was named */
     uint32_t idle_us;                /* since somebody last asked for anything of CONFIGURATION */
-    uint32_t faults;                 /* BRACE_FAULT_PARAMETERS, BRACE_FAULT_STORE: they last until a set is stored */
+    uint32_t faults;                 /* BRACE_FAULT_PARAMETERS, BRACE_FAULT_STORE: they last until a set is stored;
+                                        BRACE_FAULT_OLD_PARAMETERS: until then, or until somebody accepts the set */
+    bool is_accepted;                /* somebody has cleared that fault since the start */
 } parameter_job_t;
 
 /* Takes the parameters in force from the store. Before the first tick. */
@@ -39,6 +41,13 @@ void parameter_job_reload(parameter_job_t *job);
 
 /* Was the set in force just written, so that its slot holds nothing else? False after a roll-back and a reload. */
 bool parameter_job_is_fresh(const parameter_job_t *job);
+
+/* Is the set in force the one that was stored last, as far as anybody knows? Not the defaults, and not one that is in
+ * force only because the set after it has rotted. */
+bool parameter_job_is_calibrated(const parameter_job_t *job);
+
+/* Somebody has looked at the set in force and takes it until the next start, though another one was stored after it. */
+void parameter_job_accept(parameter_job_t *job);
 
 /* Is a set being stored or put in force? */
 static inline bool parameter_job_is_busy(const parameter_job_t *job)

@@ -85,7 +85,7 @@ static uint32_t flags_there(const question_inputs_t *inputs, const float unbent_
     const bool inside = posture_is_inside_travel(&drive[BRACE_FEMUR], unbent_rad[BRACE_FEMUR]) &&
                         posture_is_inside_travel(&drive[BRACE_TIBIA], unbent_rad[BRACE_TIBIA]);
     return (inside ? 0u : (uint32_t)BRACE_FLAG_OUT_OF_RANGE) |
-           (inputs->origin == BRACE_PARAMETERS_DEFAULT ? (uint32_t)BRACE_FLAG_UNCALIBRATED : 0u);
+           (inputs->is_calibrated ? 0u : (uint32_t)BRACE_FLAG_UNCALIBRATED);
 }
 
 /* The first step. What the posture says goes into the answer's flags. */

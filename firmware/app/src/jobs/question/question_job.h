@@ -40,7 +40,7 @@ typedef struct {
 typedef struct {
     model_t *model;
     const brace_parameters_t *parameters;
-    brace_parameter_origin_t origin;
+    bool is_calibrated; /* the parameters are of this limb as it was measured last */
     const joints_t *joints;    /* for their temperatures */
     brace_vec3_t down;
 } question_inputs_t;
