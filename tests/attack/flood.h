@@ -75,7 +75,9 @@ static inline void make_noise(flood_t flood, uint8_t data[8])
 static inline void frame_arrives(uint32_t id, const uint8_t *data, uint8_t length)
 {
     brace_can_frame_t frame = {.id = id, .length = length};
-    memcpy(frame.data, data, length);
+    if (length > 0u) {
+        memcpy(frame.data, data, length);
+    }
     (void)brace_fake_frame_arrives(&fake, &frame);
 }
 

@@ -358,7 +358,18 @@ static void test_masters_of_a_bus_take_turns(void)
 
 /* While CAN is full of commands, whoever asks for K as text still gets it: of questions that are worked out in steps no
  * flood of commands takes every tick. */
-static void k_is_answered(bool in_space, uint32_t each_ticks)
+/* Signs of life without a key, as often as every connection takes them. */
+static void strangers_live_over_tcp(void)
+{
+    const uint32_t place = COMMAND_REGISTER(life_counter);
+    const uint8_t life[14] = {16, (uint8_t)(place >> 8), (uint8_t)place, 0, 4, 8};
+    for (uint32_t connection = 0; connection < CONNECTIONS; connection++) {
+        (void)adu_arrives(connection, life, sizeof life);
+        fake.connection[connection].sent.count = 0;
+    }
+}
+
+static void k_is_answered(bool in_space, bool by_tcp, uint32_t each_ticks)
 {
     enum { ASKED = 10 };
     uint32_t answered = 0;
@@ -367,6 +378,9 @@ static void k_is_answered(bool in_space, uint32_t each_ticks)
     has_coxa = in_space;
     start_limb(true, the_key);
     open_session();
+    if (by_tcp) {
+        brace_fake_with_connections(&fake);
+    }
     (void)brace_fake_bytes_arrive(&fake, BRACE_SERIAL_SLCAN, (const uint8_t *)"O\r", 2);
     (void)snprintf(part, sizeof part, "t5858%02X31", (unsigned)BRACE_K_AT_POSTURE_ANSWER_0);
     memset(&line, 0, sizeof line);
@@ -376,7 +390,10 @@ static void k_is_answered(bool in_space, uint32_t each_ticks)
             text_of(0x600u + NODE, data, 8);
         }
         line_carries(BRACE_SERIAL_SLCAN);
-        flooded_tick(FORGED_SEALS, REQUESTS_PER_MS);
+        if (by_tcp) {
+            strangers_live_over_tcp();
+        }
+        flooded_tick(FORGED_SEALS, by_tcp ? 0u : REQUESTS_PER_MS);
         sink[brace_fake_bytes_take(&fake, BRACE_SERIAL_SLCAN, sink, sizeof sink - 1u)] = '\0';
         answered += strstr((const char *)sink, part) != NULL;
     }
@@ -391,8 +408,10 @@ static void k_is_answered(bool in_space, uint32_t each_ticks)
 /* One tick in five has room, and K in the plane takes two steps, which others may take in turn. */
 static void test_commands_leave_room_for_questions(void)
 {
-    k_is_answered(false, 60);
-    k_is_answered(true, 400);
+    for (int by_tcp = 0; by_tcp < 2; by_tcp++) {
+        k_is_answered(false, by_tcp != 0, 60);
+        k_is_answered(true, by_tcp != 0, 400);
+    }
 }
 
 /* Fourteen connections ask without end, the fifteenth now and then: it waits for fourteen turns at most. */

@@ -125,12 +125,12 @@ static int32_t door_can_receive(void *context, brace_can_frame_t *frame)
     }
     static uint32_t noise = 1;
     frames_waiting--;
-    frame->id = manner.flooded ? request_id : 0x600u + (frames_waiting & 0x7fu);
+    frame->id = request_id; /* the controller's filter lets in no others */
     for (int i = 0; i < 8; i++) {
         noise = 1664525u * noise + 1013904223u;
         frame->data[i] = (uint8_t)(noise >> 24);
     }
-    frame->data[0] = manner.flooded ? (uint8_t)(frame->data[0] % REQUEST_CODES) : (uint8_t)frames_waiting;
+    frame->data[0] = (uint8_t)(frame->data[0] % REQUEST_CODES);
     return 1;
 }
 
@@ -454,7 +454,7 @@ void world_step(dice_t *dice)
     command_answer = manner.drives_fail && dice_in(dice, 20) ? BRACE_HAL_E_DEVICE : BRACE_HAL_OK;
     send_answer = dice_in(dice, 10) ? BRACE_HAL_AGAIN : BRACE_HAL_OK;
     frames_waiting = manner.flooded       ? (dice_in(dice, 2000) ? RING_FRAMES : REQUESTS_PER_MS)
-                     : dice_in(dice, 4) ? dice_below(dice, 20)
+                     : dice_in(dice, 4) ? dice_below(dice, 4)
                                         : 0u;
     fresh_bus_off = fresh_bus_off || dice_in(dice, 20000);
     bus_off = fresh_bus_off;

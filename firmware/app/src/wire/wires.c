@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#define OBEYED_MOST 3u /* a tick that has obeyed more leaves questions to the next one; not every tick is so full (can.c) */
+#define OBEYED_MOST 1u /* a tick that has obeyed more leaves questions to the next one, but each fifth one does not */
 
 void wires_start(wires_t *wires, const brace_hal_t *hal, const brace_parameters_t *parameters)
 {
@@ -30,8 +30,10 @@ uint32_t wires_tick(wires_t *wires, const brace_hal_t *hal, brace_app_t *app, br
     const wire_tick_t tick = {
         .hal = hal, .app = app, .counters = counters, .measured = &wires->measured, .now_us = now_us};
     measured_take(app, counters, now_us, &wires->measured);
-    const bool has_room = wires->obeyed <= OBEYED_MOST;
-    const uint32_t handled = wires->obeyed + modbus_answer(&wires->modbus, &tick, has_room) +
+    const bool is_too_full = wires->obeyed > OBEYED_MOST && can_leaves_room(&wires->can);
+    const uint32_t obeyed = is_too_full ? OBEYED_MOST : wires->obeyed;
+    const bool has_room = obeyed <= OBEYED_MOST;
+    const uint32_t handled = obeyed + modbus_answer(&wires->modbus, &tick, has_room) +
                              can_answer(&wires->can, &tick, has_room);
     return handled + can_speak(&wires->can, &tick, handled > 0u ? 0u : (uint32_t)PROCESS_FRAMES_PER_TICK);
 }

@@ -323,7 +323,7 @@ uint32_t can_obey(can_t *can, const wire_tick_t *tick)
 {
     const uint32_t each_tick = SESSION_PER_MS * brace_app_parameters(tick->app)->controller.tick_us / 1000u;
     can->ticks_to_room = (uint8_t)((can->ticks_to_room + 1u) % ROOM_TICKS);
-    const uint32_t most = can->ticks_to_room == 0u ? 1u : each_tick;
+    const uint32_t most = can_leaves_room(can) ? 1u : each_tick;
     return obey_session(can, ON_BUS, tick, most) + obey_session(can, AS_TEXT, tick, most);
 }
 

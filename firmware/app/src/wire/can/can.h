@@ -66,6 +66,12 @@ void can_stop(can_t *can);
  * returns how much both have done (wire/wire.h) */
 uint32_t can_obey(can_t *can, const wire_tick_t *tick);
 
+/* Is this the tick in five in which questions and jobs go on, whatever floods the ports? */
+static inline bool can_leaves_room(const can_t *can)
+{
+    return can->ticks_to_room == 0u;
+}
+
 /* At the end of the tick: answers a question of each port.
  *   has_room: questions may be answered; else they wait
  * returns how much both have done (wire/wire.h) */
