@@ -175,6 +175,8 @@ def test_cat_on_a_terminal_as_linux_opens_it(name: str, tmp_path: Path) -> None:
             return back
 
         line.send(echo(line.said))  # the banner
+        line.until(b"this terminal echoes")
+        line.send(echo(line.said[line.said.index(b"# this") :]))
         play(line, ECHO_S / 2, echo, nobody)
         assert line.said.count(b"this terminal echoes") == 1
         left = [f"{word}\r".encode() for word in WORDS]
@@ -192,6 +194,8 @@ def test_every_byte_comes_back(name: str, tmp_path: Path) -> None:
     with running(name, tmp_path) as line:
         before = line.memory()
         line.send(line.said + b"k\r")
+        line.until(b"this terminal echoes")
+        line.send(line.said[line.said.index(b"# this") :])
         play(line, ECHO_S, bytes, nobody)
         assert line.said.count(b"this terminal echoes") == 1
         check(line, before)

@@ -328,6 +328,8 @@ static void test_a_guarded_board_becomes_a_bench_when_confirmed(void)
     TEST_ASSERT_EQUAL(BRACE_SETTING_GUARDED, brace_app_setting(&app));
     person_confirms();
     TEST_ASSERT_EQUAL(BRACE_SETTING_BENCH, brace_app_setting(&app));
+    board_starts();
+    TEST_ASSERT_EQUAL(BRACE_SETTING_GUARDED, brace_app_setting(&app));
 }
 
 static int32_t found_key;
