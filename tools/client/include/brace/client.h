@@ -150,7 +150,9 @@ enum {
     BRACE_CLIENT_FLAG_STALE = 16,
     BRACE_CLIENT_FLAG_OUT_OF_RANGE = 32,
     BRACE_CLIENT_FLAG_LOAD_UNKNOWN = 64, /* K counts no load */
-    BRACE_CLIENT_FLAG_SOFTENED = 128     /* the load has made the limb much softer */
+    BRACE_CLIENT_FLAG_SOFTENED = 128,    /* the load has made the limb much softer */
+    BRACE_CLIENT_FLAG_MOVED_FAR = 256,   /* the load moves the tip further than the accuracy is promised for */
+    BRACE_CLIENT_FLAG_PLAY_ASSUMED = 512 /* a joint counts as engaged because the load says so; nothing has proven it */
 };
 
 typedef struct {
