@@ -26,7 +26,7 @@ enum {
     FLOOD_CAN = 1, FLOOD_SLCAN = 2, FLOOD_LINE = 4, FLOOD_TCP = 8, FLOOD_PORTS = 4,
     K_MOST_TICKS = 4 * 2 + 3,    /* four ports, two steps each, */
     SPACE_MOST_TICKS = 4 * 9 + 15, /* and nine of a limb in space; K's uncertainty has each fourth tick of all */
-    JOBS_TICKS = 1 + 1,      /* other jobs have a step after eight, and a tick that tells much has none, */
+    JOBS_TICKS = 1 + 1 + 1,  /* other jobs have a step after eight, a tick that tells much has none, nor the watch's, */
     SPACE_JOBS_TICKS = 4 + 4, /* and a step towards the buckling factor is due in each ninth tick */
     SIGMA_TICKS = 4 * 80, /* a round of K's uncertainty: 2 to 3 steps a K, 23 K, each fourth tick has a step, */
     SPACE_SIGMA_TICKS = 4 * 300, /* and nine steps, 32 K */
