@@ -48,16 +48,32 @@ const brace_parameters_t *brace_app_parameters(const brace_app_t *app)
     return &parameters;
 }
 
+brace_status_t brace_app_stop(brace_app_t *app)
+{
+    (void)app;
+    return any_bool() ? BRACE_OK : BRACE_E_MODE;
+}
+
+answer_rank_t modbus_pdu_rank(const uint8_t *pdu, uint32_t length)
+{
+    PROVE(__CPROVER_r_ok(pdu, length), "a request that is there");
+    const uint32_t rank = any_u32();
+    ASSUME(rank <= (uint32_t)ANSWER_QUESTION);
+    return (answer_rank_t)rank;
+}
+
 static bool sound(const modbus_line_t *line)
 {
     const modbus_link_t *link = &line->link;
     const bool is_request = link->count > 0u && !link->is_sending;
-    return link->count <= 256u && link->ready <= link->count && link->sent <= link->ready &&
+    return link->count <= (link->is_skipping ? (uint32_t)MODBUS_LINK_BYTES : 256u) && link->ready <= link->count && link->sent <= link->ready &&
            ((link->ready == 0u && link->sent == 0u) || link->is_sending) &&
-           (!link->is_waiting || (!link->is_sending && !link->is_skipping && link->count >= 4u)) &&
+           (!line->has_question || (!link->is_sending && !link->is_skipping && link->count >= 4u)) &&
+           line->ahead_count <= MODBUS_AHEAD_BYTES && line->asked_count <= MODBUS_LINE_QUESTION_BYTES &&
+           line->sound <= link->count && line->looked <= MODBUS_LINK_BYTES &&
            (!link->is_sending || link->ready == link->count ||
             (link->ready == line->checked && line->checked + 2u <= link->count)) &&
-           !(link->is_sending && link->is_skipping) && (!link->is_skipping || link->count == 0u) &&
+           !(link->is_sending && link->is_skipping) &&
            (!link->is_sending || link->count >= 5u) && line->checked <= MODBUS_LINK_BYTES &&
            (!is_request || line->checked <= link->count);
 }
@@ -76,7 +92,10 @@ int main(void)
     parameters.controller.tick_us = any_u32();
     ASSUME(sound(&line));
     const bool was_sending = link->is_sending;
-    modbus_line_tick(&line, &server, &tick);
+    uint32_t done = 0;
+    (void)modbus_line_hear(&line, &server, &tick, &done);
+    PROVE(sound(&line), "the beginning of a tick ends in a sound state");
+    (void)modbus_line_answer(&line, &server, &tick, any_bool());
     PROVE(sound(&line), "a tick from a sound state ends in one");
     PROVE(!was_sending || link->is_sending || link->count == 0u, "after an answer the line listens anew");
     return 0;

@@ -40,33 +40,54 @@ static uint32_t told(const modbus_link_t *link)
     return LENGTH_FROM + ((uint32_t)link->bytes[4] << 8 | link->bytes[5]);
 }
 
-static bool sound(const modbus_link_t *link)
+brace_status_t brace_app_stop(brace_app_t *app)
 {
+    (void)app;
+    return any_bool() ? BRACE_OK : BRACE_E_MODE;
+}
+
+answer_rank_t modbus_pdu_rank(const uint8_t *pdu, uint32_t length)
+{
+    PROVE(__CPROVER_r_ok(pdu, length), "a request that is there");
+    const uint32_t rank = any_u32();
+    ASSUME(rank <= (uint32_t)ANSWER_QUESTION);
+    return (answer_rank_t)rank;
+}
+
+static bool sound(const modbus_tcp_t *tcp)
+{
+    const modbus_link_t *link = &tcp->link;
     const bool has_head = link->count >= HEADER_BYTES + 1u; /* so much of it has been judged */
-    const bool is_request = !link->is_sending && !link->is_skipping;
-    const bool is_whole = link->is_waiting ? link->count == told(link) : link->count < told(link);
-    return link->count <= HEADER_BYTES + MODBUS_PDU_BYTES && link->ready <= link->count && link->sent <= link->ready &&
-           (link->is_sending ? link->ready == link->count : link->ready == 0u && link->sent == 0u) &&
-           !(link->is_sending && link->is_skipping) && (!link->is_waiting || (is_request && has_head)) &&
-           (!(is_request && has_head) || (is_whole && told(link) <= HEADER_BYTES + MODBUS_PDU_BYTES)) &&
-           (!link->is_sending || has_head);
+    bool are_sound = tcp->turn < MODBUS_CONNECTIONS && tcp->waiting < MODBUS_CONNECTIONS;
+    for (uint32_t i = 0; i < MODBUS_CONNECTIONS; i++) {
+        const modbus_connection_t *connection = &tcp->connection[i];
+        are_sound = are_sound && connection->first < MODBUS_QUESTIONS_EACH && connection->count <= MODBUS_QUESTIONS_EACH;
+        for (uint32_t k = 0; k < MODBUS_QUESTIONS_EACH; k++) {
+            const uint8_t length = connection->question[k].length;
+            are_sound = are_sound && length >= HEADER_BYTES + 1u && length <= MODBUS_QUESTION_BYTES;
+        }
+    }
+    return are_sound && !link->is_sending && link->count <= HEADER_BYTES + MODBUS_PDU_BYTES &&
+           (!has_head || link->is_skipping ||
+            (link->count < told(link) && told(link) <= HEADER_BYTES + MODBUS_PDU_BYTES)) &&
+           (!tcp->waits || tcp->connection[tcp->waiting].count > 0u);
 }
 
 int main(void)
 {
-    modbus_link_t tcp; /* of any content, as all of these */
+    modbus_tcp_t tcp; /* of any content, as all of these */
     modbus_server_t server;
     wire_tick_t tick;
     brace_app_counters_t counters;
+    uint32_t done = 0;
     tick.hal = &any_hal;
     tick.counters = &counters;
-    in_from = out_from = tcp.bytes;
-    in_end = out_end = tcp.bytes + sizeof tcp.bytes;
+    in_from = out_from = tcp.link.bytes;
+    in_end = out_end = tcp.link.bytes + sizeof tcp.link.bytes;
     ASSUME(sound(&tcp));
-    const bool was_sending = tcp.is_sending;
-    modbus_tcp_tick(&tcp, &server, &tick);
+    (void)modbus_tcp_hear(&tcp, &server, &tick, &done);
+    PROVE(sound(&tcp), "the beginning of a tick ends in a sound state");
+    (void)modbus_tcp_answer(&tcp, &server, &tick);
     PROVE(sound(&tcp), "a tick from a sound state ends in one");
-    PROVE(was_sending || !tcp.is_sending || tcp.count == told(&tcp), "an answer is as long as it says");
-    PROVE(!was_sending || tcp.is_sending || tcp.count == 0u, "after an answer the connection listens anew");
     return 0;
 }

@@ -377,12 +377,17 @@ int main(void)
     uint8_t data[8], as_sent[8];
     wire_tick_t tick;
     tick.measured = &measured;
-    const transfer_t *transfer = &port.transfer;
+    const upload_t *upload = &port.upload;
+    const download_t *download = &port.download[data[1] >> 4];
     const can_answers_t *answers = &port.answers;
     const uint32_t at = any_u32();
-    ASSUME(*(const uint8_t *)&transfer->upload_is_open <= 1u);
+    ASSUME(*(const uint8_t *)&upload->is_open <= 1u);
+    for (uint32_t i = 0; i < CAN_SEALS; i++) {
+        ASSUME(*(const uint8_t *)&port.seal[i].is_there <= 1u);
+    }
+    ASSUME(port.oldest_seal < CAN_SEALS);
     ASSUME(answers->first < CAN_ANSWERS_ROOM && answers->count + BRACE_CAN_ANSWER_PARTS_MOST <= CAN_ANSWERS_ROOM);
-    ASSUME(transfer->upload_next <= BRACE_BLOCK_BYTES / 4 && transfer->download_next <= BRACE_BLOCK_BYTES / 4);
+    ASSUME(upload->next <= BRACE_BLOCK_BYTES / 4 && download->next <= BRACE_BLOCK_BYTES / 4);
     open_for_writing = any_bool();
     ASSUME(port.storing == 0u || !open_for_writing); /* while a set is being stored, parameters cannot be written */
     ASSUME(at < BRACE_BLOCK_BYTES);
@@ -393,7 +398,8 @@ int main(void)
     const uint32_t count = answers->count;
     memcpy(as_sent, data, 8);
     const uint8_t storing_before = port.storing, token_before = port.storing_token;
-    const transfer_t kept = port.transfer, *before = &kept;
+    const upload_t kept = port.upload, *before = &kept;
+    const download_t kept_download = *download, *before_download = &kept_download;
 
     const bool is_known = can_requests_answer(&port, &tick, asker, any_u8(), data);
 
@@ -408,20 +414,19 @@ int main(void)
     PROVE(storing_before == 0u ||
               (port.storing == storing_before && port.storing_token == token_before),
           "nobody else is given the answer to what is being stored");
-    PROVE(transfer->upload_next <= BRACE_BLOCK_BYTES / 4 && transfer->download_next <= BRACE_BLOCK_BYTES / 4,
+    PROVE(upload->next <= BRACE_BLOCK_BYTES / 4 && download->next <= BRACE_BLOCK_BYTES / 4,
           "words within the block");
     const bool uploads =
         code == BRACE_REQUEST_UPLOAD_BEGIN || code == BRACE_REQUEST_UPLOAD_WORD || code == BRACE_REQUEST_COMMIT;
-    PROVE(uploads || (transfer->upload_is_open == before->upload_is_open &&
-                      transfer->upload_next == before->upload_next &&
-                      transfer->upload_sum == before->upload_sum && transfer->upload_crc == before->upload_crc),
+    PROVE(uploads || (upload->is_open == before->is_open &&
+                      upload->next == before->next &&
+                      upload->sum == before->sum && upload->crc == before->crc),
           "an upload is left alone");
-    PROVE(code == BRACE_REQUEST_UPLOAD_WORD || transfer->upload[at] == before->upload[at], "and so are its words");
+    PROVE(code == BRACE_REQUEST_UPLOAD_WORD || upload->block[at] == before->block[at], "and so are its words");
     PROVE(code == BRACE_REQUEST_DOWNLOAD_WORD ||
-              (transfer->download_next == before->download_next && transfer->download_sum == before->download_sum &&
-               transfer->download_set == before->download_set),
+              (download->next == before_download->next && download->sum == before_download->sum &&
+               download->set == before_download->set),
           "a download is left alone");
-    PROVE(!port.waits || same(port.waiting, data, 8), "what waits is the request");
     answers_are_of(answers, data, count, stores || port.waits); /* the last, since it assumes that there is a part */
     return 0;
 }
