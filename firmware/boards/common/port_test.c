@@ -19,6 +19,9 @@ const char *port_test_obstacle(const brace_app_t *app, port_test_t kind)
     if (brace_app_mode(app) == BRACE_MODE_CONFIGURATION || brace_app_is_storing(app)) {
         return "parameters are being written; wait until CONFIGURATION has ended";
     }
+    if (kind == PORT_TEST_SLOT && (brace_app_faults(app) & (uint32_t)BRACE_FAULT_OLD_PARAMETERS) != 0u) {
+        return "OLD_PARAMETERS stands: that slot holds the set that was lost, and shows that it was; store a set first";
+    }
     if (kind == PORT_TEST_DRIVES && brace_app_setting(app) != BRACE_SETTING_BENCH) {
         return "drives are tested on a bench only, with the limb free (word: bench)";
     }

@@ -298,6 +298,27 @@ static void test_the_slot_test_leaves_the_set_in_force(void)
     TEST_ASSERT_EQUAL_HEX32(crc, now()->parameter_crc);
 }
 
+/* Else the next start would find the older set alone, and believe it without a flag. */
+static void test_the_slot_of_a_set_that_was_lost_is_not_erased(void)
+{
+    brace_parameters_t newer = in_store;
+    newer.controller.age_limit_us += 1000u;
+    bench_store(&newer);
+    board_starts();
+    passes_ms(100u, 1u);
+    const uint32_t slot = now()->parameter_origin == BRACE_PARAMETERS_SLOT_B ? 1u : 0u;
+    fake.nvm[slot][100] ^= 4u;
+    board_starts();
+    passes_ms(100u, 1u);
+    TEST_ASSERT_BITS(BRACE_FAULT_OLD_PARAMETERS, BRACE_FAULT_OLD_PARAMETERS, now()->faults);
+    const uint32_t erases = fake.calls[BRACE_FAKE_NVM_ERASE];
+    forget_said();
+    person_types("test slot\r");
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(said, "# not now: OLD_PARAMETERS stands"), said);
+    TEST_ASSERT_NULL_MESSAGE(strstr(said, "sure?"), said);
+    TEST_ASSERT_EQUAL_UINT32(erases, fake.calls[BRACE_FAKE_NVM_ERASE]);
+}
+
 static void test_drives_are_asked_on_a_bench_alone(void)
 {
     clock_runs();
@@ -438,6 +459,7 @@ int main(void)
     RUN_TEST(test_a_restart_says_that_a_joint_is_held);
     RUN_TEST(test_no_self_test_begins_in_configuration);
     RUN_TEST(test_the_slot_test_leaves_the_set_in_force);
+    RUN_TEST(test_the_slot_of_a_set_that_was_lost_is_not_erased);
     RUN_TEST(test_drives_are_asked_on_a_bench_alone);
     RUN_TEST(test_a_guarded_board_becomes_a_bench_when_confirmed);
     RUN_TEST(test_a_damaged_key_is_none);
