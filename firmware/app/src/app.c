@@ -463,7 +463,7 @@ static bool work(controller_t *controller, const brace_snapshot_t *now, uint32_t
     if (controller->parameters.comes_in_force) { /* then the model may be that of the set before */
         return false;
     }
-    if (controller->ticks_unwatched >= UNWATCHED_MOST) {
+    if (controller->model.is_spatial && controller->ticks_unwatched >= UNWATCHED_MOST) {
         return false;
     }
     if (sigma_job_is_overdue(&controller->sigma) && work_on_sigma(controller)) {
@@ -491,7 +491,7 @@ static bool work(controller_t *controller, const brace_snapshot_t *now, uint32_t
 
 /* Watches sensors and memory. A tick in which a job has worked skips the sensors and looks over less memory. That
  * delays little, because the proof of a stuck sensor takes a quarter of a second anyway. Where masters ask in every
- * tick, a job has work in every tick; after UNWATCHED_MOST of them none works. */
+ * tick of a limb in space, a job has work in every tick; after UNWATCHED_MOST of them none works. */
 static void step_watches(controller_t *controller, bool has_worked)
 {
     controller->ticks_unwatched += has_worked;
