@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "brace/words.h"
 #include "can_bench.h"
 #include "modbus_master.h"
 #include "session/siphash.h"
@@ -29,6 +30,8 @@ static uint64_t challenge;
 static uint32_t counter;
 static bool has_coxa;           /* of the limb that start_limb starts */
 static bool operator_lives;     /* the operator's signs of life go out every 40 ms */
+static bool operator_begins;    /* its motion waits for a sign of life with the number that its answer brought */
+static uint32_t begin_heard;
 static uint8_t recorded[600][8]; /* every frame that the operator has sent over CAN */
 static uint32_t recorded_count;
 
@@ -70,7 +73,7 @@ static inline void start_limb(bool is_guarded, const uint8_t *key)
         fake.joint[i].command = (brace_hal_joint_command_t){0.0f, __builtin_inff()};
     }
     TEST_ASSERT_EQUAL(BRACE_OK, brace_app_start(&app, &fake.hal));
-    operator_lives = false;
+    operator_lives = operator_begins = false;
     recorded_count = 0;
     ticks(50);
     drain();
@@ -111,20 +114,36 @@ static inline bool is_guarded(void)
     return brace_app_setting(&app) != BRACE_SETTING_BENCH;
 }
 
+/* A sign of life with a number of the controller.
+ *   key: null on a bench */
+static inline void make_sign(const uint8_t *key, uint32_t number, uint32_t token, uint8_t data[8])
+{
+    const uint32_t check = key == NULL ? number : check_of(key, number, 1, NULL, 0);
+    brace_can_pack_sign_of_life_request(&(brace_can_sign_of_life_request_t){token, number & 0xffffu, check}, data);
+}
+
+/* What everybody hears in answers: the number of now. */
+static inline uint32_t number_now(void)
+{
+    brace_session_report_t told;
+    brace_app_session(&app, &told);
+    return told.number;
+}
+
 static inline void sign_of_life(void)
 {
     uint8_t data[8];
-    const uint32_t number = is_guarded() ? ++counter : OPERATOR_TOKEN;
-    make_write(COMMAND_ENTRY(life_mac), check_of(the_key, number, 1, NULL, 0), number & 0xffu, data);
+    make_sign(is_guarded() ? the_key : NULL, operator_begins ? begin_heard : number_now(), OPERATOR_TOKEN, data);
+    operator_begins = false;
     operator_says(data);
 }
 
-/* Ticks in which the operator, if it lives, gives its signs of life. */
+/* Ticks in which the operator, if it lives, gives its signs of life, and at once where a motion waits. */
 static inline void pass(int count)
 {
     static int since;
     for (int i = 0; i < count; i++) {
-        if (operator_lives && ++since >= 40) {
+        if (operator_lives && (++since >= 40 || operator_begins)) {
             since = 0;
             sign_of_life();
         }
@@ -137,12 +156,10 @@ static inline void pass(int count)
 
 static inline void open_session(void)
 {
-    uint8_t data[8];
     challenge = read_entry(ENTRY(challenge_low));
     challenge |= (uint64_t)read_entry(ENTRY(challenge_high)) << 32;
     counter = 0;
-    make_write(COMMAND_ENTRY(life_mac), check_of(the_key, 0, 1, NULL, 0), 0, data);
-    operator_says(data);
+    sign_of_life();
     ticks(2);
     drain();
     TEST_ASSERT_EQUAL(BRACE_OWNER_CAN, read_entry(ENTRY(owner)));
@@ -154,6 +171,14 @@ static inline void seal(uint8_t data[8], uint8_t sealing[8])
 {
     data[1] = (uint8_t)(is_guarded() ? ++counter : OPERATOR_TOKEN);
     make_write(COMMAND_ENTRY(seal_mac), check_of(the_key, counter, 2, data, 8), data[1], sealing);
+}
+
+static inline bool moves(const uint8_t data[8])
+{
+    const uint32_t entry = (uint32_t)data[2] | (uint32_t)data[3] << 8;
+    return data[0] == BRACE_REQUEST_TAKE_UP || data[0] == BRACE_REQUEST_LET_GO ||
+           data[0] == BRACE_REQUEST_LOADING_TEST_START ||
+           (data[0] == BRACE_REQUEST_WRITE_ENTRY && entry == COMMAND_ENTRY(end_test));
 }
 
 /* The operator's command and its answer. */
@@ -179,6 +204,8 @@ static inline answer_t command(uint8_t data[8])
             }
         }
     }
+    operator_begins = answer.count > 0 && answer.part[0][0] != BRACE_ANSWER_REFUSED && moves(data);
+    begin_heard = answer.count > 0 ? brace_get_u32(&answer.part[0][4]) : 0u;
     return answer;
 }
 
@@ -215,8 +242,6 @@ static inline void begin_to_move(void)
 {
     uint8_t data[8];
     operator_lives = true;
-    sign_of_life();
-    ticks(1);
     make_take_up(BRACE_FEMUR, data);
     accepted_command(data);
     pass(30);

@@ -57,8 +57,8 @@ static inline void make_noise(flood_t flood, uint8_t data[8])
         case ANY_QUESTIONS: data[0] = questions[below(sizeof questions)]; break;
         case FORGED_SEALS:
             if (below(2) == 0u) {
-                const uint32_t entry = below(2) == 0u ? COMMAND_ENTRY(seal_mac) : COMMAND_ENTRY(life_mac);
-                make_write(entry, below(UINT32_MAX), (counter + below(4)) & 0xffu, data);
+                make_write(COMMAND_ENTRY(seal_mac), below(UINT32_MAX), (counter + below(4)) & 0xffu, data);
+                data[0] = (uint8_t)(below(2) == 0u ? BRACE_REQUEST_WRITE_ENTRY : BRACE_REQUEST_SIGN_OF_LIFE);
                 break;
             }
             data[0] = (uint8_t)(below(2) == 0u ? BRACE_REQUEST_LET_GO : BRACE_REQUEST_TAKE_UP);

@@ -103,8 +103,6 @@ static void test_late_commands_move_nothing(void)
         drain();
     }
     operator_lives = true; /* its master comes back, and lets go */
-    sign_of_life();
-    ticks(1);
     make_let_go(data);
     accepted_command(data);
     pass(1000);
@@ -137,7 +135,7 @@ static void test_a_second_master_is_refused_while_the_first_moves_the_limb(void)
         } else if (which == 2) {
             brace_can_pack_loading_test_start_request(&(brace_can_loading_test_start_request_t){0, 0, 2, 0.5f, 20}, data);
         } else if (which == 3) {
-            make_write(COMMAND_ENTRY(life_mac), 0, 0, data);
+            make_sign(NULL, number_now(), 0, data);
         }
         const state_t before = state_now();
         says_as(other_token, data);
@@ -180,7 +178,7 @@ static void test_a_second_master_does_not_keep_the_first_alive(void)
     const float before_rad = offset_rad(BRACE_FEMUR);
     for (int i = 0; i < 300; i++) {
         if (i % 20 == 0) {
-            make_write(COMMAND_ENTRY(life_mac), 0, 0, data);
+            make_sign(NULL, number_now(), 0, data);
             says_as(other_token, data);
         }
         if (i % 20 == 10) {
@@ -253,8 +251,6 @@ static void test_a_master_that_dies_in_a_loading_test(void)
     stands_within_150_ms();
     TEST_ASSERT_EQUAL(BRACE_LOADING_STOPPED, brace_app_loading_result(&app)->outcome);
     operator_lives = true; /* end_test: back to where it began; the play stays taken up */
-    sign_of_life();
-    ticks(1);
     make_write(COMMAND_ENTRY(end_test), 1, 0, data);
     accepted_command(data);
     pass(4000);
@@ -275,16 +271,21 @@ static void test_bus_off_stops_the_limb(void)
     TEST_ASSERT_EQUAL_FLOAT(stood_rad, offset_rad(BRACE_FEMUR));
 }
 
+/* A sign of life by Modbus TCP, with the number that the registers show. */
+static reply_t lives_by_tcp(void)
+{
+    const uint32_t number = sign_now().heard;
+    const uint8_t life[14] = {16, 0x40, 0x48, 0, 4, 8, (uint8_t)(number >> 24), (uint8_t)(number >> 16),
+                              (uint8_t)(number >> 8), (uint8_t)number};
+    return tcp_asks(UNIT, life, 14);
+}
+
 static void test_a_closed_connection_stops_the_limb(void)
 {
-    const uint32_t take_up[] = {0x101}, life[] = {0, 0};
-    uint8_t pdu[14] = {16, 0x40, 0x48, 0, 4, 8};
-    (void)life;
-    fake.peer = 7;
-    TEST_ASSERT_EQUAL(5, tcp_asks(UNIT, pdu, 14).count);
     uint8_t asks[10] = {16, 0x40, 0x08, 0, 2, 4, 0, 0, 1, 1};
-    TEST_ASSERT_EQUAL(0x101, take_up[0]);
+    fake.peer = 7;
     TEST_ASSERT_EQUAL(5, tcp_asks(UNIT, asks, 10).count);
+    TEST_ASSERT_EQUAL(5, lives_by_tcp().count);
     ticks(30);
     TEST_ASSERT_TRUE(offset_rad(BRACE_FEMUR) > 0.0f);
     fake.open_from = 8;
@@ -295,7 +296,6 @@ static void test_a_closed_connection_stops_the_limb(void)
     TEST_ASSERT_EQUAL(1, silences());
 }
 
-/* By hand each write has a connection of its own: the next one goes on for the one that has closed, and for no other. */
 /* Connections are those of Modbus TCP: of a master on CAN none can close. */
 static void test_a_closed_connection_is_nothing_to_a_master_on_can(void)
 {
@@ -309,19 +309,20 @@ static void test_a_closed_connection_is_nothing_to_a_master_on_can(void)
     TEST_ASSERT_EQUAL(BRACE_OWNER_CAN, report.owner);
 }
 
+/* By hand each write has a connection of its own: the next one goes on for the one that has closed, and for no other. */
 static void test_connections_by_hand_follow_one_another(void)
 {
-    uint8_t life[14] = {16, 0x40, 0x48, 0, 4, 8}, asks[10] = {16, 0x40, 0x08, 0, 2, 4, 0, 0, 1, 1};
+    const uint8_t asks[10] = {16, 0x40, 0x08, 0, 2, 4, 0, 0, 1, 1};
     fake.peer = 1;
     TEST_ASSERT_EQUAL(5, tcp_asks(UNIT, asks, 10).count);
     for (uint32_t peer = 2; peer < 30u; peer++) {
         fake.peer = fake.open_from = peer;
-        TEST_ASSERT_EQUAL(5, tcp_asks(UNIT, life, 14).count);
+        TEST_ASSERT_EQUAL(5, lives_by_tcp().count);
         ticks(40);
     }
     TEST_ASSERT_TRUE(offset_rad(BRACE_FEMUR) > 0.5f * GAP_RAD);
     fake.peer = 30; /* while 29 is still there */
-    const reply_t reply = tcp_asks(UNIT, life, 14);
+    const reply_t reply = lives_by_tcp();
     TEST_ASSERT_EQUAL(2, reply.count);
     TEST_ASSERT_EQUAL(7, reply.byte[1]);
 }

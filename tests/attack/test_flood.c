@@ -111,7 +111,8 @@ static void test_a_command_from_before_a_stop_moves_nothing(void)
         empty_the_bus();
     }
     operator_lives = true;
-    says(data);
+    make_let_go(data);
+    accepted_command(data);
     pass(300);
     TEST_ASSERT_EQUAL(BRACE_MODE_MONITOR, now()->mode);
 }

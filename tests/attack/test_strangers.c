@@ -217,9 +217,19 @@ static void test_no_register_takes_a_stranger_s_write(void)
         }
         const uint32_t asked = make_block(COMMAND_REGISTER(asked_gravity_direction_rad), bits(1.0f), 0, 2, pdu);
         modbus_refuses((situation_t)situation, "where down is, by register", pdu, asked, true);
-        const uint32_t life = make_block(COMMAND_REGISTER(life_counter), counter + 1u, 0x1234, 2, pdu);
+        const uint32_t life = make_block(COMMAND_REGISTER(life_heard), number_now(), 0x1234, 2, pdu);
         modbus_refuses((situation_t)situation, "a forged life sign by register", pdu, life, true);
     }
+}
+
+/* A sign of life by Modbus TCP, with the number that the register shows. */
+static reply_t lives_by_tcp(void)
+{
+    uint8_t pdu[14];
+    const uint32_t number = sign_now().heard;
+    const uint32_t count =
+        make_block(COMMAND_REGISTER(life_heard), number, check_of(the_key, number, 1, NULL, 0), 2, pdu);
+    return tcp_asks(UNIT, pdu, count);
 }
 
 /* The owner's own way over Modbus TCP: its challenge, a sign of life in one block, then each command behind its seal. */
@@ -230,20 +240,18 @@ static void test_the_owner_goes_by_modbus_too(void)
     challenge = read_entry(ENTRY(challenge_low));
     challenge |= (uint64_t)read_entry(ENTRY(challenge_high)) << 32;
     drain();
-    uint32_t count = make_block(COMMAND_REGISTER(life_counter), 0, check_of(the_key, 0, 1, NULL, 0), 2, pdu);
-    TEST_ASSERT_EQUAL(5, tcp_asks(UNIT, pdu, count).count);
+    TEST_ASSERT_EQUAL(5, lives_by_tcp().count);
     TEST_ASSERT_EQUAL(BRACE_OWNER_MODBUS_TCP, read_entry(ENTRY(owner)));
-    count = make_block(COMMAND_REGISTER(take_up), 0x101, 0, 1, pdu); /* the femur's play, towards its positive flank */
+    uint32_t count = make_block(COMMAND_REGISTER(take_up), 0x101, 0, 1, pdu); /* the femur's play, towards its positive flank */
     TEST_ASSERT_EQUAL_HEX8(0x90, tcp_asks(UNIT, pdu, count).byte[0]); /* not without its seal */
     const uint32_t sealed = make_block(COMMAND_REGISTER(seal_counter), 5, check_of(the_key, 5, 2, pdu, count), 2, sealing);
     TEST_ASSERT_EQUAL(5, tcp_asks(UNIT, sealing, sealed).count);
     TEST_ASSERT_EQUAL(5, tcp_asks(UNIT, pdu, count).count);
+    TEST_ASSERT_EQUAL(5, lives_by_tcp().count);
     ticks(20);
     TEST_ASSERT_NOT_EQUAL(BRACE_TAKEUP_IDLE, now()->play[BRACE_FEMUR].phase);
     TEST_ASSERT_EQUAL_HEX8(0x90, tcp_asks(UNIT, pdu, count).byte[0]); /* a seal is used up */
-    /* its numbers may leave out as many as half of 32 bits hold */
-    count = make_block(COMMAND_REGISTER(life_counter), 0x50000000u, check_of(the_key, 0x50000000u, 1, NULL, 0), 2, pdu);
-    TEST_ASSERT_EQUAL(5, tcp_asks(UNIT, pdu, count).count);
+    TEST_ASSERT_EQUAL(5, lives_by_tcp().count);
     /* a seal is over one request: there is none over half a value */
     const uint8_t half[] = {6, (uint8_t)(COMMAND_REGISTER(let_go) >> 8), (uint8_t)COMMAND_REGISTER(let_go), 0, 1};
     const uint32_t halves = make_block(COMMAND_REGISTER(seal_counter), 0x50000001u,
@@ -361,6 +369,11 @@ static void test_what_comes_between_seal_and_command_changes_nothing(void)
     nothing_came_of_it(&before, WITH_SESSION, "a command between a seal and its own", refusals_told());
     operator_says(data);
     ticks(4);
+    TEST_ASSERT_TRUE(something_waits());
+    operator_begins = true;
+    begin_heard = sign_now().heard;
+    sign_of_life();
+    ticks(4);
     TEST_ASSERT_EQUAL(BRACE_MODE_TAKING_UP, now()->mode);
 }
 
@@ -374,12 +387,12 @@ static void test_a_dead_operator_is_not_kept_alive(void)
         operator_lives = false;
         const float before_rad = fake.joint[BRACE_FEMUR].command.offset_rad;
         uint8_t data[8];
-        const uint32_t last = counter;
+        const uint32_t last = number_now();
+        sign_of_life(); /* so that this number has counted */
         for (uint32_t i = 0; i < 150u; i++) {
             if (way == FLOODED || i % 20u == 0u) {
-                const uint32_t number = way == REPLAYED ? last : last + 1u + i;
-                const uint32_t check = check_of(way == REPLAYED ? the_key : another_key, number, 1, NULL, 0);
-                make_write(COMMAND_ENTRY(life_mac), check, number & 0xffu, data);
+                make_sign(way == REPLAYED ? the_key : another_key, way == REPLAYED ? last : number_now(), OPERATOR_TOKEN,
+                          data);
                 says(data);
             }
             ticks(1);
@@ -413,8 +426,7 @@ static void test_a_session_is_not_taken_over_after_its_time(void)
     seal(data, sealing);
     says(sealing);
     says(data);
-    const uint32_t number = ++counter;
-    make_write(COMMAND_ENTRY(life_mac), check_of(the_key, number, 1, NULL, 0), number & 0xffu, data);
+    make_sign(the_key, number_now(), OPERATOR_TOKEN, data);
     says(data);
     ticks(10);
     nothing_came_of_it(&before, WITH_SESSION, "the session that is over goes on", refusals_told());
@@ -433,7 +445,10 @@ static void test_two_masters_with_the_key_take_turns(void)
     uint8_t data[8];
     begin(MOVING);
     const state_t before = state_now();
-    make_write(COMMAND_ENTRY(life_mac), check_of(the_key, 0, 1, NULL, 0), 0, data); /* opens, if there were no owner */
+    const reply_t reply = lives_by_tcp(); /* opens, if there were no owner */
+    TEST_ASSERT_EQUAL(2, reply.count);
+    drain();
+    make_let_go(data);
     says(data);
     ticks(3);
     nothing_came_of_it(&before, MOVING, "a second session", refusals_told());

@@ -18,9 +18,9 @@ from brace.wire.frames import DICTIONARY_HASH, PROTOCOL, REQUESTS
 IDENTIFY, READ_ENTRY, CONTACT_FORCE = 20, 1, 6
 # The numbers of the frames that answer a request, by its code. No frame of write_entry's answer is one of them.
 ANSWER_NUMBERS = {IDENTIFY: (32, 33, 34, 35, 36), READ_ENTRY: (1,), CONTACT_FORCE: (15, 16), 2: (2,), 15: (27,),
-                  16: (28,), 18: (30,)}  # fmt: skip
+                  16: (28,), 18: (30,), 32: (67,)}  # fmt: skip
 REFUSED = 255
-COMMANDS = [REQUESTS[name].command for name in ("take_up", "let_go", "write_entry", "loading_test_stop")]
+COMMANDS = [REQUESTS[name].command for name in ("take_up", "let_go", "write_entry", "loading_test_stop", "sign_of_life")]
 DATABASE = Path(__file__).resolve().parents[2] / "firmware" / "interface" / "brace.dbc"
 STREAM_S = 0.02
 

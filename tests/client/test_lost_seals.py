@@ -21,23 +21,26 @@ from brace.wire.codes import SETTING
 from brace.wire.frames import ANSWERS, REQUESTS
 
 GUARDED = next(code.number for code in SETTING.codes if code.name == "GUARDED")
-WRITE = REQUESTS["write_entry"].command
+LIFE, WRITE = "sign_of_life", REQUESTS["write_entry"].command
 
 
 class Loser:
-    """Loses the nth write to an entry."""
+    """Loses the nth write to an entry, or the nth sign of life."""
 
     def __init__(self, entry: str, nth: int) -> None:
-        self._index, self._left = entry_of(entry), nth
+        self._index, self._left = None if entry == LIFE else entry_of(entry), nth
 
     def __call__(self, data: bytes) -> bool:
-        if data[0] & 0x1F == WRITE and struct.unpack_from("<H", data, 2)[0] == self._index:
+        if self._index is None and data[0] == REQUESTS[LIFE].command:
+            self._left -= 1
+            return self._left == 0
+        if self._index is not None and data[0] == WRITE and struct.unpack_from("<H", data, 2)[0] == self._index:
             self._left -= 1
             return self._left == 0
         return False
 
 
-LOSSES = [("seal_mac", 1), ("seal_mac", 2), ("life_mac", 1)]
+LOSSES = [("seal_mac", 1), ("seal_mac", 2), (LIFE, 1)]
 
 
 @pytest.fixture
@@ -105,7 +108,7 @@ class Silent:
 
 
 @pytest.mark.parametrize("act", ["clear", "gravity"])
-@pytest.mark.parametrize(("lost", "nth"), [("seal_counter", 1), ("seal_counter", 2), ("life_counter", 1)])
+@pytest.mark.parametrize(("lost", "nth"), [("seal_counter", 1), ("seal_counter", 2), ("life_heard", 1)])
 def test_python_goes_on_over_modbus(
     guarded: Sim, limb: str, monkeypatch: pytest.MonkeyPatch, act: str, lost: str, nth: int  # noqa: F811
 ) -> None:
@@ -161,7 +164,7 @@ def test_the_session_is_opened_anew_only_once(
     show, openings = device._show, list[int]()
 
     def loses_seals(first: str, counter: int, check: int) -> None:
-        if first == "life_counter":
+        if first == "life_heard":
             openings.append(counter)
             show(first, counter, check)
 

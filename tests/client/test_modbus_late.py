@@ -73,7 +73,7 @@ def longest_without_a_sign_s(bench: Sim) -> float:
         done, why = acts(relay.url, UP, "reads:300", "wait", "let_go", "wait")
         signs_s = [
             at_s for at_s, request in relay.requests()
-            if struct.unpack_from(">BH", request) == (WRITE, register_of("life_counter"))
+            if struct.unpack_from(">BH", request) == (WRITE, register_of("life_heard"))
         ]  # fmt: skip
     assert [done[place].state for place in (0, 2, 4)] == [RUNNING, DONE, DONE], why
     assert len(signs_s) > 11

@@ -43,7 +43,7 @@ def played(*steps: tuple[float, int, int]) -> Iterator[SlcanController]:
 
 def longest_silence_s(controller: SlcanController) -> float:
     """Between signs of life."""
-    life = REQUESTS["write_entry"].command
+    life = REQUESTS["sign_of_life"].command
     times = [at for at, data in zip(controller.heard_s, controller.requests) if data[0] == life]
     return max(later - earlier for earlier, later in itertools.pairwise(times))
 

@@ -4,16 +4,20 @@ speaks of made beforehand, in the page's order. A printed answer must be the com
 from __future__ import annotations
 
 import contextlib
+import os
 import random
 import re
 import shlex
 import shutil
+import signal
 import stat
 import subprocess
 import sys
+import textwrap
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 from bus_bench import limb_on_tcp
@@ -177,25 +181,68 @@ def test_a_key_for_a_guarded_board() -> None:
     assert re.fullmatch(r"[0-9a-f]{32}", key.read_text()) and stat.S_IMODE(key.stat().st_mode) == 0o600
 
 
-def test_a_take_up_by_hand() -> None:
-    """The frames that cansend sends, over the bus that is there; mbpoll's register is the sign of life's."""
-    life, take_up = (re.search(r"cansend can0 ([0-9A-F]{3})#([0-9A-F]+)", line) for line in
-                     lines_with("security.md", "cansend"))
-    assert life is not None and take_up is not None
+def block_with(page: str, text: str) -> str:
+    """The whole piece of code of a page that has this text in it."""
+    blocks = re.findall(r"(?:^    .*\n|^\n(?=    ))+", (PROJECT / "docs" / page).read_text(), re.MULTILINE)
+    (block,) = [textwrap.dedent(block) for block in blocks if text in block]
+    return block
+
+
+class ByHand:
+    """candump and cansend for a shell, over a bus that only we have open."""
+
+    def __init__(self, folder: Path, bus: Any) -> None:
+        self.bus, self.ends = bus, False
+        self.sent, self.heard = folder / "sent", folder / "heard"
+        for fifo in (self.sent, self.heard):
+            os.mkfifo(fifo)
+        for name, text in (("cansend", f'echo "$2" > {self.sent}'), ("candump", f"exec cat {self.heard}")):
+            (folder / name).write_text(f"#!/bin/sh\n{text}\n")
+            (folder / name).chmod(0o755)
+        self.environment = os.environ | {"PATH": f"{folder}:{os.environ['PATH']}"}
+
+    def carry(self, seconds: float) -> None:
+        """Frames both ways; what candump would print of the answers."""
+        sent = os.fdopen(os.open(self.sent, os.O_RDWR | os.O_NONBLOCK), "rb", buffering=0)
+        heard = os.open(self.heard, os.O_RDWR | os.O_NONBLOCK)
+        until, rest = time.monotonic() + seconds, b""
+        with sent:
+            while time.monotonic() < until and not self.ends:
+                *lines, rest = (rest + (sent.read() or b"")).split(b"\n")
+                for line in lines:
+                    identifier, _, data = line.decode().partition("#")
+                    self.bus.send(int(identifier, 16), bytes.fromhex(data))
+                frame = self.bus.receive(0.005)
+                if frame is not None and frame.identifier == 0x581:
+                    os.write(heard, f"(0.0) can0 581#{frame.data.hex().upper()}\n".encode())
+        os.close(heard)
+
+
+def test_a_take_up_by_hand(tmp_path: Path) -> None:
+    """The page's loop, run by a shell as it stands, over the bus that is there."""
     Path("limb.toml").write_text(LIMB.replace("[joint.femur]", "[joint.femur]\ngap_rad = 0.006"))
     with limb_on_tcp(Path("limb.toml")) as url:
         bus = open_bus(parse(url))
         controller = CanController(Session(bus, 1))
         assert controller.take_ups()["femur"] == "none"
-        until = time.monotonic() + 30.0
-        bus.send(int(take_up[1], 16), bytes.fromhex(take_up[2]))
-        while (went := controller.take_ups()["femur"]) in ("none", "running") and time.monotonic() < until:
-            bus.send(int(life[1], 16), bytes.fromhex(life[2]))
-            time.sleep(0.05)
-        assert went == "held"
-    (line,) = lines_with("security.md", "mbpoll")
-    counter = next(register for register in REGISTERS if register.name == "life_counter")
-    assert f"-r {counter.address} " in line
+        hand = ByHand(tmp_path, bus)
+        shell = subprocess.Popen(["sh", "-c", block_with("security.md", "candump -L can0") + "wait"],
+                                 env=hand.environment, start_new_session=True)
+        try:
+            hand.carry(6.0)
+        finally:
+            os.killpg(shell.pid, signal.SIGKILL)
+            shell.wait(timeout=30.0)
+        assert controller.take_ups()["femur"] == "held"
+        assert controller.read_entry("silences") == 0
+
+
+def test_the_registers_by_hand() -> None:
+    addresses = {register.name: register.address for register in REGISTERS}
+    block = block_with("security.md", "mbpoll $tcp -t 3:int")
+    assert f"-r {addresses['life_number']} -c 2" in block
+    assert addresses["begin_number"] == addresses["life_number"] + 2
+    assert f"-r {addresses['life_heard']} " in block and f"-r {addresses['take_up']} " in block
 
 
 def test_the_core_in_two_files() -> None:

@@ -8,7 +8,7 @@ from interface.measured import Values
 from interface.messages import BASIC_IDS, NODES, REFUSED, Frame, Multiplexed, Signal, Wire
 from interface.registers import COMMAND_ENTRY, MEASURED_ENTRY
 
-WRITTEN_AS_ENTRIES = ("stop", "end_test", "life_mac", "seal_mac")  # wire/answers/parameters.c
+WRITTEN_AS_ENTRIES = ("stop", "end_test", "seal_mac")  # wire/answers/parameters.c
 
 _HEAD = """# Frames on CAN
 

@@ -132,8 +132,12 @@ static void start_ownership(controller_t *controller)
     uint8_t key[SIPHASH_KEY_BYTES];
     const bool has_key =
         hal->key_read != NULL && hal->random_read != NULL && hal->key_read(hal->context, key) > 0;
+    uint32_t seed = 0;
+    if (hal->random_read == NULL || hal->random_read(hal->context, &seed) != BRACE_HAL_OK) {
+        seed = controller->now_us;
+    }
     session_t *session = &controller->ownership.session;
-    session_start(session, hal->key_read == NULL, has_key ? key : NULL);
+    session_start(session, hal->key_read == NULL, has_key ? key : NULL, seed);
     session->life_us = hal->silence_us != 0u ? hal->silence_us : session->life_us;
 }
 
@@ -216,7 +220,7 @@ static void step_ownership(brace_app_t *app)
     }
     switch (ownership_step(ownership, &inputs)) {
     case OWNERSHIP_STOPS: loading_end(&controller->loading, BRACE_LOADING_STOPPED); break;
-    case OWNERSHIP_FORGETS: controller_forget(controller); break;
+    case OWNERSHIP_BEGINS: controller_begin(controller); break;
     case OWNERSHIP_LETS_GO: (void)brace_app_let_go(app); break;
     default: break;
     }
@@ -580,6 +584,7 @@ void brace_app_tick(brace_app_t *app, uint32_t now_us)
     const bool late = tick_is_late(controller, now_us);
     controller->parts_done = 0;
 
+    session_pass(&controller->ownership.session, controller->since_us); /* before anything is heard that may be old */
     hear(app, now_us);
     part_is_done(controller, PART_HEARD);
     step_ownership(app);

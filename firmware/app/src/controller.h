@@ -1,5 +1,5 @@
-/* The controller's memory: every part of it but the wires. app.c, requests.c, questions.c and sigma.c know it; no part
- * knows it.
+/* The controller's memory: every part of it but the wires. app.c and the files that answer what is asked of it know it
+ * (motions.c, owners.c, questions.c, requests.c, sigma.c); no part knows it.
  *
  * A brace_app_t begins with it (brace/app_memory.h; app.c asserts that), and whoever asks has a pointer to the whole.
  * So what answers finds its memory without knowing the wires, which ask. */
@@ -32,6 +32,15 @@
 /* Parts of the memory that guard looks over: app.c lists them. */
 enum { GUARDED_GRAVITY = 4, GUARDED_JOINTS = 5, GUARDED_SPANS = GUARDED_JOINTS + BRACE_LINK_COUNT };
 
+/* Something that an owner may ask for. */
+typedef enum { MOTION_TAKE_UP, MOTION_LET_GO, MOTION_LOADING_TEST, MOTION_END_TEST } asked_motion_kind_t;
+
+typedef struct {
+    asked_motion_kind_t kind;
+    int32_t joint, flank;        /* of a take-up */
+    brace_loading_setup_t setup; /* of a loading test */
+} asked_motion_t;
+
 typedef struct {
     const brace_hal_t *hal;
     uint32_t now_us;       /* of this tick */
@@ -62,6 +71,7 @@ typedef struct {
     mode_state_t mode;
     drives_t drives;
     ownership_t ownership;
+    asked_motion_t asked;          /* what has been asked for over a wire; ownership.waits: it has not begun */
     frozen_t frozen;
     uint32_t parts_done;           /* of the tick, in their order: app.c */
 
@@ -92,12 +102,8 @@ static inline bool controller_takes_up(const controller_t *controller)
     return takeup_runs(&controller->takeup) || controller->drives.is_going_back;
 }
 
-/* Takes back what was asked for and has not begun to move the limb. */
-static inline void controller_forget(controller_t *controller)
-{
-    takeup_forget(&controller->takeup, &controller->flank);
-    loading_forget(&controller->loading);
-}
+/* Begins what has waited, if it is still possible. */
+void controller_begin(controller_t *controller);
 
 /* What the loading test is given.
  *   now: the snapshot that it works from */

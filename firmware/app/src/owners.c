@@ -14,6 +14,9 @@ void brace_app_session(const brace_app_t *app, brace_session_report_t *report)
     report->setting = session->setting;
     report->owner = session->is_open ? (brace_owner_t)(session->owner.port + 1) : program;
     report->is_held = ownership->is_held;
+    report->number = session_number(session);
+    report->has_begin = session->has_begin;
+    report->begin = session->begin;
     report->has_challenge = session->has_challenge;
     report->challenge = session->challenge;
     report->strangers = session->counts.strangers;
@@ -45,10 +48,10 @@ static brace_who_t master_of(const controller_t *controller, brace_who_t who)
     return is_can && !is_bench ? (brace_who_t){who.port, 0} : who;
 }
 
-int32_t brace_app_life(brace_app_t *app, brace_who_t who, const brace_seal_t *seal)
+int32_t brace_app_life(brace_app_t *app, brace_who_t who, const brace_sign_t *sign)
 {
     controller_t *controller = controller_of(app);
-    return told(controller, session_life(&controller->ownership.session, master_of(controller, who), seal));
+    return told(controller, session_life(&controller->ownership.session, master_of(controller, who), sign));
 }
 
 /* Has that master hung up? By hand, on a bench, each thing that is written has a connection of its own. */
@@ -96,20 +99,4 @@ bool brace_app_moves(const brace_app_t *app)
 {
     const controller_t *controller = controller_in(app);
     return controller_takes_up(controller) || loading_runs(&controller->loading);
-}
-
-brace_status_t brace_app_stop(brace_app_t *app)
-{
-    if (app == NULL) {
-        return BRACE_E_NULL;
-    }
-    controller_t *controller = controller_of(app);
-    if (!brace_app_moves(app)) {
-        return BRACE_E_MODE;
-    }
-    if (ownership_stop(&controller->ownership)) {
-        controller_forget(controller);
-    }
-    loading_end(&controller->loading, BRACE_LOADING_STOPPED);
-    return BRACE_OK;
 }

@@ -164,6 +164,7 @@ static void pack_take_up(const brace_take_up_answer_t *answer, const uint8_t *nu
     bits = head | number[0];
     bits |= brace_bits_number(answer->phase, 16u, 8u, &limited);
     bits |= brace_bits_number(answer->setting, 24u, 8u, &limited);
+    bits |= brace_bits_number(answer->begin, 32u, 32u, &limited);
     brace_bits_store(bits, parts[0]);
 }
 
@@ -176,6 +177,7 @@ static void pack_let_go(const brace_let_go_answer_t *answer, const uint8_t *numb
     bits = head | number[0];
     bits |= brace_bits_number(answer->mode, 16u, 8u, &limited);
     bits |= brace_bits_number(answer->setting, 24u, 8u, &limited);
+    bits |= brace_bits_number(answer->begin, 32u, 32u, &limited);
     brace_bits_store(bits, parts[0]);
 }
 
@@ -186,8 +188,9 @@ static void pack_loading_test_start(const brace_loading_test_start_answer_t *ans
     uint32_t limited = 0u;
     uint64_t bits;
     bits = head | number[0];
-    bits |= brace_bits_number(answer->rows, 16u, 16u, &limited);
-    bits |= brace_bits_number(answer->setting, 32u, 8u, &limited);
+    bits |= brace_bits_number(answer->rows, 16u, 8u, &limited);
+    bits |= brace_bits_number(answer->setting, 24u, 8u, &limited);
+    bits |= brace_bits_number(answer->begin, 32u, 32u, &limited);
     brace_bits_store(bits, parts[0]);
 }
 
@@ -407,6 +410,19 @@ static void pack_tip_force_in_space(const brace_tip_force_in_space_answer_t *ans
     brace_bits_store(bits, parts[0]);
 }
 
+static void pack_sign_of_life(const brace_sign_of_life_answer_t *answer, const uint8_t *number,
+    uint32_t token, uint8_t (*parts)[8])
+{
+    const uint32_t head = (token & 0xffu) << 8;
+    uint32_t limited = 0u;
+    uint64_t bits;
+    bits = head | number[0];
+    bits |= brace_bits_number(answer->owner, 16u, 8u, &limited);
+    bits |= brace_bits_number(answer->setting, 24u, 8u, &limited);
+    bits |= brace_bits_number(answer->number, 32u, 32u, &limited);
+    brace_bits_store(bits, parts[0]);
+}
+
 void brace_can_pack_answer(uint32_t code, const brace_answer_t *answer, uint32_t token, uint8_t (*parts)[8])
 {
     switch (code) {
@@ -563,6 +579,11 @@ void brace_can_pack_answer(uint32_t code, const brace_answer_t *answer, uint32_t
     case BRACE_REQUEST_TIP_FORCE_IN_SPACE: {
         static const uint8_t number[] = {BRACE_TIP_FORCE_IN_SPACE_ANSWER_0};
         pack_tip_force_in_space(&answer->tip_force_in_space, number, token, parts);
+        break;
+    }
+    case BRACE_REQUEST_SIGN_OF_LIFE: {
+        static const uint8_t number[] = {BRACE_SIGN_OF_LIFE_ANSWER_0};
+        pack_sign_of_life(&answer->sign_of_life, number, token, parts);
         break;
     }
     default: break;

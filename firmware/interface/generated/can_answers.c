@@ -35,6 +35,7 @@ const uint8_t brace_can_answer_parts[256] = {
     [BRACE_REQUEST_K_UNDER_LOAD_AT_TIP_KNEE_UP] = 5,
     [BRACE_REQUEST_K_UNDER_LOAD_AT_TIP_KNEE_DOWN] = 5,
     [BRACE_REQUEST_TIP_FORCE_IN_SPACE] = 1,
+    [BRACE_REQUEST_SIGN_OF_LIFE] = 1,
 };
 
 const brace_can_answer_frame_t brace_can_answer_frames[256] = {
@@ -104,6 +105,7 @@ const brace_can_answer_frame_t brace_can_answer_frames[256] = {
     [BRACE_K_UNDER_LOAD_AT_TIP_KNEE_DOWN_ANSWER_3] = {BRACE_REQUEST_K_UNDER_LOAD_AT_TIP_KNEE_DOWN, 3, 5},
     [BRACE_K_UNDER_LOAD_AT_TIP_KNEE_DOWN_ANSWER_4] = {BRACE_REQUEST_K_UNDER_LOAD_AT_TIP_KNEE_DOWN, 4, 5},
     [BRACE_TIP_FORCE_IN_SPACE_ANSWER_0] = {BRACE_REQUEST_TIP_FORCE_IN_SPACE, 0, 1},
+    [BRACE_SIGN_OF_LIFE_ANSWER_0] = {BRACE_REQUEST_SIGN_OF_LIFE, 0, 1},
 };
 
 uint32_t brace_can_pack_read_entry_answer_0(const brace_can_read_entry_answer_0_t *message, uint8_t data[8])
@@ -611,6 +613,7 @@ uint32_t brace_can_pack_take_up_answer_0(const brace_can_take_up_answer_0_t *mes
     bits = 27u | (uint64_t)(message->token & 0xffu) << 8;
     bits |= brace_bits_number(message->phase, 16u, 8u, &limited);
     bits |= brace_bits_number(message->setting, 24u, 8u, &limited);
+    bits |= brace_bits_number(message->begin, 32u, 32u, &limited);
     brace_bits_store(bits, data);
     return limited;
 }
@@ -621,6 +624,7 @@ void brace_can_unpack_take_up_answer_0(const uint8_t data[8], brace_can_take_up_
     message->token = (uint32_t)(bits >> 8) & 0xffu;
     message->phase = brace_value_number(bits, 16u, 8u);
     message->setting = brace_value_number(bits, 24u, 8u);
+    message->begin = brace_value_number(bits, 32u, 32u);
 }
 
 uint32_t brace_can_pack_let_go_answer_0(const brace_can_let_go_answer_0_t *message, uint8_t data[8])
@@ -630,6 +634,7 @@ uint32_t brace_can_pack_let_go_answer_0(const brace_can_let_go_answer_0_t *messa
     bits = 28u | (uint64_t)(message->token & 0xffu) << 8;
     bits |= brace_bits_number(message->mode, 16u, 8u, &limited);
     bits |= brace_bits_number(message->setting, 24u, 8u, &limited);
+    bits |= brace_bits_number(message->begin, 32u, 32u, &limited);
     brace_bits_store(bits, data);
     return limited;
 }
@@ -640,6 +645,7 @@ void brace_can_unpack_let_go_answer_0(const uint8_t data[8], brace_can_let_go_an
     message->token = (uint32_t)(bits >> 8) & 0xffu;
     message->mode = brace_value_number(bits, 16u, 8u);
     message->setting = brace_value_number(bits, 24u, 8u);
+    message->begin = brace_value_number(bits, 32u, 32u);
 }
 
 uint32_t brace_can_pack_loading_test_start_answer_0(const brace_can_loading_test_start_answer_0_t *message,
@@ -648,8 +654,9 @@ uint32_t brace_can_pack_loading_test_start_answer_0(const brace_can_loading_test
     uint32_t limited = 0u;
     uint64_t bits = 0u;
     bits = 29u | (uint64_t)(message->token & 0xffu) << 8;
-    bits |= brace_bits_number(message->rows, 16u, 16u, &limited);
-    bits |= brace_bits_number(message->setting, 32u, 8u, &limited);
+    bits |= brace_bits_number(message->rows, 16u, 8u, &limited);
+    bits |= brace_bits_number(message->setting, 24u, 8u, &limited);
+    bits |= brace_bits_number(message->begin, 32u, 32u, &limited);
     brace_bits_store(bits, data);
     return limited;
 }
@@ -659,8 +666,9 @@ void brace_can_unpack_loading_test_start_answer_0(const uint8_t data[8],
 {
     const uint64_t bits = brace_bits_load(data);
     message->token = (uint32_t)(bits >> 8) & 0xffu;
-    message->rows = brace_value_number(bits, 16u, 16u);
-    message->setting = brace_value_number(bits, 32u, 8u);
+    message->rows = brace_value_number(bits, 16u, 8u);
+    message->setting = brace_value_number(bits, 24u, 8u);
+    message->begin = brace_value_number(bits, 32u, 32u);
 }
 
 uint32_t brace_can_pack_loading_test_stop_answer_0(const brace_can_loading_test_stop_answer_0_t *message,
@@ -1436,6 +1444,27 @@ void brace_can_unpack_tip_force_in_space_answer_0(const uint8_t data[8],
     message->fx_n = brace_value_signed(bits, 16u, 16u, 0.01f);
     message->fy_n = brace_value_signed(bits, 32u, 16u, 0.01f);
     message->fz_n = brace_value_signed(bits, 48u, 16u, 0.01f);
+}
+
+uint32_t brace_can_pack_sign_of_life_answer_0(const brace_can_sign_of_life_answer_0_t *message, uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits = 67u | (uint64_t)(message->token & 0xffu) << 8;
+    bits |= brace_bits_number(message->owner, 16u, 8u, &limited);
+    bits |= brace_bits_number(message->setting, 24u, 8u, &limited);
+    bits |= brace_bits_number(message->number, 32u, 32u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_sign_of_life_answer_0(const uint8_t data[8], brace_can_sign_of_life_answer_0_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->token = (uint32_t)(bits >> 8) & 0xffu;
+    message->owner = brace_value_number(bits, 16u, 8u);
+    message->setting = brace_value_number(bits, 24u, 8u);
+    message->number = brace_value_number(bits, 32u, 32u);
 }
 
 uint32_t brace_can_pack_refusal(const brace_can_refusal_t *message, uint8_t data[8])

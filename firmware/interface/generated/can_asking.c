@@ -110,6 +110,10 @@ void brace_can_unpack_request(const uint8_t data[8], brace_request_t *asked)
         asked->tip_force_in_space.fy_n = brace_value_signed(bits, 32u, 16u, 0.01f);
         asked->tip_force_in_space.fz_n = brace_value_signed(bits, 48u, 16u, 0.01f);
         break;
+    case BRACE_REQUEST_SIGN_OF_LIFE:
+        asked->sign_of_life.heard = brace_value_number(bits, 16u, 16u);
+        asked->sign_of_life.check = brace_value_number(bits, 32u, 32u);
+        break;
     default: break;
     }
 }

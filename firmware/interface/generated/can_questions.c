@@ -584,3 +584,22 @@ void brace_can_unpack_tip_force_in_space_request(const uint8_t data[8],
     message->fy_n = brace_value_signed(bits, 32u, 16u, 0.01f);
     message->fz_n = brace_value_signed(bits, 48u, 16u, 0.01f);
 }
+
+uint32_t brace_can_pack_sign_of_life_request(const brace_can_sign_of_life_request_t *message, uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits = 32u | (uint64_t)(message->token & 0xffu) << 8;
+    bits |= brace_bits_number(message->heard, 16u, 16u, &limited);
+    bits |= brace_bits_number(message->check, 32u, 32u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_sign_of_life_request(const uint8_t data[8], brace_can_sign_of_life_request_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->token = (uint32_t)(bits >> 8) & 0xffu;
+    message->heard = brace_value_number(bits, 16u, 16u);
+    message->check = brace_value_number(bits, 32u, 32u);
+}

@@ -41,11 +41,11 @@ brace_status_t brace_app_store_status(const brace_app_t *app, brace_store_status
 
 brace_setting_t brace_app_setting(const brace_app_t *app) { (void)app; return (brace_setting_t)any_u32(); }
 
-int32_t brace_app_life(brace_app_t *app, brace_who_t who, const brace_seal_t *seal)
+int32_t brace_app_life(brace_app_t *app, brace_who_t who, const brace_sign_t *sign)
 {
     (void)app;
     (void)who;
-    PROVE(seal != NULL && seal->is_there && seal->counter_bits == 32u, "a sign of life has a check");
+    PROVE(sign != NULL && sign->heard_bits == 32u, "a sign of life has a whole number");
     const int32_t status = any_i32();
     ASSUME(status <= 0 && status >= BRACE_REFUSED_STORE - 7);
     return status;

@@ -191,10 +191,10 @@ static void test_the_last_refusal_is_told(void)
     brace_session_report_t told;
     brace_app_session(&app, &told);
     TEST_ASSERT_EQUAL(BRACE_OK, told.last_refusal);
-    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_life(&app, owner, NULL));
     TEST_ASSERT_EQUAL(BRACE_OK, brace_app_may_command(&app, BRACE_COMMAND_MOVES, owner, NULL, NULL, 0));
-    TEST_ASSERT_EQUAL(BRACE_REFUSED_OWNED, brace_app_life(&app, other, NULL));
-    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_life(&app, owner, NULL));
+    const brace_sign_t sign = sign_now();
+    TEST_ASSERT_EQUAL(BRACE_REFUSED_OWNED, brace_app_life(&app, other, &sign));
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_life(&app, owner, &sign));
     brace_app_session(&app, &told);
     TEST_ASSERT_EQUAL(BRACE_REFUSED_OWNED, told.last_refusal);
     TEST_ASSERT_EQUAL(1, told.strangers);

@@ -538,6 +538,7 @@ static void test_the_next_loading_test_waits_for_the_way_back(void)
         TEST_ASSERT_TRUE(asked++ < 4000u); /* trims go back at 0.1 rad/s, from 0.3 rad at most */
         answer = ask(data);
     }
+    ticks(3); /* it has begun with its owner's sign of life */
     TEST_ASSERT_EQUAL(BRACE_LOADING_RUNNING, brace_app_loading_result(&app)->outcome);
 }
 

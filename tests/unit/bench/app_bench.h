@@ -56,9 +56,25 @@ static inline void bench_store(const brace_parameters_t *p)
     TEST_ASSERT_EQUAL(BRACE_STORE_DONE, state);
 }
 
-/* A master that gives its sign of life while it wants the limb to move, in as many ticks as a client does. */
+/* A master that gives its sign of life while it wants the limb to move, in as many ticks as a client does, and at once
+ * where a motion waits for it. */
 enum { LIFE_TICKS = 40 };
 static const brace_who_t *living_master;
+
+/* The sign of life that a master of a bench gives now. */
+static inline brace_sign_t sign_now(void)
+{
+    brace_session_report_t told;
+    brace_app_session(&app, &told);
+    return (brace_sign_t){.heard = told.has_begin ? told.begin : told.number, .heard_bits = 32};
+}
+
+static inline bool something_waits(void)
+{
+    brace_session_report_t told;
+    brace_app_session(&app, &told);
+    return told.has_begin;
+}
 
 static inline void bench_board(void)
 {
@@ -81,9 +97,10 @@ static inline void ticks(int count)
     static uint32_t since_life;
     for (int i = 0; i < count; i++) {
         fake.now_us += TICK_US;
-        if (living_master != NULL && ++since_life >= (uint32_t)LIFE_TICKS) {
+        if (living_master != NULL && (++since_life >= (uint32_t)LIFE_TICKS || something_waits())) {
+            const brace_sign_t sign = sign_now();
             since_life = 0;
-            (void)brace_app_life(&app, *living_master, NULL);
+            (void)brace_app_life(&app, *living_master, &sign);
         }
         brace_app_tick(&app, fake.now_us);
     }

@@ -19,7 +19,6 @@ static const brace_who_t can_master = {BRACE_ASKER_CAN, 0};
 static inline void begin_to_live(void)
 {
     living_master = &can_master;
-    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_life(&app, can_master, NULL));
 }
 
 /* The frames of one answer. */

@@ -162,11 +162,11 @@ class CanController:
         return int(self.session.ask("clear", {"faults": faults})["faults"] or 0)
 
     def take_up(self, joint: str, flank: int) -> None:
-        """It has begun when the answer comes."""
+        """It has begun when this returns."""
         self.session.ask("take_up", {"joint": TAKE_UPS.index(joint), "flank": flank})
 
     def let_go(self) -> None:
-        """It has begun when the answer comes."""
+        """It has begun when this returns."""
         self.session.ask("let_go", {})
 
     def living(self) -> AbstractContextManager[None]:

@@ -37,7 +37,7 @@ from brace.bus.modbus_values import (
     code_word,
     decoded,
 )
-from brace.bus.ownership import LIFE_S, NOT_OPEN, Owner, Reopening, register_of
+from brace.bus.ownership import LATE, LIFE_S, NOT_OPEN, UNKNOWN, Owner, Reopening, register_of
 from brace.bus.refusal import STORE, error_of, no_coxa_joint, no_equilibrium
 from brace.bus.sigma import Sigma, sigma_of
 from brace.bus.snapshot import Snapshot
@@ -80,6 +80,7 @@ _BUSY, _NOT_OURS = 6, 7
 _WRITE_BLOCK = 16
 _COMMITS = ("commit", "commit_crc")
 EARLY_S = 30.0  # the controller takes a commit each 10 s of its time, which an emulated one may stretch
+_BEGIN_TRIES = 3
 _NO_SUCH_UNIT = (10, 11)  # a gateway's words: no path to it, no answer from it
 
 
@@ -279,12 +280,34 @@ class ModbusController:
         return self.read_entry(name)
 
     def take_up(self, joint: str, flank: int) -> None:
-        """It has begun when the register is written."""
-        self._command("take_up", TAKE_UPS.index(joint) | (_POSITIVE if flank > 0 else _NEGATIVE))
+        """It has begun when this returns."""
+        self._move("take_up", TAKE_UPS.index(joint) | (_POSITIVE if flank > 0 else _NEGATIVE))
 
     def let_go(self) -> None:
-        """It has begun when the register is written."""
-        self._command("let_go", 1)
+        """It has begun when this returns."""
+        self._move("let_go", 1)
+
+    def _move(self, name: str, value: int) -> None:
+        """A command whose motion begins with a sign of life that carries begin_number back."""
+        for _ in range(_BEGIN_TRIES):
+            self._command(name, value)
+            begin = self.read_entry("begin_number")
+            if begin == UNKNOWN:
+                continue
+            self._owner.begin_number = begin
+            try:
+                self._show_sign_of_life()
+            except _NotTakenError:
+                continue
+            finally:
+                self._owner.begin_number = None
+            return
+        raise DeviceFaultError(
+            f"{name} was taken, and has not begun",
+            where=self.url,
+            why="the controller heard no sign of life within 130 ms",
+            next_step="a link whose round trip is shorter than 40 ms; docs/security.md says what an owner does",
+        )
 
     # ------------------------------------------------------------------------------------------- owning
 
@@ -311,27 +334,32 @@ class ModbusController:
         if self._is_bench or self._owner.is_open:
             return
         setting, low, high = (self.read_entry(name) for name in ("setting", "challenge_low", "challenge_high"))
-        opening = self._owner.begin(setting, low, high, self.url)
+        has_to_open = self._owner.begin(setting, low, high, self.url)
         self._is_bench = not self._owner.is_open
-        if opening is not None:
-            self._show_life(*opening)
+        if has_to_open:
+            self._give_sign_of_life()
 
     def _tend(self) -> None:
         if self._lives and time.monotonic() >= self._next_life_s:
             self._give_sign_of_life()
 
     def _give_sign_of_life(self) -> None:
-        self._next_life_s = time.monotonic() + LIFE_S
-        self._show_life(*self._owner.life())
-
-    def _show_life(self, counter: int, check: int) -> None:
         """One that is refused is no failure: the session goes on, or the next command finds that it does not."""
+        self._next_life_s = time.monotonic() + LIFE_S
+        register = BY_NAME["life_number"]
+        answer = self._taken(self._line.read(register.table, register.address, 2), "reading life_number")
+        self._owner.hears(answer.registers[0] << 16 | answer.registers[1])
         with contextlib.suppress(_NotTakenError):
-            self._show("life_counter", counter, check)
+            self._show_sign_of_life()
 
-    def _show(self, first: str, counter: int, check: int) -> None:
+    def _show_sign_of_life(self) -> None:
+        life = self._owner.life()
+        if life is not None:
+            self._show("life_heard", *life)
+
+    def _show(self, first: str, number: int, check: int) -> None:
         """A sign of life or a seal: number and check in one request."""
-        words = struct.unpack(">4H", struct.pack(">II", counter, check))
+        words = struct.unpack(">4H", struct.pack(">II", number, check))
         address = register_of(first)
         self._taken(self._line.write(address, list(words)), f"writing {first}")
 
@@ -474,7 +502,7 @@ class ModbusController:
         if code == _NOT_OURS:
             status = self.read_entry("last_refusal") - _STORE_REFUSED
             told = error_of(what, status, 0, self.url)
-            return _NotTakenError.of(told, status) if status in NOT_OPEN else told
+            return _NotTakenError.of(told, status) if status in (*NOT_OPEN, LATE) else told
         kind = _BusyError if code == _BUSY else DeviceFaultError
         return kind(
             f"the controller refuses {what}: {_EXCEPTIONS.get(code, 'no reason given')}",

@@ -1,5 +1,5 @@
-"""What a controller asks of whoever moves its limb or writes to it: signs of life and, on a guarded board, seals
-(docs/security.md)."""
+"""What a controller asks of whoever moves its limb or writes to it: signs of life that carry back a number it has sent
+lately and, on a guarded board, checks and seals (docs/security.md)."""
 
 from __future__ import annotations
 
@@ -13,19 +13,20 @@ from brace.wire.codes import SETTING
 from brace.wire.registers import REGISTERS
 
 LIFE_S = 0.04  # between two signs of life; the controller wants one each 0.1 s
+BEGIN_S = 0.12  # so long the controller waits for the sign of life with which a motion begins; it waits 10 ms longer
 EARLY = -75  # a commit came too soon after the one before
+LATE = -77  # a sign of life with an old number; the detail is the number of now
 # There is no session any more, or another one, or a command came without its seal: the session can be opened anew, or
 # goes on. Where a session is open, a command without a seal is refused as somebody else's (-72).
 NOT_OPEN = (-70, -71, -72)
 REPLAY = -71  # so is refused what comes while a session is open that another program with the key has left
 LEFT_S = 1.5  # a session that a program has left ends within 1 s
 LEFT_POLL_S = 0.05
-UNKNOWN = 0xFFFFFFFF  # of a half of the challenge: the next one is being made
+UNKNOWN = 0xFFFFFFFF  # of a half of the challenge: the next one is being made; of begin_number: no motion waits
 COMMANDS = frozenset((
     "take_up", "let_go", "loading_test_start", "set_mode", "write_entry", "upload_begin", "upload_word", "commit",
     "rollback", "clear", "set_gravity",
 ))  # fmt: skip
-MOVING = frozenset(("take_up", "let_go", "loading_test_start", "write_entry"))
 _KIND_LIFE, _KIND_COMMAND = 1, 2
 _COMMAND_ENTRY, _COMMAND_REGISTER = 0x2000, 0x4000
 _ADDRESSES = {register.name: register.address for register in REGISTERS}
@@ -42,13 +43,16 @@ def register_of(command: str) -> int:
 
 
 class Owner:
-    """The counter and the checks of one session. Without a key there are none."""
+    """The numbers that the controller has sent, the counter and the checks of one session. Without a key there are no
+    checks."""
 
     def __init__(self, key: bytes | None) -> None:
         self._key = key
         self._challenge = 0
         self._counter = 0
         self._is_accepted = False  # a command has been taken in the session of this challenge
+        self._number: int | None = None  # that the controller has sent last
+        self.begin_number: int | None = None  # with which the motion begins that waits
         self.is_open = False  # a session has been begun
 
     def forget(self) -> None:
@@ -59,14 +63,13 @@ class Owner:
         """The controller has taken a command."""
         self._is_accepted = self.is_open
 
-    def begin(self, setting: int, low: int, high: int, where: str) -> tuple[int, int] | None:
-        """The life sign to send, counter and check, which opens a session; None where none is needed: on a bench, and
-        where our session goes on. With the challenge of before the counter goes on, too: the controller takes none
-        twice.
+    def begin(self, setting: int, low: int, high: int, where: str) -> bool:
+        """Whether a sign of life has to open a session: not on a bench, and not where our session goes on. With the
+        challenge of before the counter goes on, too: the controller takes none twice.
         setting, low, high: as the controller tells them"""
         name = SETTING.name_of(setting)
         if name == "BENCH":
-            return None
+            return False
         if name != "GUARDED":
             raise DeviceFaultError(
                 "the controller lets nobody command it: it is guarded, and has no key yet",
@@ -84,14 +87,19 @@ class Owner:
         self.is_open = True
         if high << 32 | low != self._challenge:
             self._challenge, self._counter, self._is_accepted = high << 32 | low, 0, False
-        return None if self._is_accepted else (0, self._check(_KIND_LIFE, b"", 0))
+        return not self._is_accepted
 
-    def life(self) -> tuple[int, int]:
-        """Counter and check of the next sign of life; on a bench nobody looks at them."""
-        if not self.is_open:
-            return 0, 0
-        self._counter += 1
-        return self._counter, self._check(_KIND_LIFE, b"", self._counter)
+    def hears(self, number: int) -> None:
+        """The controller has sent a number."""
+        self._number = number
+
+    def life(self) -> tuple[int, int] | None:
+        """Number and check of the next sign of life; on a bench the check is the number. None: the controller has sent no
+        number yet."""
+        number = self._number if self.begin_number is None else self.begin_number
+        if number is None:
+            return None
+        return number, self._check(_KIND_LIFE, b"", number) if self.is_open else number
 
     def next_counter(self) -> int:
         """Of the next command."""

@@ -31,6 +31,7 @@ _STATUS = {  # brace_status_t: what, and whether the question was at fault
     -74: ("beyond what its board allows", True),
     -75: ("less than 10 s after the commit before: each wears its memory", False),
     -76: ("so many of our questions wait there already", False),
+    -77: ("the sign of life carries an old number of the controller's: the link is slow", False),
     -81: ("the memory refused to read, write or erase", False),
     -82: ("the memory is not blank after an erase", False),
     -83: ("what was written is not what reads back", False),

@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping
 from brace.bus.controller import check_dictionary
 from brace.bus.entries import index_of
 from brace.bus.frame import NODE_MASK, Bus, EndOfLog, Frame
-from brace.bus.ownership import COMMANDS, EARLY, LIFE_S, UNKNOWN, Owner, Reopening, entry_of
+from brace.bus.ownership import BEGIN_S, COMMANDS, EARLY, LATE, LIFE_S, UNKNOWN, Owner, Reopening, entry_of
 from brace.bus.refusal import BUSY, ORDER, error_of
 from brace.bus.snapshot import Heartbeat, Joiner, Snapshot, heartbeat_of
 from brace.errors import DeviceFaultError, NoDeviceError, UsageError
@@ -44,9 +44,9 @@ _SENT_BY_NODES = {
     *(layout.identifier for layout in (*MESSAGES.values(), *FD_MESSAGES.values())),
     *(parts[0].identifier for parts in (*GROUPS.values(), *FD_GROUPS.values())),
 }
-_NOT_REPEATED = frozenset(
-    {"commit", "rollback", "loading_test_start", "take_up"}
-)  # whose second time is not the first
+_NOT_REPEATED = frozenset({"commit", "rollback"})  # whose second time is not the first
+_LIFE = "sign_of_life"
+_LIFE_TOKEN, _BEGIN_TOKEN, _COMMAND_TOKENS = 0, 15, 14  # lower four bits of tokens: signs of life, commands between
 _FORCE, _FORCE_IN_SPACE, _IN_SPACE = "tip_force", "tip_force_in_space", "k_in_space_at_posture"
 _ABOUT_FORCE = frozenset(  # a controller counts the force that was told last, whoever told it, and once
     layout.command
@@ -73,6 +73,8 @@ class Session:
         self._master = secrets.randbelow(16) << 4  # the upper bits of tokens tell masters apart
         self._lives = False
         self._next_life_s = 0.0
+        self._has_begun = False
+        self.node = node or 0
         self.joiner = Joiner()
         self.heard: dict[int, float] = {}  # node -> when last
         self.heartbeats: dict[int, Heartbeat] = {}
@@ -100,10 +102,27 @@ class Session:
         snapshot = self.joiner.add(frame)
         if snapshot is not None:
             self.newest[frame.node] = snapshot
+        if frame.identifier == ANSWER_ID + self.node:
+            self._hear_number(frame)
         beat = heartbeat_of(frame)
         if beat is not None:
             self.heartbeats[frame.node] = beat
         return frame
+
+    def _hear_number(self, frame: Frame) -> None:
+        """The answer to a sign of life, whoever gave it, brings the controller's number; a refused sign brings it, too."""
+        answer = ANSWERS[_LIFE][0]
+        if len(frame.data) != 8 or frame.data[0] not in (REFUSED, answer.command):
+            return
+        is_refused = frame.data[0] == REFUSED
+        fields = (REFUSAL if is_refused else answer).decode(frame.data)
+        if is_refused and fields["code"] != REQUESTS[_LIFE].command:
+            return
+        if not is_refused or fields["status"] == LATE:
+            self.owner.hears(int(fields["detail" if is_refused else "number"] or 0))
+        if frame.data[1] == self._master | _BEGIN_TOKEN and self.owner.begin_number is not None:
+            self.owner.begin_number = None
+            self._has_begun = not is_refused
 
     def _next_frame(self, timeout_s: float) -> Frame | None:
         until = time.monotonic() + timeout_s
@@ -170,22 +189,40 @@ class Session:
                 break
             self.listen(CHALLENGE_S)
             low, high = self._entry("challenge_low"), self._entry("challenge_high")
-        opening = self.owner.begin(setting, low, high, self.where)
+        has_to_open = self.owner.begin(setting, low, high, self.where)
         self._is_bench = not self.owner.is_open
-        if opening is not None:
-            self._send_life(*opening)
+        if has_to_open:
+            self.owner.hears(self._entry("life_number"))
+            self._give_sign_of_life()
 
     def _entry(self, name: str) -> int:
         return int(self.ask("read_entry", {"index": index_of(name)})["value"] or 0)
 
     def _give_sign_of_life(self) -> None:
-        self._send_life(*self.owner.life())
         self._next_life_s = time.monotonic() + LIFE_S
-
-    def _send_life(self, counter: int, check: int) -> None:
-        token = self._master if self._is_bench else counter & 0xFF
-        data = REQUESTS["write_entry"].encode({"index": entry_of("life_mac"), "value": check}, token)
+        life = self.owner.life()
+        if life is None:
+            return
+        number, check = life
+        token = self._master | (_LIFE_TOKEN if self.owner.begin_number is None else _BEGIN_TOKEN)
+        data = REQUESTS[_LIFE].encode({"heard": number & 0xFFFF, "check": check}, token)
         self.bus.send(REQUEST_ID + self.node, data)
+
+    def _begins(self, name: str, values: Mapping[str, Value], answer: Mapping[str, Value]) -> bool:
+        """Whether what was asked for has begun, where it is a motion: our sign of life has to carry back the number of its
+        answer while the controller waits for it."""
+        is_end = name == "write_entry" and values.get("index") == entry_of("end_test")
+        begin = answer.get("value" if is_end else "begin")
+        if not self._lives or begin is None or (name == "write_entry" and not is_end):
+            return True
+        self._has_begun = False
+        self.owner.begin_number = int(begin)
+        self._give_sign_of_life()
+        until = time.monotonic() + BEGIN_S
+        while self.owner.begin_number is not None and (left := until - time.monotonic()) > 0:
+            self.receive(left)
+        self.owner.begin_number = None
+        return self._has_begun
 
     def _sealed(self, name: str, values: Mapping[str, Value]) -> list[bytes]:
         """The frames of a command: its seal first, where there is one."""
@@ -255,15 +292,19 @@ class Session:
                     raise
                 self.listen(BUSY_POLL_S)
                 continue
-            if answer is not None:
-                if name in COMMANDS:
-                    self.owner.accepted()
-                return answer
             tries -= 1
+            if answer is None:
+                continue
+            if name in COMMANDS:
+                self.owner.accepted()
+            if self._begins(name, values or {}, answer):
+                return answer
+            if tries == 0:
+                raise self._not_begun(name)
         raise self._no_answer(name)
 
     def _ask_once(self, name: str, values: Mapping[str, Value], timeout_s: float) -> dict[str, Value] | None:
-        self._token = self._master | (self._token + 1) & 0xF
+        self._token = self._master | 1 + (self._token & 0xF) % _COMMAND_TOKENS
         request = REQUESTS[name]
         try:
             frames = self._sealed(name, values) if name in COMMANDS else [request.encode(values, self._token)]
@@ -298,6 +339,14 @@ class Session:
             if len(came) == len(parts):
                 return {key: value for number in parts for key, value in came[number].items()}
         return None
+
+    def _not_begun(self, name: str) -> DeviceFaultError:
+        return DeviceFaultError(
+            f"{name} was answered, and has not begun",
+            where=self.where,
+            why="the controller heard no sign of life within 130 ms of its answer",
+            next_step="a link whose round trip is shorter than 80 ms; docs/security.md says what an owner does",
+        )
 
     def _no_answer(self, name: str) -> NoDeviceError:
         """Nothing heard at all, others heard, or this node heard and silent on this: three different things.

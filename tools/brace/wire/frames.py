@@ -5,7 +5,7 @@ from __future__ import annotations
 from brace.wire import codes
 from brace.wire.layout import Field, Layout
 
-DICTIONARY_HASH = 0xA44F4B80
+DICTIONARY_HASH = 0xC10823B7
 PROTOCOL = 2
 REQUEST_ID = 0x600
 ANSWER_ID = 0x580
@@ -394,6 +394,10 @@ REQUESTS: dict[str, Layout] = {
         Field("fy", 32, 16, kind="value", signed=True, step=0.01, unit="N"),
         Field("fz", 48, 16, kind="value", signed=True, step=0.01, unit="N"),
     )),
+    "sign_of_life": Layout("sign_of_life_request", 0x600, 32, (
+        Field("heard", 16, 16),
+        Field("check", 32, 32),
+    )),
 }
 
 ANSWERS: dict[str, tuple[Layout, ...]] = {
@@ -529,18 +533,21 @@ ANSWERS: dict[str, tuple[Layout, ...]] = {
         Layout("take_up_answer_0", 0x580, 27, (
             Field("phase", 16, 8, codes=codes.TAKE_UP_PHASE),
             Field("setting", 24, 8, codes=codes.SETTING),
+            Field("begin", 32, 32),
         )),
     ),
     "let_go": (
         Layout("let_go_answer_0", 0x580, 28, (
             Field("mode", 16, 8),
             Field("setting", 24, 8, codes=codes.SETTING),
+            Field("begin", 32, 32),
         )),
     ),
     "loading_test_start": (
         Layout("loading_test_start_answer_0", 0x580, 29, (
-            Field("rows", 16, 16),
-            Field("setting", 32, 8, codes=codes.SETTING),
+            Field("rows", 16, 8),
+            Field("setting", 24, 8, codes=codes.SETTING),
+            Field("begin", 32, 32),
         )),
     ),
     "loading_test_stop": (
@@ -729,6 +736,13 @@ ANSWERS: dict[str, tuple[Layout, ...]] = {
             Field("fx", 16, 16, kind="value", signed=True, step=0.01, unit="N"),
             Field("fy", 32, 16, kind="value", signed=True, step=0.01, unit="N"),
             Field("fz", 48, 16, kind="value", signed=True, step=0.01, unit="N"),
+        )),
+    ),
+    "sign_of_life": (
+        Layout("sign_of_life_answer_0", 0x580, 67, (
+            Field("owner", 16, 8, codes=codes.OWNER),
+            Field("setting", 24, 8, codes=codes.SETTING),
+            Field("number", 32, 32),
         )),
     ),
 }

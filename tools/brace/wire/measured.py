@@ -151,4 +151,6 @@ MEASURED: tuple[MeasuredEntry, ...] = (
     MeasuredEntry(0x108e, "sigma_space_lambda_3", "f32", "N/mm"),
     MeasuredEntry(0x108f, "sigma_k_across", "f32", "N/mm"),
     MeasuredEntry(0x1090, "parameter_sequence_wanted", "u32", ""),
+    MeasuredEntry(0x1091, "life_number", "u32", ""),
+    MeasuredEntry(0x1092, "begin_number", "u32", ""),
 )

@@ -93,7 +93,7 @@ brace_client_status_t brace_client_take_up(brace_client_t *client, uint32_t join
     const uint32_t index = BRACE_CLIENT_ENTRY(take_up_coxa) + joint;
     const brace_client_status_t status = brace_client_entry_u32(client, index, timeout_ms, &value);
     if (status == BRACE_CLIENT_OK) {
-        *outcome = value < 128u ? (int32_t)value : (int32_t)value - 256; /* a negative outcome is sent as 256 plus it */
+        *outcome = brace_client_outcome(value);
     }
     return status;
 }

@@ -12,6 +12,10 @@ enum { STATUS_MS = 250, FIRST_TRY_MS = 250, AGAIN_MS = 1000, LIFE_MS = 5 };
 enum { APART_US = 32000, MOST_APART_US = 1024000, FOREIGN_US = 1000000 };
 enum { OLD_US = 100000, KEPT_US = 1000000 /* the slowest stream's period: brace_can_read */ };
 
+/* The lower four bits of the tokens of signs of life; commands have others. The sign with which a motion begins has its
+ * own, so that its answer is known. */
+enum { LIFE_TOKEN = 0, BEGIN_TOKEN = 15, COMMAND_TOKENS = 14 };
+
 /* What a call waits for. */
 typedef struct {
     uint32_t code;
@@ -66,6 +70,27 @@ static bool is_from_controller(uint32_t base)
     return false;
 }
 
+/* The answer to a sign of life, whoever gave it, brings the controller's number; a refused sign brings it, too. */
+static void hear_number(brace_client_t *client, const brace_bus_frame_t *frame)
+{
+    const uint8_t begins = (uint8_t)(client->master << 4 | BEGIN_TOKEN);
+    brace_can_sign_of_life_answer_0_t answer;
+    brace_can_refusal_t refusal;
+    brace_can_unpack_sign_of_life_answer_0(frame->data, &answer);
+    brace_can_unpack_refusal(frame->data, &refusal);
+    const bool is_refused = frame->data[0] == BRACE_ANSWER_REFUSED && refusal.code == BRACE_REQUEST_SIGN_OF_LIFE;
+    if (!is_refused && frame->data[0] != BRACE_SIGN_OF_LIFE_ANSWER_0) {
+        return;
+    }
+    if (!is_refused || refusal.status == BRACE_REFUSED_LATE) {
+        brace_owner_hears(&client->owner, is_refused ? refusal.detail : answer.number);
+    }
+    if (frame->data[1] == begins && client->owner.has_begin) {
+        client->owner.has_begin = false;
+        client->motion.has_begun |= !is_refused;
+    }
+}
+
 /* Handles one frame. A client does not receive its own requests, so a request like ours is another client's. */
 static void hear(brace_client_t *client, const brace_bus_frame_t *frame, waiting_t *waiting)
 {
@@ -85,8 +110,11 @@ static void hear(brace_client_t *client, const brace_bus_frame_t *frame, waiting
         brace_can_unpack_heartbeat(frame->data, &heartbeat);
         client->speaks_another = heartbeat.dictionary_hash != BRACE_DICTIONARY_HASH;
         client->other_hash = heartbeat.dictionary_hash;
-    } else if (base == BRACE_CAN_ID_ANSWER && waiting != NULL) {
-        take_answer(frame, waiting);
+    } else if (base == BRACE_CAN_ID_ANSWER) {
+        hear_number(client, frame);
+        if (waiting != NULL) {
+            take_answer(frame, waiting);
+        }
     } else if (base == BRACE_CAN_ID_REQUEST) {
         client->force_is_taken |= brace_client_is_about_force(frame->data[0]);
         client->foreign_us[frame->data[1]] = frame->received_us;
@@ -239,7 +267,7 @@ static brace_client_status_t explain_silence(brace_client_t *client, const char 
 /* ------------------------------------------------------------------------------------------- asking -- */
 
 /* How a request is sent. Commands are sealed on a guarded board. All other tokens tell masters apart. */
-typedef enum { ASKS, COMMANDS, COMMANDS_ONCE } manner_t;
+typedef enum { ASKS, COMMANDS } manner_t;
 
 /* Has another client asked with this token of late? An answer to that one may still come. */
 static bool is_foreign(const brace_client_t *client, uint8_t token)
@@ -253,8 +281,8 @@ static uint8_t next_token(brace_client_t *client, manner_t manner)
     if (manner != ASKS && client->owner.is_open) {
         return (uint8_t)brace_owner_next_counter(&client->owner);
     }
-    for (int i = 0; i < 15; i++) { /* signs of life have 0 in the lower four bits */
-        client->token = (uint8_t)(client->master << 4 | (1u + (client->token & 15u) % 15u));
+    for (int i = 0; i < COMMAND_TOKENS; i++) {
+        client->token = (uint8_t)(client->master << 4 | (1u + (client->token & 15u) % (uint32_t)COMMAND_TOKENS));
         if (manner != ASKS || !is_foreign(client, client->token)) {
             break;
         }
@@ -270,21 +298,25 @@ static brace_bus_frame_t request_frame(const brace_client_t *client, const uint8
     return frame;
 }
 
-/* Writes the check of a sign of life or of a seal to its entry. */
-static brace_bus_status_t show(brace_client_t *client, uint32_t entry, brace_sign_t sign, uint8_t token, int timeout_ms)
+/* Writes the check of a seal to its entry. */
+static brace_bus_status_t show_seal(brace_client_t *client, brace_client_seal_t seal, uint8_t token, int timeout_ms)
 {
-    const brace_can_write_entry_request_t request = {.index = entry, .value = sign.check};
+    const brace_can_write_entry_request_t request = {.index = BRACE_CLIENT_COMMAND(seal_mac), .value = seal.check};
     uint8_t data[8];
     (void)brace_can_pack_write_entry_request(&request, data);
     const brace_bus_frame_t frame = request_frame(client, data, token);
     return brace_bus_send(client->bus, &frame, timeout_ms);
 }
 
-void brace_can_show_life(brace_client_t *client, brace_sign_t sign)
+void brace_can_show_life(brace_client_t *client)
 {
-    const uint8_t token = client->owner.is_open ? (uint8_t)sign.counter : (uint8_t)(client->master << 4);
-    const brace_bus_status_t shown = show(client, BRACE_CLIENT_COMMAND(life_mac), sign, token, LIFE_MS);
-    client->is_down |= shown == BRACE_BUS_E_DOWN; /* the kernel tells it once */
+    const brace_client_life_t life = brace_owner_life(&client->owner);
+    const brace_can_sign_of_life_request_t request = {.heard = life.number & 0xffffu, .check = life.check};
+    uint8_t data[8];
+    (void)brace_can_pack_sign_of_life_request(&request, data);
+    const uint32_t low = client->owner.has_begin ? BEGIN_TOKEN : LIFE_TOKEN;
+    const brace_bus_frame_t frame = request_frame(client, data, (uint8_t)(client->master << 4 | low));
+    client->is_down |= brace_bus_send(client->bus, &frame, LIFE_MS) == BRACE_BUS_E_DOWN; /* the kernel tells it once */
 }
 
 /* One try; a command's seal goes before it. */
@@ -294,9 +326,8 @@ static brace_bus_status_t send_request(brace_client_t *client, const brace_quest
     *token = next_token(client, manner);
     const brace_bus_frame_t request = request_frame(client, question->data, *token);
     if (manner != ASKS && client->owner.is_open) {
-        const brace_sign_t seal = brace_owner_seal(&client->owner, request.data, 8u);
-        const brace_bus_status_t shown =
-            show(client, BRACE_CLIENT_COMMAND(seal_mac), seal, *token, brace_bus_left_ms(deadline_us));
+        const brace_client_seal_t seal = brace_owner_seal(&client->owner, request.data, 8u);
+        const brace_bus_status_t shown = show_seal(client, seal, *token, brace_bus_left_ms(deadline_us));
         if (shown != BRACE_BUS_OK) {
             return shown;
         }
@@ -326,8 +357,7 @@ static brace_client_status_t ask(brace_client_t *client, brace_question_t *quest
                                      client->url);
         }
         const uint64_t try_until_us = brace_bus_now_us() + try_us;
-        const uint64_t until_us =
-            try_until_us < deadline_us && manner != COMMANDS_ONCE ? try_until_us : deadline_us;
+        const uint64_t until_us = try_until_us < deadline_us ? try_until_us : deadline_us;
         while (!waiting.is_taken && brace_bus_left_ms(until_us) > 0) {
             const brace_client_status_t status = listen(client, brace_bus_left_ms(until_us), &waiting);
             if (status != BRACE_CLIENT_OK && status != BRACE_CLIENT_E_TIMEOUT) {
@@ -364,11 +394,26 @@ brace_client_status_t brace_can_ask(brace_client_t *client, brace_question_t *qu
     return ask(client, question, ASKS, deadline_us);
 }
 
-brace_client_status_t brace_can_command(brace_client_t *client, brace_question_t *question, bool is_once,
+brace_client_status_t brace_can_command(brace_client_t *client, brace_question_t *question, bool moves,
                                         uint64_t deadline_us)
 {
     begin(client, deadline_us);
-    return ask(client, question, is_once ? COMMANDS_ONCE : COMMANDS, deadline_us);
+    const brace_client_status_t status = ask(client, question, COMMANDS, deadline_us);
+    if (status == BRACE_CLIENT_OK && moves) { /* each answer to such a command ends with that number */
+        brace_can_take_up_answer_0_t answer;
+        brace_can_unpack_take_up_answer_0(question->answers[0], &answer);
+        brace_owner_may_begin(&client->owner, answer.begin);
+    }
+    return status;
+}
+
+void brace_can_hear_begin(brace_client_t *client, uint64_t deadline_us)
+{
+    brace_client_status_t status = BRACE_CLIENT_OK;
+    while (client->owner.has_begin && brace_bus_left_ms(deadline_us) > 0 &&
+           (status == BRACE_CLIENT_OK || status == BRACE_CLIENT_E_TIMEOUT)) {
+        status = listen(client, brace_bus_left_ms(deadline_us), NULL);
+    }
 }
 
 /* Listens for some time up to most_us, which is another one in each client: two that disturb each other must not do so

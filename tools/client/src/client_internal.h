@@ -28,6 +28,7 @@ typedef struct {
     uint32_t silences;                     /* that the controller had counted before */
     uint64_t asked_us, limit_us, news_us;  /* when it was asked for, has to have ended, and was last told of */
     uint64_t next_poll_us;
+    bool has_begun; /* the controller has taken the sign of life with which the motion begins */
     bool in_fault; /* the controller, when it was last asked */
 } brace_client_motion_t;
 
@@ -81,7 +82,7 @@ typedef struct {
 /* What a client tells a controller to do, for both wires. */
 typedef struct {
     brace_question_t question; /* over CAN */
-    bool is_once;              /* when no answer comes it is not sent again */
+    bool moves;                /* it begins with a sign of life, so it may be sent again until it is answered */
     uint32_t place, values[2], count; /* over Modbus */
 } brace_command_t;
 
@@ -91,10 +92,17 @@ brace_client_status_t brace_client_command(brace_client_t *client, brace_command
 /* Opens a session on a guarded board, if none is open. */
 brace_client_status_t brace_client_become_owner(brace_client_t *client, uint64_t deadline_us);
 
+/* An outcome has 8 bits: a negative one comes as 256 plus it. */
+static inline int32_t brace_client_outcome(uint32_t sent)
+{
+    const int32_t low = (int32_t)(sent & 0xffu);
+    return low < 128 ? low : low - 256;
+}
+
 /* The limb was told to stop. */
 void brace_client_end_motion(brace_client_t *client);
 
-/* Gives a sign of life if one is due. */
+/* Gives a sign of life if one is due; over CAN not before the controller has sent a number. */
 void brace_client_tend(brace_client_t *client, uint64_t deadline_us);
 
 /* A refusal in words. The meaning of a status depends on the request. */
@@ -121,10 +129,13 @@ brace_client_status_t brace_can_ask(brace_client_t *client, brace_question_t *qu
 brace_client_status_t brace_can_ask_under_force(brace_client_t *client, brace_question_t *force,
                                                 brace_question_t *question, uint64_t deadline_us);
 
-/* Sends question->data, sealed where a session is open. */
-brace_client_status_t brace_can_command(brace_client_t *client, brace_question_t *question, bool is_once,
+/* Sends question->data, sealed where a session is open. What moves the limb begins with the next sign of life. */
+brace_client_status_t brace_can_command(brace_client_t *client, brace_question_t *question, bool moves,
                                         uint64_t deadline_us);
-void brace_can_show_life(brace_client_t *client, brace_sign_t sign);
+/* Its answer, whoever receives it, brings the next number. */
+void brace_can_show_life(brace_client_t *client);
+/* Listens until the sign of life that begins a motion has been answered, and gives it again meanwhile. */
+void brace_can_hear_begin(brace_client_t *client, uint64_t deadline_us);
 
 bool brace_modbus_is_url(const char *url);
 brace_client_status_t brace_modbus_open(brace_client_t *client, uint64_t deadline_us);
@@ -135,12 +146,13 @@ brace_client_status_t brace_modbus_drift(brace_client_t *client, uint64_t deadli
 /* A question of some commands that follow one another, each a float's or a whole number's bits, and all answers. */
 brace_client_status_t brace_modbus_ask(brace_client_t *client, uint32_t first, const uint32_t *values, uint32_t count,
                                        uint64_t deadline_us, brace_answered_t *answered);
-/* Writes a command, sealed where a session is open; code: its request on CAN, for words. Waits while the unit is busy.
- * When no answer comes, writes again what is not is_once. */
+/* Writes a command, sealed where a session is open; code: its request on CAN, for words. Waits while the unit is busy, and
+ * writes again when no answer comes. What moves the limb begins with the next sign of life. */
 brace_client_status_t brace_modbus_command(brace_client_t *client, uint32_t code, uint32_t place,
-                                           const uint32_t *values, uint32_t count, bool is_sealed, bool is_once,
+                                           const uint32_t *values, uint32_t count, bool is_sealed, bool moves,
                                            uint64_t deadline_us);
-void brace_modbus_show_life(brace_client_t *client, brace_sign_t sign, uint64_t deadline_us);
+/* Reads the next number too. */
+void brace_modbus_show_life(brace_client_t *client, uint64_t deadline_us);
 brace_client_status_t brace_modbus_load(brace_client_t *client, uint64_t deadline_us, brace_client_load_t *load);
 brace_client_status_t brace_modbus_entry(brace_client_t *client, uint32_t index, uint64_t deadline_us, uint32_t *value);
 

@@ -291,24 +291,50 @@ brace_client_status_t brace_modbus_entry(brace_client_t *client, uint32_t index,
 
 /* -------------------------------------------------------------------------------------------- commands -- */
 
-/* Counter and check in one request. */
-static int show(brace_client_t *client, uint32_t place, brace_sign_t sign, uint64_t deadline_us)
+/* A number or counter, and its check, in one request. */
+static int show(brace_client_t *client, uint32_t place, uint32_t number, uint32_t check, uint64_t deadline_us)
 {
     uint16_t words[4];
-    split(sign.counter, words);
-    split(sign.check, words + 2);
+    split(number, words);
+    split(check, words + 2);
     return brace_modbus_try(client, BRACE_MODBUS_WRITE, BRACE_REGISTER_COMMANDS + 2u * place, 4u, words, deadline_us);
 }
 
-/* A refused sign of life shows in the controller's is_held and silences, a lost connection in the next request. It is
- * sent out of step, too: what matters is that it comes. */
-void brace_modbus_show_life(brace_client_t *client, brace_sign_t sign, uint64_t deadline_us)
+static int read_number(brace_client_t *client, uint32_t index, uint64_t deadline_us, uint32_t *number)
 {
-    (void)show(client, BRACE_CLIENT_COMMAND_PLACE(life_counter), sign, deadline_us);
+    uint16_t words[2];
+    const int error = brace_modbus_try(client, BRACE_MODBUS_READ_INPUT, 2u * (index - BRACE_ENTRY_MEASURED), 2u, words,
+                                       deadline_us);
+    *number = error == 0 ? join(words) : 0u;
+    return error;
+}
+
+/* A refused sign of life shows in the controller's is_held and silences, a lost connection in the next request. Answers
+ * that come late, after one that has not come, are dropped before: they would be taken for the number. */
+void brace_modbus_show_life(brace_client_t *client, uint64_t deadline_us)
+{
+    brace_client_owner_t *owner = &client->owner;
+    uint32_t number;
+    int error = brace_modbus_fall_into_step(client, deadline_us);
+    if (error == 0 && !owner->has_begin) {
+        error = read_number(client, BRACE_CLIENT_ENTRY(life_number), deadline_us, &number);
+        if (error == 0) {
+            brace_owner_hears(owner, number);
+        }
+    }
+    if (error != 0) {
+        return;
+    }
+    const brace_client_life_t life = brace_owner_life(owner);
+    error = show(client, BRACE_CLIENT_COMMAND_PLACE(life_heard), life.number, life.check, deadline_us);
+    if (owner->has_begin && (error == 0 || brace_modbus_exception(error) != 0)) {
+        owner->has_begin = false;
+        client->motion.has_begun |= error == 0;
+    }
 }
 
 /* The check is over the request from its function on. */
-static brace_sign_t seal_of(brace_client_t *client, uint32_t address, const uint16_t *words, uint32_t words_count)
+static brace_client_seal_t seal_of(brace_client_t *client, uint32_t address, const uint16_t *words, uint32_t words_count)
 {
     uint8_t request[REQUEST_HEAD + 4 * ASKED_MOST] = {
         BRACE_MODBUS_WRITE,   (uint8_t)(address >> 8),     (uint8_t)address, 0u,
@@ -347,11 +373,12 @@ static brace_client_status_t fail_command(brace_client_t *client, uint32_t code,
 }
 
 brace_client_status_t brace_modbus_command(brace_client_t *client, uint32_t code, uint32_t place,
-                                           const uint32_t *values, uint32_t count, bool is_sealed, bool is_once,
+                                           const uint32_t *values, uint32_t count, bool is_sealed, bool moves,
                                            uint64_t deadline_us)
 {
     const uint32_t address = BRACE_REGISTER_COMMANDS + 2u * place;
     uint16_t words[2 * ASKED_MOST];
+    uint32_t begin = UINT32_MAX;
     int error;
     for (uint32_t i = 0u; i < count; i++) {
         split(values[i], words + 2u * i);
@@ -363,17 +390,22 @@ brace_client_status_t brace_modbus_command(brace_client_t *client, uint32_t code
             continue;
         }
         if (error == 0 && is_sealed && client->owner.is_open) {
-            error = show(client, BRACE_CLIENT_COMMAND_PLACE(seal_counter),
-                         seal_of(client, address, words, 2u * count), deadline_us);
+            const brace_client_seal_t seal = seal_of(client, address, words, 2u * count);
+            error = show(client, BRACE_CLIENT_COMMAND_PLACE(seal_counter), seal.counter, seal.check, deadline_us);
         }
         if (error == 0) {
             error = brace_modbus_try(client, BRACE_MODBUS_WRITE, address, 2u * count, words, deadline_us);
         }
+        if (error == 0 && moves) {
+            error = read_number(client, BRACE_CLIENT_ENTRY(begin_number), deadline_us, &begin);
+        }
         if (error == 0) {
+            if (begin != UINT32_MAX) {
+                brace_owner_may_begin(&client->owner, begin);
+            }
             return BRACE_CLIENT_OK;
         }
-        const bool is_worth_it =
-            brace_modbus_exception(error) == BUSY || (!is_once && brace_modbus_may_pass(error));
+        const bool is_worth_it = brace_modbus_exception(error) == BUSY || brace_modbus_may_pass(error);
         if (!is_worth_it || brace_bus_left_ms(deadline_us) <= BUSY_MS) {
             return fail_command(client, code, error, deadline_us);
         }

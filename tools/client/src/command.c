@@ -120,11 +120,17 @@ brace_client_status_t brace_client_become_owner(brace_client_t *client, uint64_t
         owner->is_open = true; /* the session is still ours: only a seal was lost on the way */
         return BRACE_CLIENT_OK;
     }
-    const brace_sign_t opening = brace_owner_open(owner, challenge);
+    uint32_t number;
+    status = brace_client_entry_u32(client, BRACE_CLIENT_ENTRY(life_number), brace_bus_left_ms(deadline_us), &number);
+    if (status != BRACE_CLIENT_OK) {
+        return status;
+    }
+    brace_owner_open(owner, challenge);
+    brace_owner_hears(owner, number);
     if (client->bus != NULL) {
-        brace_can_show_life(client, opening);
+        brace_can_show_life(client);
     } else {
-        brace_modbus_show_life(client, opening, deadline_us);
+        brace_modbus_show_life(client, deadline_us);
     }
     return BRACE_CLIENT_OK;
 }
@@ -133,11 +139,11 @@ static brace_client_status_t send_command(brace_client_t *client, brace_command_
 {
     if (client->bus == NULL) {
         return brace_modbus_command(client, command->question.code, command->place, command->values, command->count,
-                                    true, command->is_once, deadline_us);
+                                    true, command->moves, deadline_us);
     }
     for (;;) {
         const brace_client_status_t status =
-            brace_can_command(client, &command->question, command->is_once, deadline_us);
+            brace_can_command(client, &command->question, command->moves, deadline_us);
         if (status != BRACE_CLIENT_E_REFUSED || client->refusal != BRACE_REFUSED_BUSY ||
             brace_bus_left_ms(deadline_us) <= BUSY_MS) {
             return status;

@@ -19,18 +19,19 @@ _Static_assert((int)BRACE_TAKEUP_RUNNING == (int)BRACE_LOADING_RUNNING, "one num
 
 void brace_client_tend(brace_client_t *client, uint64_t deadline_us)
 {
-    if (!client->lives || brace_bus_left_ms(client->next_life_us) > 0) {
+    const bool has_any = client->bus == NULL || client->owner.has_number || client->owner.has_begin;
+    if (!client->lives || !has_any || brace_bus_left_ms(client->next_life_us) > 0) {
         return;
     }
     client->next_life_us = brace_bus_now_us() + LIFE_US;
-    const brace_sign_t sign = brace_owner_life(&client->owner);
     if (client->bus != NULL) {
-        brace_can_show_life(client, sign);
+        brace_can_show_life(client);
     } else {
-        brace_modbus_show_life(client, sign, deadline_us);
+        brace_modbus_show_life(client, deadline_us);
     }
 }
 
+/* The number in hand may be old. The controller refuses it then, and tells the one of now. */
 static void live(brace_client_t *client, uint64_t deadline_us)
 {
     client->next_life_us = client->lives ? client->next_life_us : 0u;
@@ -78,11 +79,6 @@ static brace_client_status_t ask_progress(brace_client_t *client, uint64_t deadl
     return BRACE_CLIENT_OK;
 }
 
-static int32_t signed_outcome(uint32_t told)
-{
-    return told < 128u ? (int32_t)told : (int32_t)told - 256;
-}
-
 /* May the limb still be on its way, or on its way back? In a fault it goes back, too, and the mode does not tell when
  * it is there. */
 static bool may_move(const progress_t *progress, uint32_t moving_mode)
@@ -94,7 +90,7 @@ static bool may_move(const progress_t *progress, uint32_t moving_mode)
  * outcome any more. */
 static void judge_take_up(brace_client_t *client, const progress_t *progress, bool is_new)
 {
-    const int32_t outcome = signed_outcome(progress->outcome);
+    const int32_t outcome = brace_client_outcome(progress->outcome);
     if (outcome == (int32_t)BRACE_TAKEUP_DONE) {
         end(client, BRACE_MOTION_DONE, 0, brace_take_up_outcome_text(outcome));
     } else if (may_move(progress, BRACE_MODE_TAKING_UP)) {
@@ -110,7 +106,7 @@ static void judge_take_up(brace_client_t *client, const progress_t *progress, bo
 
 static void judge_loading_test(brace_client_t *client, const progress_t *progress)
 {
-    const int32_t outcome = signed_outcome(progress->outcome);
+    const int32_t outcome = brace_client_outcome(progress->outcome);
     if (may_move(progress, BRACE_MODE_LOADING_TEST)) {
         return; /* on its way, or on its way back */
     }
@@ -131,18 +127,21 @@ static void judge_way_back(brace_client_t *client, const progress_t *progress)
     }
 }
 
-/* The answer to what was asked for was lost: does it run? returns whether that is known */
+/* Does it run? It does once the controller has taken the sign of life that begins it; the answer to that sign may have
+ * been lost. */
 static bool has_begun(brace_client_t *client, const progress_t *progress, bool is_new)
 {
     brace_client_motion_t *motion = &client->motion;
     const bool has_outcome = motion->kind == BRACE_TAKES_UP || motion->kind == BRACE_LOADS;
-    if (motion->now.state == BRACE_MOTION_RUNNING || !has_outcome) {
+    if (motion->now.state == BRACE_MOTION_RUNNING) {
         return true;
     }
-    if (signed_outcome(progress->outcome) == OUTCOME_RUNNING) {
+    if (motion->has_begun || (has_outcome && brace_client_outcome(progress->outcome) == OUTCOME_RUNNING)) {
         motion->now.state = BRACE_MOTION_RUNNING;
     } else if (!is_new) {
-        end(client, BRACE_MOTION_TIMED_OUT, 0, "no answer came, and the motion has not begun; ask again");
+        end(client, BRACE_MOTION_TIMED_OUT, 0,
+            "the motion has not begun, because the controller heard no sign of life within 130 ms of its answer; ask "
+            "again, over a link with a shorter round trip");
     }
     return motion->now.state == BRACE_MOTION_RUNNING;
 }
@@ -248,8 +247,8 @@ static brace_client_status_t not_begun(brace_client_t *client, brace_client_stat
     return status;
 }
 
-/* A sign of life goes before the command, so that the motion begins at once. A motion that runs already goes on when
- * this one is refused. */
+/* The motion begins with the sign of life that follows the answer. A motion that runs already goes on when this one is
+ * refused. */
 static brace_client_status_t begin(brace_client_t *client, brace_command_t *command, brace_motion_kind_t kind,
                                    uint32_t joint, int timeout_ms, int limit_ms)
 {
@@ -277,9 +276,20 @@ static brace_client_status_t begin(brace_client_t *client, brace_command_t *comm
                                                  .asked_us = now_us,
                                                  .news_us = now_us,
                                                  .limit_us = now_us + (uint64_t)limit_ms * 1000u};
+        client->owner.has_begin = false;
         live(client, deadline_us);
         status = brace_client_command(client, command, deadline_us);
-        client->motion.now.state = status == BRACE_CLIENT_OK ? BRACE_MOTION_RUNNING : BRACE_MOTION_ASKED;
+    }
+    if (status == BRACE_CLIENT_OK) { /* it is judged once it has had the time to begin */
+        client->next_life_us = 0u;
+        client->motion.asked_us = brace_bus_now_us();
+        client->motion.next_poll_us = client->motion.asked_us + POLL_US;
+        brace_client_tend(client, deadline_us);
+        if (client->bus != NULL) {
+            brace_can_hear_begin(client, client->motion.asked_us + BEGIN_US < deadline_us
+                                             ? client->motion.asked_us + BEGIN_US : deadline_us);
+        }
+        client->motion.now.state = client->motion.has_begun ? BRACE_MOTION_RUNNING : BRACE_MOTION_ASKED;
     }
     if (status == BRACE_CLIENT_E_REFUSED && ran) {
         client->motion = before;
@@ -295,7 +305,7 @@ brace_client_status_t brace_client_begin_take_up(brace_client_t *client, uint32_
 {
     const brace_can_take_up_request_t request = {.joint = joint, .flank = flank};
     brace_command_t command = {.question = {.code = BRACE_REQUEST_TAKE_UP},
-                               .is_once = true,
+                               .moves = true,
                                .place = BRACE_CLIENT_COMMAND_PLACE(take_up),
                                .values = {joint | (flank > 0 ? (uint32_t)FLANK_POSITIVE : (uint32_t)FLANK_NEGATIVE)},
                                .count = 1u};
@@ -312,6 +322,7 @@ brace_client_status_t brace_client_begin_let_go(brace_client_t *client, int time
 {
     const brace_can_let_go_request_t request = {0};
     brace_command_t command = {.question = {.code = BRACE_REQUEST_LET_GO},
+                               .moves = true,
                                .place = BRACE_CLIENT_COMMAND_PLACE(let_go),
                                .values = {ANY_VALUE},
                                .count = 1u};
@@ -326,7 +337,7 @@ brace_client_status_t brace_client_begin_loading_test(brace_client_t *client, co
                                                             .steps_per_side = plan->steps_per_side,
                                                             .step_mm = plan->step_mm,
                                                             .dwell_ms = plan->dwell_ms};
-    brace_command_t command = {.question = {.code = BRACE_REQUEST_LOADING_TEST_START}, .is_once = true};
+    brace_command_t command = {.question = {.code = BRACE_REQUEST_LOADING_TEST_START}, .moves = true};
     const bool is_number = plan->step_mm >= 0.0f; /* NaN would be sent as 'not known' */
     if (brace_can_pack_loading_test_start_request(&request, command.question.data) != 0u || !is_number) {
         return not_begun(client, brace_client_fail(client, BRACE_CLIENT_E_USAGE,
@@ -344,6 +355,7 @@ brace_client_status_t brace_client_begin_end_test(brace_client_t *client, int ti
 {
     const brace_can_write_entry_request_t request = {.index = BRACE_CLIENT_COMMAND(end_test), .value = ANY_VALUE};
     brace_command_t command = {.question = {.code = BRACE_REQUEST_WRITE_ENTRY},
+                               .moves = true,
                                .place = BRACE_CLIENT_COMMAND_PLACE(end_test),
                                .values = {ANY_VALUE},
                                .count = 1u};

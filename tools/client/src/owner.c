@@ -4,36 +4,42 @@
 
 enum { LIFE = 1, COMMAND = 2 };
 
-static brace_sign_t sign(const brace_client_owner_t *owner, uint32_t kind, const uint8_t *bytes, uint32_t count)
+static uint32_t check_of(const brace_client_owner_t *owner, uint32_t number, uint32_t kind, const uint8_t *bytes,
+                         uint32_t count)
 {
     siphash_t hash;
     siphash_start(&hash, owner->key);
     siphash_word(&hash, owner->challenge);
-    siphash_word(&hash, (uint64_t)kind << 32 | owner->counter);
-    return (brace_sign_t){.counter = owner->counter, .check = (uint32_t)siphash_end(&hash, bytes, count)};
+    siphash_word(&hash, (uint64_t)kind << 32 | number);
+    return (uint32_t)siphash_end(&hash, bytes, count);
 }
 
-brace_sign_t brace_owner_open(brace_client_owner_t *owner, uint64_t challenge)
+void brace_owner_open(brace_client_owner_t *owner, uint64_t challenge)
 {
-    brace_client_owner_t first;
     if (challenge != owner->challenge) {
         owner->is_accepted = false;
         owner->challenge = challenge;
         owner->counter = 0u;
     }
     owner->is_open = true;
-    first = *owner;
-    first.counter = 0u;
-    return sign(&first, LIFE, NULL, 0u);
 }
 
-brace_sign_t brace_owner_life(brace_client_owner_t *owner)
+void brace_owner_hears(brace_client_owner_t *owner, uint32_t number)
 {
-    if (!owner->is_open) {
-        return (brace_sign_t){0};
-    }
-    owner->counter++;
-    return sign(owner, LIFE, NULL, 0u);
+    owner->number = number;
+    owner->has_number = true;
+}
+
+void brace_owner_may_begin(brace_client_owner_t *owner, uint32_t begin)
+{
+    owner->begin = begin;
+    owner->has_begin = true;
+}
+
+brace_client_life_t brace_owner_life(const brace_client_owner_t *owner)
+{
+    const uint32_t number = owner->has_begin ? owner->begin : owner->number;
+    return (brace_client_life_t){number, owner->is_open ? check_of(owner, number, LIFE, NULL, 0u) : number};
 }
 
 uint32_t brace_owner_next_counter(brace_client_owner_t *owner)
@@ -41,7 +47,7 @@ uint32_t brace_owner_next_counter(brace_client_owner_t *owner)
     return ++owner->counter;
 }
 
-brace_sign_t brace_owner_seal(const brace_client_owner_t *owner, const uint8_t *bytes, uint32_t count)
+brace_client_seal_t brace_owner_seal(const brace_client_owner_t *owner, const uint8_t *bytes, uint32_t count)
 {
-    return sign(owner, COMMAND, bytes, count);
+    return (brace_client_seal_t){owner->counter, check_of(owner, owner->counter, COMMAND, bytes, count)};
 }

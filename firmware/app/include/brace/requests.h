@@ -54,10 +54,13 @@ typedef struct {
     brace_setting_t setting;
     brace_owner_t owner;
     bool is_held;       /* what moves the limb stands */
+    uint32_t number;    /* the controller's number of now, for a sign of life */
+    bool has_begin;     /* a motion waits for a sign of life with the number `begin` */
+    uint32_t begin;
     bool has_challenge;
     uint64_t challenge;
     uint32_t strangers;       /* commands and signs of life that were refused, but for replays */
-    uint32_t replays;         /* refused with BRACE_REFUSED_REPLAY */
+    uint32_t replays;         /* refused with BRACE_REFUSED_REPLAY or BRACE_REFUSED_LATE */
     uint32_t silences;        /* how often the limb stood because its owner was silent */
     uint32_t commits_refused; /* too early, or with another CRC */
     uint32_t erases;          /* of a slot, since start */
@@ -68,9 +71,8 @@ void brace_app_session(const brace_app_t *app, brace_session_report_t *report);
 brace_setting_t brace_app_setting(const brace_app_t *app);
 
 /* A sign of life of whoever moves the limb, which it gives every 100 ms: after 130 ms of silence the limb stands.
- *   seal: null on a bench
- * returns BRACE_OK or why not (brace/refusals.h). At most 600 instructions. */
-int32_t brace_app_life(brace_app_t *app, brace_who_t who, const brace_seal_t *seal);
+ * returns BRACE_OK or why not (brace/refusals.h). At most 700 instructions. */
+int32_t brace_app_life(brace_app_t *app, brace_who_t who, const brace_sign_t *sign);
 
 /* May it command that?
  *   seal: null: none has come; bytes: of the command, as the seal was made over them
@@ -88,13 +90,15 @@ void brace_app_become_bench(brace_app_t *app);
  * back, or in a loading test. */
 bool brace_app_moves(const brace_app_t *app);
 
-/* Holds every set-point where it is: anybody may, always. A loading test is over; what was taken up stays so. The limb
- * moves again when its owner asks for something, letting go for example.
- * returns BRACE_OK, BRACE_E_NULL, BRACE_E_MODE: nothing moves the limb */
+/* Holds every set-point where it is: anybody may, always. A loading test is over; what was taken up stays so; what waits
+ * to begin does not. The limb moves again when its owner asks for something, letting go for example.
+ * returns BRACE_OK, BRACE_E_NULL, BRACE_E_MODE: nothing moves the limb, and nothing waits to */
 brace_status_t brace_app_stop(brace_app_t *app);
 
 /* ------------------------------------------------------------------------------- what moves the limb --
- * All return BRACE_OK, BRACE_E_NULL, BRACE_E_MODE (not possible in this mode), and what is named. */
+ * All return BRACE_OK, BRACE_E_NULL, BRACE_E_MODE (not possible in this mode), and what is named. What a wire asks for in
+ * its turn of the tick begins when its owner's sign of life comes with the session report's number `begin`; without
+ * one within 130 ms it is forgotten. */
 
 /* Takes up the backlash of one joint against a flank. When its take-up holds, another joint may follow. From MONITOR,
  * or in TAKING_UP with every joint asked before holding. snapshot.play[].takeup tells how it went. If one joint

@@ -5,7 +5,7 @@ static flank_joint_t *joint_at(const takeup_t *takeup, flank_t *flank, uint32_t 
     return &flank->joint[takeup->order[place]];
 }
 
-brace_status_t takeup_request(takeup_t *takeup, flank_t *flank, int32_t joint_index, int32_t flank_sign)
+brace_status_t takeup_may_request(const takeup_t *takeup, const flank_t *flank, int32_t joint_index, int32_t flank_sign)
 {
     if (joint_index < BRACE_COXA || joint_index > BRACE_TIBIA || (flank_sign != 1 && flank_sign != -1)) {
         return BRACE_E_RANGE;
@@ -20,12 +20,19 @@ brace_status_t takeup_request(takeup_t *takeup, flank_t *flank, int32_t joint_in
         if ((int)takeup->order[i] == joint_index) {
             return BRACE_E_RANGE;
         }
-        if (joint_at(takeup, flank, i)->machine.phase != BRACE_TAKEUP_HOLD) {
+        if (flank->joint[takeup->order[i]].machine.phase != BRACE_TAKEUP_HOLD) {
             return BRACE_E_MODE; /* one at a time, because the second joint leans on the first */
         }
     }
-    const brace_status_t status = brace_takeup_request(&flank->joint[joint_index].machine, flank_sign);
+    brace_backlash_t machine = flank->joint[joint_index].machine; /* only asked */
+    return brace_takeup_request(&machine, flank_sign);
+}
+
+brace_status_t takeup_request(takeup_t *takeup, flank_t *flank, int32_t joint_index, int32_t flank_sign)
+{
+    brace_status_t status = takeup_may_request(takeup, flank, joint_index, flank_sign);
     if (status == BRACE_OK) {
+        status = brace_takeup_request(&flank->joint[joint_index].machine, flank_sign);
         takeup->order[takeup->count++] = (uint8_t)joint_index;
         takeup->begun = false;
     }
@@ -35,17 +42,6 @@ brace_status_t takeup_request(takeup_t *takeup, flank_t *flank, int32_t joint_in
 void takeup_let_go(takeup_t *takeup)
 {
     takeup->letting_go = takeup->count > 0u;
-}
-
-void takeup_forget(takeup_t *takeup, flank_t *flank)
-{
-    takeup->letting_go = false;
-    if (takeup->count > 0u) {
-        brace_backlash_t *last = &joint_at(takeup, flank, takeup->count - 1u)->machine;
-        takeup->count = (uint8_t)(takeup->count - last->requested);
-        takeup->begun = takeup->begun || last->requested;
-        last->requested = false;
-    }
 }
 
 bool takeup_holds(const takeup_t *takeup, const flank_t *flank)

@@ -20,11 +20,12 @@ typedef struct {
  *   BRACE_E_MODE (another joint does not hold yet, or the joints are being let go) */
 brace_status_t takeup_request(takeup_t *takeup, flank_t *flank, int32_t joint_index, int32_t flank_sign);
 
+/* What takeup_request would return now. It changes nothing. */
+brace_status_t takeup_may_request(const takeup_t *takeup, const flank_t *flank, int32_t joint_index,
+                                  int32_t flank_sign);
+
 /* Begins to let every joint go. */
 void takeup_let_go(takeup_t *takeup);
-
-/* Takes back what was asked for and has not begun: a joint that has not moved yet, or to let go. */
-void takeup_forget(takeup_t *takeup, flank_t *flank);
 
 /* One tick, after flank_tick. A joint that fails takes the others with it; one that is back makes room for the next. */
 void takeup_step(takeup_t *takeup, flank_t *flank);

@@ -7,7 +7,7 @@
 static uint32_t patience_us(const ownership_t *ownership, const ownership_inputs_t *inputs)
 {
     const bool is_bench = ownership->session.setting == BRACE_SETTING_BENCH;
-    if (inputs->moves || (inputs->runs && is_bench)) {
+    if (inputs->moves || ((inputs->runs || ownership->waits) && is_bench)) {
         return ownership->session.life_us;
     }
     if (is_bench) {
@@ -23,37 +23,21 @@ static void hold(ownership_t *ownership, bool fell_silent)
     ownership->held_us = 0;
 }
 
-static void rest(ownership_t *ownership)
-{
-    ownership->is_held = ownership->waits_for_life = ownership->program_moves = ownership->fell_silent = false;
-}
-
-/* What waits for a sign of life. */
-static ownership_step_t wait(ownership_t *ownership)
-{
-    if (session_may_move(&ownership->session)) {
-        ownership->is_held = ownership->waits_for_life = ownership->fell_silent = false;
-    } else if (!ownership->session.is_open) {
-        ownership->waits_for_life = false;
-        ownership->is_held = ownership->was_held;
-        ownership->session.counts.silences += ownership->session.counts.silences < UINT32_MAX;
-        return OWNERSHIP_FORGETS;
-    }
-    return OWNERSHIP_GOES_ON;
-}
-
-ownership_step_t ownership_step(ownership_t *ownership, const ownership_inputs_t *inputs)
+/* What waits for its sign of life. returns whether that has come */
+static bool has_begun(ownership_t *ownership)
 {
     session_t *session = &ownership->session;
-    (void)session_tick(session, inputs->stores ? 0u : inputs->since_us, patience_us(ownership, inputs));
-    ownership->has_configurer = ownership->has_configurer && inputs->configures;
-    if (!inputs->runs) {
-        rest(ownership);
-        return OWNERSHIP_GOES_ON;
-    }
-    if (ownership->waits_for_life) {
-        return wait(ownership);
-    }
+    const bool has_come = session->has_begun;
+    session->has_begun = false;
+    ownership->waits = session->has_begin;
+    session->counts.silences += !has_come && !session->has_begin && session->counts.silences < UINT32_MAX;
+    return has_come;
+}
+
+/* What moves the limb, or is held. */
+static ownership_step_t run(ownership_t *ownership, const ownership_inputs_t *inputs)
+{
+    session_t *session = &ownership->session;
     if (!ownership->is_held && !ownership->program_moves && !session_may_move(session)) {
         hold(ownership, true);
         session->counts.silences += inputs->moves && session->counts.silences < UINT32_MAX;
@@ -65,29 +49,42 @@ ownership_step_t ownership_step(ownership_t *ownership, const ownership_inputs_t
     return lets_go ? OWNERSHIP_LETS_GO : OWNERSHIP_GOES_ON;
 }
 
+ownership_step_t ownership_step(ownership_t *ownership, const ownership_inputs_t *inputs)
+{
+    (void)session_tick(&ownership->session, inputs->stores ? 0u : inputs->since_us, patience_us(ownership, inputs));
+    ownership->has_configurer = ownership->has_configurer && inputs->configures;
+    if (ownership->waits && has_begun(ownership)) {
+        return OWNERSHIP_BEGINS;
+    }
+    if (!inputs->runs) {
+        ownership->is_held = ownership->program_moves = ownership->fell_silent = false;
+        return OWNERSHIP_GOES_ON;
+    }
+    return run(ownership, inputs);
+}
+
+void ownership_wait(ownership_t *ownership)
+{
+    session_await(&ownership->session);
+    ownership->waits = true;
+}
+
 void ownership_begin(ownership_t *ownership)
 {
     if (!ownership->is_by_wire) {
         session_end(&ownership->session);
-        rest(ownership);
-        ownership->program_moves = true;
-        return;
     }
-    ownership->program_moves = false;
-    if (session_may_move(&ownership->session)) {
-        ownership->is_held = ownership->waits_for_life = ownership->fell_silent = false;
-        return;
-    }
-    ownership->was_held = ownership->waits_for_life ? ownership->was_held : ownership->is_held;
-    ownership->is_held = ownership->waits_for_life = true;
+    ownership->program_moves = !ownership->is_by_wire;
+    ownership->is_held = ownership->waits = ownership->fell_silent = false;
 }
 
-bool ownership_stop(ownership_t *ownership)
+void ownership_stop(ownership_t *ownership, bool runs)
 {
-    const bool waited = ownership->waits_for_life;
-    ownership->waits_for_life = false;
-    hold(ownership, false);
-    return waited;
+    session_t *session = &ownership->session;
+    ownership->waits = session->has_begin = session->has_begun = session->is_begun = false;
+    if (runs) {
+        hold(ownership, false);
+    }
 }
 
 int32_t ownership_may_write(ownership_t *ownership, brace_who_t who, bool has_gone)

@@ -228,6 +228,8 @@ static void take_session(const brace_app_t *app, brace_measured_t *m)
     m->commits_refused = session.commits_refused;
     m->erases = session.erases;
     m->last_refusal = (uint32_t)session.last_refusal & 0xffu;
+    m->life_number = session.number;
+    m->begin_number = session.has_begin ? session.begin : UINT32_MAX;
 }
 
 void measured_take(const brace_app_t *app, const brace_app_counters_t *counters, uint32_t now_us,

@@ -44,10 +44,11 @@
     X(BRACE_REQUEST_K_UNDER_LOAD_AT_POSTURE, k_under_load_at_posture) \
     X(BRACE_REQUEST_K_UNDER_LOAD_AT_TIP_KNEE_UP, k_under_load_at_tip_knee_up) \
     X(BRACE_REQUEST_K_UNDER_LOAD_AT_TIP_KNEE_DOWN, k_under_load_at_tip_knee_down) \
-    X(BRACE_REQUEST_TIP_FORCE_IN_SPACE, tip_force_in_space)
+    X(BRACE_REQUEST_TIP_FORCE_IN_SPACE, tip_force_in_space) \
+    X(BRACE_REQUEST_SIGN_OF_LIFE, sign_of_life)
 
 enum {
-    BRACE_REQUEST_CODE_MOST = 31,
+    BRACE_REQUEST_CODE_MOST = 32,
     BRACE_CAN_ANSWER_PARTS_MOST = 6 /* frames of one answer */
 };
 
@@ -180,6 +181,7 @@ typedef struct {
 typedef struct {
     uint32_t phase;
     uint32_t setting;
+    uint32_t begin;
 } brace_take_up_answer_t;
 
 typedef struct {
@@ -188,6 +190,7 @@ typedef struct {
 typedef struct {
     uint32_t mode;
     uint32_t setting;
+    uint32_t begin;
 } brace_let_go_answer_t;
 
 typedef struct {
@@ -199,6 +202,7 @@ typedef struct {
 typedef struct {
     uint32_t rows;
     uint32_t setting;
+    uint32_t begin;
 } brace_loading_test_start_answer_t;
 
 typedef struct {
@@ -359,6 +363,16 @@ typedef struct {
     float fz_n;
 } brace_tip_force_in_space_answer_t;
 
+typedef struct {
+    uint32_t heard;
+    uint32_t check;
+} brace_sign_of_life_request_t;
+typedef struct {
+    uint32_t owner;
+    uint32_t setting;
+    uint32_t number;
+} brace_sign_of_life_answer_t;
+
 /* What is asked, by the request's name, or word by word. */
 typedef union {
     brace_read_entry_request_t read_entry;
@@ -392,6 +406,7 @@ typedef union {
     brace_k_under_load_at_tip_knee_up_request_t k_under_load_at_tip_knee_up;
     brace_k_under_load_at_tip_knee_down_request_t k_under_load_at_tip_knee_down;
     brace_tip_force_in_space_request_t tip_force_in_space;
+    brace_sign_of_life_request_t sign_of_life;
     uint32_t word[4];
 } brace_request_t;
 
@@ -428,6 +443,7 @@ typedef union {
     brace_k_under_load_at_tip_knee_up_answer_t k_under_load_at_tip_knee_up;
     brace_k_under_load_at_tip_knee_down_answer_t k_under_load_at_tip_knee_down;
     brace_tip_force_in_space_answer_t tip_force_in_space;
+    brace_sign_of_life_answer_t sign_of_life;
     uint32_t word[14];
 } brace_answer_t;
 

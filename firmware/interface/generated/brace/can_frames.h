@@ -184,6 +184,8 @@
     X(k_under_load_at_tip_knee_down_answer_4, 8) \
     X(tip_force_in_space_request, 8) \
     X(tip_force_in_space_answer_0, 8) \
+    X(sign_of_life_request, 8) \
+    X(sign_of_life_answer_0, 8) \
     X(refusal, 8)
 
 #endif

@@ -14,7 +14,7 @@
 #include <stdint.h>
 
 /* Of every frame, entry and parameter, with types, steps and units: what two ends must agree on. */
-#define BRACE_DICTIONARY_HASH 0xa44f4b80u
+#define BRACE_DICTIONARY_HASH 0xc10823b7u
 #define BRACE_PROTOCOL 2u
 
 /* Identifiers of node 0; a controller adds its node number, 1-127. */
@@ -65,6 +65,7 @@ enum {
     BRACE_REQUEST_K_UNDER_LOAD_AT_TIP_KNEE_UP = 29,
     BRACE_REQUEST_K_UNDER_LOAD_AT_TIP_KNEE_DOWN = 30,
     BRACE_REQUEST_TIP_FORCE_IN_SPACE = 31,
+    BRACE_REQUEST_SIGN_OF_LIFE = 32,
 };
 
 /* First byte of an answer: the number of this frame, which no other answer has. */
@@ -135,6 +136,7 @@ enum {
     BRACE_K_UNDER_LOAD_AT_TIP_KNEE_DOWN_ANSWER_3 = 64,
     BRACE_K_UNDER_LOAD_AT_TIP_KNEE_DOWN_ANSWER_4 = 65,
     BRACE_TIP_FORCE_IN_SPACE_ANSWER_0 = 66,
+    BRACE_SIGN_OF_LIFE_ANSWER_0 = 67,
     BRACE_ANSWER_REFUSED = 255
 };
 
@@ -1232,6 +1234,8 @@ typedef struct {
     uint32_t phase;
     /* who may move the limb and write to this controller */
     uint32_t setting;
+    /* the motion begins when the owner's sign of life carries this number back */
+    uint32_t begin;
 } brace_can_take_up_answer_0_t;
 uint32_t brace_can_pack_take_up_answer_0(const brace_can_take_up_answer_0_t *message, uint8_t data[8]);
 void brace_can_unpack_take_up_answer_0(const uint8_t data[8], brace_can_take_up_answer_0_t *message);
@@ -1248,6 +1252,8 @@ typedef struct {
     uint32_t mode;
     /* who may move the limb and write to this controller */
     uint32_t setting;
+    /* the motion begins when the owner's sign of life carries this number back */
+    uint32_t begin;
 } brace_can_let_go_answer_0_t;
 uint32_t brace_can_pack_let_go_answer_0(const brace_can_let_go_answer_0_t *message, uint8_t data[8]);
 void brace_can_unpack_let_go_answer_0(const uint8_t data[8], brace_can_let_go_answer_0_t *message);
@@ -1274,6 +1280,8 @@ typedef struct {
     uint32_t rows;
     /* who may move the limb and write to this controller */
     uint32_t setting;
+    /* the motion begins when the owner's sign of life carries this number back */
+    uint32_t begin;
 } brace_can_loading_test_start_answer_0_t;
 uint32_t brace_can_pack_loading_test_start_answer_0(const brace_can_loading_test_start_answer_0_t *message,
     uint8_t data[8]);
@@ -1867,6 +1875,29 @@ uint32_t brace_can_pack_tip_force_in_space_answer_0(const brace_can_tip_force_in
     uint8_t data[8]);
 void brace_can_unpack_tip_force_in_space_answer_0(const uint8_t data[8],
     brace_can_tip_force_in_space_answer_0_t *message);
+
+typedef struct {
+    uint32_t token;
+    /* low half of the number that the controller has sent: in the answer to the sign before, in the answer to the
+     * command that begins now, as life_number */
+    uint32_t heard;
+    /* on a bench that whole number; on a guarded board the check over challenge and number */
+    uint32_t check;
+} brace_can_sign_of_life_request_t;
+uint32_t brace_can_pack_sign_of_life_request(const brace_can_sign_of_life_request_t *message, uint8_t data[8]);
+void brace_can_unpack_sign_of_life_request(const uint8_t data[8], brace_can_sign_of_life_request_t *message);
+
+typedef struct {
+    uint32_t token;
+    /* the port of the one whose session is open */
+    uint32_t owner;
+    /* who may move the limb and write to this controller */
+    uint32_t setting;
+    /* the number for the next sign of life */
+    uint32_t number;
+} brace_can_sign_of_life_answer_0_t;
+uint32_t brace_can_pack_sign_of_life_answer_0(const brace_can_sign_of_life_answer_0_t *message, uint8_t data[8]);
+void brace_can_unpack_sign_of_life_answer_0(const uint8_t data[8], brace_can_sign_of_life_answer_0_t *message);
 
 typedef struct {
     uint32_t token;

@@ -268,7 +268,7 @@ typedef struct {
     /* how many commands and life signs came without the key or from somebody who is not the owner, counted since
      * start */
     uint32_t strangers_refused;
-    /* how many sealed commands and life signs came a second time, counted since start */
+    /* how many sealed commands came a second time, and how many life signs came late, counted since start */
     uint32_t replays_refused;
     /* how often an owner fell silent while the limb moved, counted since start */
     uint32_t silences;
@@ -319,9 +319,14 @@ typedef struct {
     /* the sequence number of the set that was stored last; another one than parameter_sequence while
      * OLD_PARAMETERS is there, because that set is not whole any more */
     uint32_t parameter_sequence_wanted;
+    /* the controller's number of now, which the next sign of life carries back: docs/security.md */
+    uint32_t life_number;
+    /* the number that the sign of life carries back with which the motion that was asked for begins; all ones
+     * where none waits */
+    uint32_t begin_number;
 } brace_measured_t;
 
-enum { BRACE_MEASURED_COUNT = 145 };
+enum { BRACE_MEASURED_COUNT = 147 };
 #ifndef __cplusplus
 _Static_assert(sizeof(brace_measured_t) == 4 * BRACE_MEASURED_COUNT, "32 bits each");
 #endif
@@ -502,10 +507,10 @@ typedef struct {
     /* the order to store the holding registers' parameters if this is the CRC of the whole set, as parameter_crc
      * tells it once they are in force */
     uint32_t commit_crc;
-    /* the life sign of the owner, with life_mac in one request, at least every 100 ms while the limb moves: its
-     * number, larger than any before */
-    uint32_t life_counter;
-    /* the check of that life sign; on a bench any value. Number 0 and its check open a session */
+    /* the life sign of the owner, with life_mac in one request, at least every 100 ms while the limb moves:
+     * life_number as it has just been read, or begin_number */
+    uint32_t life_heard;
+    /* the check of that life sign; on a bench any value. On a guarded board the first one opens a session */
     uint32_t life_mac;
     /* the seal of the next write of this master, with seal_mac in one request: its number, larger than any before */
     uint32_t seal_counter;

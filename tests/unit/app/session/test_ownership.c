@@ -17,7 +17,7 @@ static ownership_t ownership;
 void setUp(void)
 {
     memset(&ownership, 0, sizeof ownership);
-    session_start(&ownership.session, true, NULL);
+    session_start(&ownership.session, true, NULL, 77);
 }
 
 void tearDown(void) {}
@@ -26,6 +26,14 @@ static ownership_step_t moves(uint32_t let_go_after_us)
 {
     const ownership_inputs_t inputs = {
         .runs = true, .moves = true, .since_us = TICK_US, .let_go_after_us = let_go_after_us};
+    session_pass(&ownership.session, TICK_US);
+    return ownership_step(&ownership, &inputs);
+}
+
+static ownership_step_t rests(void)
+{
+    const ownership_inputs_t inputs = {.since_us = TICK_US};
+    session_pass(&ownership.session, TICK_US);
     return ownership_step(&ownership, &inputs);
 }
 
@@ -33,12 +41,23 @@ static void asks(brace_who_t who)
 {
     TEST_ASSERT_EQUAL(BRACE_OK, session_command(&ownership.session, who, NULL, NULL, 0));
     ownership.is_by_wire = true;
+    ownership_wait(&ownership);
+}
+
+/* Hears what it was answered, and begins. */
+static void begins(brace_who_t who)
+{
+    const brace_sign_t sign = {.heard = ownership.session.begin, .heard_bits = 32};
+    TEST_ASSERT_EQUAL(BRACE_OK, session_life(&ownership.session, who, &sign));
+    TEST_ASSERT_EQUAL(OWNERSHIP_BEGINS, rests());
     ownership_begin(&ownership);
 }
 
 static void lives(brace_who_t who)
 {
-    TEST_ASSERT_EQUAL(BRACE_OK, session_life(&ownership.session, who, NULL));
+    session_pass(&ownership.session, SESSION_LIFE_US / SESSION_SLOTS_PER_LIFE); /* another number */
+    const brace_sign_t sign = {.heard = session_number(&ownership.session), .heard_bits = 32};
+    TEST_ASSERT_EQUAL(BRACE_OK, session_life(&ownership.session, who, &sign));
 }
 
 /* How long an owner that lives may be silent: by what goes on, and on which board. */
@@ -73,35 +92,61 @@ static void test_the_patience_with_an_owner(void)
     }
 }
 
-static void test_on_a_bench_it_waits_for_life_and_is_forgotten_without(void)
+/* A bench waits for as long as a guarded board does. */
+static void test_it_waits_for_life_and_is_forgotten_without(void)
 {
-    asks(we);
-    TEST_ASSERT_TRUE(ownership.is_held);
-    for (uint32_t us = 0; us < SESSION_LIFE_US; us += TICK_US) {
-        TEST_ASSERT_EQUAL(OWNERSHIP_GOES_ON, moves(0));
-        TEST_ASSERT_TRUE(ownership.is_held);
+    static const uint8_t key[SIPHASH_KEY_BYTES] = {1};
+    for (int is_bench = 0; is_bench < 2; is_bench++) {
+        setUp();
+        session_start(&ownership.session, is_bench == 1, is_bench == 1 ? NULL : key, 77);
+        ownership.session.is_open = ownership.session.is_alive = true;
+        ownership.session.owner = we;
+        ownership_wait(&ownership);
+        for (uint32_t us = 0; us < SESSION_LIFE_US; us += TICK_US) {
+            TEST_ASSERT_EQUAL(OWNERSHIP_GOES_ON, rests());
+            TEST_ASSERT_TRUE(ownership.waits);
+        }
+        TEST_ASSERT_EQUAL(OWNERSHIP_GOES_ON, rests());
+        TEST_ASSERT_FALSE(ownership.waits);
+        TEST_ASSERT_EQUAL(1, ownership.session.counts.silences);
     }
-    TEST_ASSERT_EQUAL(OWNERSHIP_FORGETS, moves(0));
-    TEST_ASSERT_FALSE(ownership.is_held);
-    TEST_ASSERT_EQUAL(1, ownership.session.counts.silences);
 }
 
-static void test_the_first_sign_of_life_sets_it_going(void)
+static void test_the_sign_with_its_number_sets_it_going(void)
 {
     asks(we);
-    lives(we);
+    lives(we); /* with another number */
+    TEST_ASSERT_EQUAL(OWNERSHIP_GOES_ON, rests());
+    TEST_ASSERT_TRUE(ownership.waits);
+    begins(we);
+    TEST_ASSERT_FALSE(ownership.waits || ownership.is_held);
     TEST_ASSERT_EQUAL(OWNERSHIP_GOES_ON, moves(0));
-    TEST_ASSERT_FALSE(ownership.is_held);
-    asks(we); /* something else, while it lives */
-    TEST_ASSERT_FALSE(ownership.is_held);
+    TEST_ASSERT_EQUAL(0, ownership.session.counts.silences);
+}
+
+/* What the limb does goes on while something else waits. */
+static void test_what_moves_goes_on_while_something_waits(void)
+{
+    asks(we);
+    begins(we);
+    TEST_ASSERT_EQUAL(OWNERSHIP_GOES_ON, moves(0));
+    asks(we);
+    for (uint32_t us = 0; us < 2u * SESSION_LIFE_US; us += TICK_US) {
+        if (us % 40000u == 0u) {
+            lives(we);
+        }
+        TEST_ASSERT_EQUAL(OWNERSHIP_GOES_ON, moves(0));
+        TEST_ASSERT_FALSE(ownership.is_held);
+    }
+    TEST_ASSERT_FALSE(ownership.waits);
 }
 
 static void test_a_silent_owner_is_held_counted_and_let_go_as_told(void)
 {
     const uint32_t let_go_after_us = 20u * TICK_US;
     asks(we);
-    lives(we);
-    for (uint32_t us = 0; us < SESSION_LIFE_US; us += TICK_US) {
+    begins(we);
+    for (uint32_t us = TICK_US; us < SESSION_LIFE_US; us += TICK_US) {
         TEST_ASSERT_EQUAL(OWNERSHIP_GOES_ON, moves(let_go_after_us));
     }
     TEST_ASSERT_EQUAL(OWNERSHIP_STOPS, moves(let_go_after_us));
@@ -116,29 +161,39 @@ static void test_a_silent_owner_is_held_counted_and_let_go_as_told(void)
 static void test_what_somebody_has_stopped_is_not_let_go(void)
 {
     asks(we);
-    lives(we);
+    begins(we);
     (void)moves(TICK_US);
-    TEST_ASSERT_FALSE(ownership_stop(&ownership)); /* nothing waited */
+    ownership_stop(&ownership, true);
     for (int i = 0; i < 10; i++) {
         TEST_ASSERT_EQUAL(OWNERSHIP_GOES_ON, moves(TICK_US));
         TEST_ASSERT_TRUE(ownership.is_held);
     }
     asks(we);
+    TEST_ASSERT_TRUE(ownership.is_held);
+    begins(we);
     TEST_ASSERT_FALSE(ownership.is_held);
 }
 
+/* Even in the tick in which its sign of life has come. */
 static void test_stop_takes_back_what_waits(void)
 {
-    asks(we);
-    TEST_ASSERT_TRUE(ownership_stop(&ownership));
-    TEST_ASSERT_FALSE(ownership.waits_for_life);
-    TEST_ASSERT_TRUE(ownership.is_held);
+    for (int has_come = 0; has_come < 2; has_come++) {
+        asks(we);
+        const brace_sign_t sign = {.heard = ownership.session.begin, .heard_bits = 32};
+        if (has_come == 1) {
+            TEST_ASSERT_EQUAL(BRACE_OK, session_life(&ownership.session, we, &sign));
+        }
+        ownership_stop(&ownership, false);
+        TEST_ASSERT_FALSE(ownership.waits || ownership.is_held);
+        TEST_ASSERT_EQUAL(BRACE_REFUSED_LATE, session_life(&ownership.session, we, &sign));
+        TEST_ASSERT_EQUAL(OWNERSHIP_GOES_ON, rests());
+    }
 }
 
 static void test_the_program_needs_no_signs_of_life(void)
 {
     asks(we);
-    lives(we);
+    begins(we);
     ownership.is_by_wire = false;
     ownership_begin(&ownership);
     TEST_ASSERT_FALSE(ownership.session.is_open); /* nobody else owns it then */
@@ -147,8 +202,7 @@ static void test_the_program_needs_no_signs_of_life(void)
         TEST_ASSERT_EQUAL(OWNERSHIP_GOES_ON, moves(0));
         TEST_ASSERT_FALSE(ownership.is_held);
     }
-    const ownership_inputs_t rests = {.since_us = TICK_US};
-    TEST_ASSERT_EQUAL(OWNERSHIP_GOES_ON, ownership_step(&ownership, &rests));
+    TEST_ASSERT_EQUAL(OWNERSHIP_GOES_ON, rests());
     TEST_ASSERT_TRUE(ownership_is_idle(&ownership));
 }
 
@@ -159,9 +213,9 @@ static void test_after_the_program_a_wire_s_owner_needs_them(void)
     ownership_begin(&ownership);
     TEST_ASSERT_EQUAL(OWNERSHIP_GOES_ON, moves(0));
     asks(we);
-    lives(we);
+    begins(we);
     ownership_step_t last = OWNERSHIP_GOES_ON;
-    for (uint32_t us = 0; us <= SESSION_LIFE_US; us += TICK_US) {
+    for (uint32_t us = TICK_US; us <= SESSION_LIFE_US; us += TICK_US) {
         last = moves(0);
     }
     TEST_ASSERT_EQUAL(OWNERSHIP_STOPS, last);
@@ -170,7 +224,7 @@ static void test_after_the_program_a_wire_s_owner_needs_them(void)
 
 static void test_one_master_writes_until_it_has_gone(void)
 {
-    const ownership_inputs_t configures = {.configures = true, .since_us = TICK_US}, rests = {.since_us = TICK_US};
+    const ownership_inputs_t configures = {.configures = true, .since_us = TICK_US};
     TEST_ASSERT_EQUAL(BRACE_OK, ownership_may_write(&ownership, they, false));
     TEST_ASSERT_FALSE(ownership_is_idle(&ownership));
     (void)ownership_step(&ownership, &configures);
@@ -179,7 +233,7 @@ static void test_one_master_writes_until_it_has_gone(void)
     TEST_ASSERT_EQUAL(BRACE_REFUSED_OWNED, ownership_may_write(&ownership, we, true)); /* of another port */
     TEST_ASSERT_EQUAL(2, ownership.session.counts.strangers);
     TEST_ASSERT_EQUAL(BRACE_OK, ownership_may_write(&ownership, others, true));
-    (void)ownership_step(&ownership, &rests); /* CONFIGURATION has ended */
+    (void)rests(); /* CONFIGURATION has ended */
     TEST_ASSERT_EQUAL(BRACE_OK, ownership_may_write(&ownership, we, false));
     TEST_ASSERT_EQUAL(BRACE_REFUSED_OWNED, ownership_may_write(&ownership, they, true));
 }
@@ -188,29 +242,26 @@ static void test_storing_is_no_silence(void)
 {
     const ownership_inputs_t stores = {.runs = true, .moves = true, .stores = true, .since_us = 10u * SESSION_LIFE_US};
     asks(we);
-    lives(we);
+    begins(we);
     TEST_ASSERT_EQUAL(OWNERSHIP_GOES_ON, ownership_step(&ownership, &stores));
     TEST_ASSERT_TRUE(ownership.session.is_open);
 }
 
-/* What was held is held on when what was asked for afterwards is forgotten, however often it was asked for. */
+/* What was held is held on while the next motion waits, and when it is forgotten. */
 static void test_what_was_held_stays_held_when_the_next_motion_is_forgotten(void)
 {
     asks(we);
-    lives(we);
+    begins(we);
     (void)moves(0);
-    TEST_ASSERT_FALSE(ownership_stop(&ownership));
+    ownership_stop(&ownership, true);
     session_end(&ownership.session);
     asks(we);
     asks(we);
-    TEST_ASSERT_TRUE(ownership.waits_for_life && ownership.is_held);
-    ownership_step_t last = OWNERSHIP_GOES_ON;
-    for (uint32_t us = 0; us <= SESSION_LIFE_US && last == OWNERSHIP_GOES_ON; us += TICK_US) {
-        last = moves(0);
+    for (uint32_t us = 0; us < 2u * SESSION_LIFE_US; us += TICK_US) {
+        TEST_ASSERT_EQUAL(OWNERSHIP_GOES_ON, moves(0));
+        TEST_ASSERT_TRUE(ownership.is_held);
     }
-    TEST_ASSERT_EQUAL(OWNERSHIP_FORGETS, last);
-    TEST_ASSERT_TRUE(ownership.is_held);
-    TEST_ASSERT_FALSE(ownership.waits_for_life);
+    TEST_ASSERT_FALSE(ownership.waits);
 }
 
 /* A loading test that is over and a take-up that holds are at rest already: the owner that goes stops neither, and no
@@ -219,7 +270,7 @@ static void test_an_owner_that_goes_while_nothing_moves_is_no_silence(void)
 {
     const ownership_inputs_t holds = {.runs = true, .since_us = SESSION_LIFE_US + TICK_US};
     asks(we);
-    lives(we);
+    begins(we);
     (void)moves(0);
     TEST_ASSERT_EQUAL(OWNERSHIP_GOES_ON, ownership_step(&ownership, &holds));
     TEST_ASSERT_TRUE(ownership.is_held);
@@ -231,7 +282,7 @@ static void test_nothing_is_counted_beyond_a_word(void)
 {
     ownership.session.counts.silences = UINT32_MAX;
     asks(we);
-    lives(we);
+    begins(we);
     for (uint32_t us = 0; us <= SESSION_LIFE_US; us += TICK_US) {
         (void)moves(0);
     }
@@ -253,13 +304,12 @@ static void test_nothing_is_counted_beyond_a_word(void)
 static void test_idle_is_who_has_nothing_to_mind(void)
 {
     TEST_ASSERT_TRUE(ownership_is_idle(&ownership));
-    lives(we); /* heard, and about to ask */
-    TEST_ASSERT_FALSE(ownership_is_idle(&ownership));
-    setUp();
+    lives(we); /* heard, and nothing more */
+    TEST_ASSERT_TRUE(ownership_is_idle(&ownership));
     asks(we);
     TEST_ASSERT_FALSE(ownership_is_idle(&ownership));
     setUp();
-    (void)ownership_stop(&ownership); /* held */
+    ownership_stop(&ownership, true); /* held */
     TEST_ASSERT_FALSE(ownership_is_idle(&ownership));
     setUp();
     ownership.program_moves = true;
@@ -269,7 +319,7 @@ static void test_idle_is_who_has_nothing_to_mind(void)
     TEST_ASSERT_FALSE(ownership_is_idle(&ownership));
     static const uint8_t key[SIPHASH_KEY_BYTES] = {1};
     setUp();
-    session_start(&ownership.session, false, key);
+    session_start(&ownership.session, false, key, 77);
     TEST_ASSERT_FALSE(ownership_is_idle(&ownership)); /* it still waits for the challenge of the next session */
     session_challenge(&ownership.session, 1);
     TEST_ASSERT_TRUE(ownership_is_idle(&ownership));
@@ -282,7 +332,7 @@ static void test_every_silence_is_held_as_long(void)
     for (int round = 0; round < 3; round++) {
         int held = 0;
         asks(we);
-        lives(we);
+        begins(we);
         TEST_ASSERT_EQUAL(OWNERSHIP_GOES_ON, moves(LET_GO_TICKS * TICK_US));
         TEST_ASSERT_FALSE(ownership.is_held);
         ownership_step_t step = OWNERSHIP_GOES_ON;
@@ -302,8 +352,9 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_the_patience_with_an_owner);
-    RUN_TEST(test_on_a_bench_it_waits_for_life_and_is_forgotten_without);
-    RUN_TEST(test_the_first_sign_of_life_sets_it_going);
+    RUN_TEST(test_it_waits_for_life_and_is_forgotten_without);
+    RUN_TEST(test_the_sign_with_its_number_sets_it_going);
+    RUN_TEST(test_what_moves_goes_on_while_something_waits);
     RUN_TEST(test_a_silent_owner_is_held_counted_and_let_go_as_told);
     RUN_TEST(test_what_somebody_has_stopped_is_not_let_go);
     RUN_TEST(test_stop_takes_back_what_waits);

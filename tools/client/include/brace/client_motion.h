@@ -8,7 +8,9 @@
  *
  * While the limb moves, the controller wants a sign of life at least every 100 ms; after 130 ms without one the limb
  * stands. brace_client_step gives the signs: call it at least every 50 ms. Every other call of the client gives them
- * too while it waits. A program that hangs gives none, so the limb stands.
+ * too while it waits. A program that hangs gives none, so the limb stands. Each sign carries a number that the controller
+ * has sent within the last 130 ms, so that nothing that was held up on its way moves the limb: with calls every 50 ms the
+ * round trip to the controller may be 80 ms.
  *
  * A client follows one motion at a time, the one that was begun last. It allocates nothing for it.
  */
@@ -25,14 +27,15 @@ enum { BRACE_CLIENT_KEY_BYTES = 16 };
 
 typedef enum {
     BRACE_MOTION_NONE = 0,      /* nothing was asked for */
-    BRACE_MOTION_ASKED = 1,     /* asked for, and no answer has come; brace_client_step finds out whether it runs */
+    BRACE_MOTION_ASKED = 1,     /* asked for; brace_client_step finds out whether it runs */
     BRACE_MOTION_RUNNING = 2,   /* the limb moves */
     BRACE_MOTION_DONE = 3,      /* it ended as it should */
     BRACE_MOTION_REFUSED = 4,   /* the controller did not begin it */
     BRACE_MOTION_FAILED = 5,    /* it began and failed, or a fault ended it; what was taken up is let go */
     BRACE_MOTION_STOPPED = 6,   /* somebody has stopped it: the limb stands */
     BRACE_MOTION_TIMED_OUT = 7, /* it took longer than its limit, and the client has told it to stop; or it
-                                   has not begun, because no answer came: brace_client_why tells which */
+                                   has not begun, because no answer came or the controller heard no sign of
+                                   life in time: brace_client_why tells which */
     BRACE_MOTION_OWNER_LOST = 8, /* the controller heard no sign of life in time: the limb stands */
     BRACE_MOTION_NOT_BEGUN = 9  /* the call that was to begin it failed before it asked for anything */
 } brace_motion_state_t;
@@ -61,7 +64,7 @@ void brace_client_set_key(brace_client_t *client, const uint8_t key[BRACE_CLIENT
 
 /* Each asks for a motion and waits at most timeout_ms for the controller's answer.
  *   limit_ms: the whole motion may take so long [1, 3 600 000]; then the client tells the limb to stop
- * returns OK: it runs; call brace_client_step. E_REFUSED: the controller does not begin it. E_USAGE, E_UNSUPPORTED: it
+ * returns OK: the controller has taken it, and it begins with the next sign of life; call brace_client_step. E_REFUSED: the controller does not begin it. E_USAGE, E_UNSUPPORTED: it
  *   was not asked for. E_TIMEOUT and other failures to answer: it may have begun; brace_client_step finds out, and
  *   tells NOT_BEGUN where the call failed before it asked. Where a motion runs already, that one goes on unless a new
  *   one has begun, and brace_client_step tells of it. */

@@ -104,18 +104,33 @@ static bool set_out(brace_loading_t *test, const loading_inputs_t *inputs)
     return true;
 }
 
-brace_status_t loading_start(brace_loading_t *test, const loading_inputs_t *inputs, const brace_loading_setup_t *setup)
+/* The test as it would begin now. returns as loading_start; only with BRACE_OK it can begin */
+static brace_status_t made(const brace_loading_t *test, const loading_inputs_t *inputs,
+                           const brace_loading_setup_t *setup, brace_loading_t *next)
 {
-    const brace_snapshot_t *now = inputs->now;
     if (!setup_is_sound(setup) || !moves_everywhere(setup, inputs->parameters->controller.tick_us)) {
         return BRACE_E_RANGE;
     }
-    brace_loading_t next = {.phase = LOADING_LISTEN,
-                            .counts = test->counts,
-                            .result = {.outcome = BRACE_LOADING_RUNNING, .setup = *setup}};
-    levers_begin(&next, inputs);
-    if (!now->k_is_valid || !set_out(&next, inputs)) {
-        return BRACE_E_SINGULAR;
+    *next = (brace_loading_t){.phase = LOADING_LISTEN,
+                              .counts = test->counts,
+                              .result = {.outcome = BRACE_LOADING_RUNNING, .setup = *setup}};
+    levers_begin(next, inputs);
+    return inputs->now->k_is_valid && set_out(next, inputs) ? BRACE_OK : BRACE_E_SINGULAR;
+}
+
+brace_status_t loading_may_start(const brace_loading_t *test, const loading_inputs_t *inputs,
+                                 const brace_loading_setup_t *setup)
+{
+    brace_loading_t next;
+    return made(test, inputs, setup, &next);
+}
+
+brace_status_t loading_start(brace_loading_t *test, const loading_inputs_t *inputs, const brace_loading_setup_t *setup)
+{
+    brace_loading_t next;
+    const brace_status_t status = made(test, inputs, setup, &next);
+    if (status != BRACE_OK) {
+        return status;
     }
     *test = next;
     count_run(test, setup->axis, inputs->posture->unbent_rad);
@@ -132,14 +147,6 @@ void loading_end(brace_loading_t *test, brace_loading_outcome_t outcome)
             test->result.outcome = outcome;
         }
         test->phase = LOADING_RETURN;
-    }
-}
-
-void loading_forget(brace_loading_t *test)
-{
-    if (test->phase == LOADING_LISTEN || test->phase == LOADING_LEVERS) {
-        test->result.outcome = BRACE_LOADING_STOPPED;
-        test->phase = LOADING_IDLE;
     }
 }
 

@@ -31,8 +31,9 @@ brace_status_t loading_start(brace_loading_t *test, const loading_inputs_t *inpu
 /* Ends a test that runs: the limb goes back to where it began. */
 void loading_end(brace_loading_t *test, brace_loading_outcome_t outcome);
 
-/* Takes back a test that has not moved anything yet. */
-void loading_forget(brace_loading_t *test);
+/* What loading_start would return now. It changes nothing. */
+brace_status_t loading_may_start(const brace_loading_t *test, const loading_inputs_t *inputs,
+                                 const brace_loading_setup_t *setup);
 
 static inline bool loading_runs(const brace_loading_t *test)
 {

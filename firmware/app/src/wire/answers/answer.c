@@ -37,6 +37,7 @@ answer_rank_t answer_rank(uint32_t code, const brace_request_t *asked)
     switch (code) {
     case BRACE_REQUEST_LOADING_TEST_STOP: return ANSWER_STOPS;
     case BRACE_REQUEST_WRITE_ENTRY: return asked->write_entry.index == STOP ? ANSWER_STOPS : ANSWER_OF_SESSION;
+    case BRACE_REQUEST_SIGN_OF_LIFE: return ANSWER_OF_SESSION;
     default: return command_of(code, asked) == BRACE_COMMAND_NONE ? ANSWER_QUESTION : ANSWER_OF_SESSION;
     }
 }

@@ -20,6 +20,32 @@ int32_t answer_set_gravity(request_t *request, const brace_set_gravity_request_t
     return status;
 }
 
+/* The number that begins what has just been asked for. */
+static uint32_t begin_number(const brace_app_t *app)
+{
+    brace_session_report_t session;
+    brace_app_session(app, &session);
+    return session.begin;
+}
+
+int32_t answer_sign_of_life(request_t *request, const brace_sign_of_life_request_t *asked,
+                            brace_sign_of_life_answer_t *answer)
+{
+    const bool is_bench = brace_app_setting(request->app) == BRACE_SETTING_BENCH;
+    const brace_sign_t sign = {.heard = is_bench ? asked->check : asked->heard,
+                               .heard_bits = is_bench ? 32u : 16u,
+                               .check = asked->check};
+    const int32_t status = brace_app_life(request->app, request->who, &sign);
+    brace_session_report_t session;
+    brace_app_session(request->app, &session);
+    request->detail = session.number;
+    if (status == BRACE_OK) {
+        *answer = (brace_sign_of_life_answer_t){
+            .owner = session.owner, .setting = session.setting, .number = session.number};
+    }
+    return status;
+}
+
 int32_t answer_take_up(request_t *request, const brace_take_up_request_t *asked, brace_take_up_answer_t *answer)
 {
     brace_app_t *app = request->app;
@@ -28,6 +54,7 @@ int32_t answer_take_up(request_t *request, const brace_take_up_request_t *asked,
     if (status == BRACE_OK) {
         answer->phase = brace_app_snapshot(app)->play[asked->joint].phase;
         answer->setting = brace_app_setting(app);
+        answer->begin = begin_number(app);
     }
     return status;
 }
@@ -57,6 +84,7 @@ int32_t answer_let_go(request_t *request, const brace_let_go_request_t *asked, b
     if (status == BRACE_OK) {
         answer->mode = brace_app_mode(app);
         answer->setting = brace_app_setting(app);
+        answer->begin = begin_number(app);
     }
     return status;
 }
@@ -85,6 +113,7 @@ int32_t answer_loading_test_start(request_t *request, const brace_loading_test_s
     if (status == BRACE_OK) {
         answer->rows = 4u * asked->steps_per_side + 1u;
         answer->setting = brace_app_setting(app);
+        answer->begin = begin_number(app);
     }
     return status;
 }

@@ -24,7 +24,7 @@ int32_t answer_read_entry(request_t *request, const brace_read_entry_request_t *
 #define COMMAND(member) (BRACE_ENTRY_COMMANDS + offsetof(brace_commands_t, member) / 4u)
 #define TOKEN_BITS 8u
 
-/* Commands that are written as entries: to stop, a sign of life, the seal of the request that comes next. */
+/* Commands that are written as entries: to stop, to end a test, the seal of the request that comes next. */
 static int32_t write_command(request_t *request, const brace_write_entry_request_t *asked,
                              brace_write_entry_answer_t *answer)
 {
@@ -34,7 +34,6 @@ static int32_t write_command(request_t *request, const brace_write_entry_request
     switch (asked->index) {
     case COMMAND(stop): status = brace_app_stop(request->app); break;
     case COMMAND(end_test): status = brace_app_loading_stop(request->app); break;
-    case COMMAND(life_mac): status = brace_app_life(request->app, request->who, &seal); break;
     case COMMAND(seal_mac):
         if (request->seal != NULL) {
             *request->seal = seal;
@@ -44,7 +43,10 @@ static int32_t write_command(request_t *request, const brace_write_entry_request
     }
     request->detail = brace_app_mode(request->app);
     if (status == BRACE_OK) {
-        *answer = (brace_write_entry_answer_t){asked->index, brace_app_setting(request->app)};
+        brace_session_report_t session;
+        brace_app_session(request->app, &session);
+        answer->index = asked->index;
+        answer->value = asked->index == COMMAND(end_test) ? session.begin : (uint32_t)session.setting;
     }
     return status;
 }

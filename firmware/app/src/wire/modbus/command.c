@@ -61,17 +61,17 @@ request_t modbus_request(const modbus_server_t *server, const wire_tick_t *tick)
 modbus_exception_t modbus_command_show(modbus_server_t *server, const wire_tick_t *tick, uint32_t first,
                                        const uint32_t words[2])
 {
-    const brace_seal_t seal = {.is_there = true, .counter = words[0], .counter_bits = 32, .mac = words[1]};
-    if (first == COMMAND(life_counter)) {
-        return modbus_refusal_of(brace_app_life(tick->app, server->who, &seal));
+    if (first == COMMAND(life_heard)) {
+        const brace_sign_t sign = {.heard = words[0], .heard_bits = 32, .check = words[1]};
+        return modbus_refusal_of(brace_app_life(tick->app, server->who, &sign));
     }
-    *server->seal = seal;
+    *server->seal = (brace_seal_t){.is_there = true, .counter = words[0], .counter_bits = 32, .mac = words[1]};
     return MODBUS_FINE;
 }
 
 bool modbus_command_shows(uint32_t first, uint32_t count)
 {
-    return count == 2u && (first == COMMAND(life_counter) || first == COMMAND(seal_counter));
+    return count == 2u && (first == COMMAND(life_heard) || first == COMMAND(seal_counter));
 }
 
 modbus_exception_t modbus_command_run(modbus_server_t *server, const wire_tick_t *tick, uint32_t command,
@@ -110,5 +110,5 @@ void modbus_command_tell(const modbus_server_t *server, const brace_app_t *app, 
     told->commit = told->commit_crc = told->rollback = storing(app);
     told->clear_faults = brace_app_faults(app);
     told->let_go = told->stop = told->end_test = 0;
-    told->life_counter = told->life_mac = told->seal_counter = told->seal_mac = 0;
+    told->life_heard = told->life_mac = told->seal_counter = told->seal_mac = 0;
 }

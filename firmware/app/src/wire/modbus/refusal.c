@@ -16,6 +16,7 @@ modbus_exception_t modbus_refusal_of(int32_t status)
     case BRACE_REFUSED_BUSY: return MODBUS_E_BUSY;
     case BRACE_REFUSED_STRANGER:
     case BRACE_REFUSED_REPLAY:
+    case BRACE_REFUSED_LATE:
     case BRACE_REFUSED_OWNED:
     case BRACE_REFUSED_NO_KEY: return MODBUS_E_OWNER;
     default: return MODBUS_E_DEVICE;

@@ -506,16 +506,15 @@ static void test_what_counts_as_work(void)
 static void test_what_is_refused_changes_nothing(void)
 {
     starts_at(1.0f, 1.4f, BRACE_AXIS_X, 1, 0);
-    loading_forget(&test);
-    TEST_ASSERT_FALSE(loading_runs(&test));
-    TEST_ASSERT_EQUAL(BRACE_LOADING_STOPPED, test.result.outcome);
+    test.phase = LOADING_IDLE;
     const brace_loading_t before = test;
+    TEST_ASSERT_EQUAL(BRACE_OK, loading_may_start(&test, &inputs, &along_x)); /* a question */
+    TEST_ASSERT_EQUAL_MEMORY(&before, &test, sizeof test);
     snapshot.k_is_valid = false;
+    TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, loading_may_start(&test, &inputs, &along_x));
     TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, loading_start(&test, &inputs, &along_x));
     TEST_ASSERT_EQUAL_MEMORY(&before, &test, sizeof test);
     loading_end(&test, BRACE_LOADING_E_LOST); /* nothing runs that could end */
-    TEST_ASSERT_EQUAL_MEMORY(&before, &test, sizeof test);
-    loading_forget(&test);
     TEST_ASSERT_EQUAL_MEMORY(&before, &test, sizeof test);
 }
 

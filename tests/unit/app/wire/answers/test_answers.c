@@ -55,6 +55,15 @@ static void takes(uint32_t code)
     TEST_ASSERT_EQUAL(BRACE_OK, put(code));
 }
 
+/* Of what waits. */
+static uint32_t begin_now(void)
+{
+    brace_session_report_t told;
+    brace_app_session(&app, &told);
+    TEST_ASSERT_TRUE(told.has_begin);
+    return told.begin;
+}
+
 static void to_configuration(void)
 {
     asked.set_mode = (brace_set_mode_request_t){.mode = BRACE_MODE_CONFIGURATION, .key = 0xc0de};
@@ -97,6 +106,9 @@ static void test_a_loading_test_from_its_start_to_its_rows(void)
     takes(BRACE_REQUEST_LOADING_TEST_START);
     TEST_ASSERT_EQUAL(9, answer.loading_test_start.rows);
     TEST_ASSERT_EQUAL(BRACE_SETTING_BENCH, answer.loading_test_start.setting);
+    TEST_ASSERT_EQUAL_HEX32(begin_now(), answer.loading_test_start.begin);
+    living_master = &who;
+    ticks(3);
     const brace_loading_setup_t *setup = &result()->setup;
     TEST_ASSERT_EQUAL(BRACE_AXIS_Z, setup->axis);
     TEST_ASSERT_EQUAL(2, setup->steps_per_side);
@@ -106,8 +118,6 @@ static void test_a_loading_test_from_its_start_to_its_rows(void)
     TEST_ASSERT_EQUAL_FLOAT(200.0f, setup->force_max_n);
     TEST_ASSERT_EQUAL_FLOAT(10000.0f, setup->torque_max_n_mm);
     TEST_ASSERT_EQUAL(BRACE_LOADING_ENCODED, setup->source);
-    living_master = &who;
-    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_life(&app, who, NULL));
     for (int i = 0; i < 20000 && result()->rows < 3; i++) {
         ticks(1);
     }
@@ -147,6 +157,8 @@ static void test_the_torque_of_a_test_is_the_stronger_motor_s(void)
         asked.loading_test_start = (brace_loading_test_start_request_t){.axis = 0, .steps_per_side = 2, .step_mm = 0.5f,
                                                                         .dwell_ms = 20};
         takes(BRACE_REQUEST_LOADING_TEST_START);
+        living_master = &who;
+        ticks(3);
         TEST_ASSERT_EQUAL(BRACE_AXIS_X, result()->setup.axis);
         TEST_ASSERT_EQUAL_FLOAT(12000.0f, result()->setup.torque_max_n_mm);
     }
@@ -226,8 +238,8 @@ static void test_play_and_its_take_up(void)
     takes(BRACE_REQUEST_TAKE_UP);
     TEST_ASSERT_EQUAL(BRACE_TAKEUP_IDLE, answer.take_up.phase);
     TEST_ASSERT_EQUAL(BRACE_SETTING_BENCH, answer.take_up.setting);
+    TEST_ASSERT_EQUAL_HEX32(begin_now(), answer.take_up.begin);
     living_master = &who;
-    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_life(&app, who, NULL));
     ticks(20);
     asked.take_up_result = (brace_take_up_result_request_t){.joint = BRACE_TIBIA};
     takes(BRACE_REQUEST_TAKE_UP_RESULT);
@@ -244,6 +256,36 @@ static void test_play_and_its_take_up(void)
     }
     takes(BRACE_REQUEST_LET_GO);
     TEST_ASSERT_EQUAL(BRACE_MODE_TAKING_UP, answer.let_go.mode);
+    TEST_ASSERT_EQUAL_HEX32(begin_now(), answer.let_go.begin);
+}
+
+/* On a bench the whole number comes back as the check. What the owner is refused brings the number of now. */
+static void test_a_sign_of_life(void)
+{
+    brace_session_report_t told;
+    brace_parameters_t p = bench_parameters();
+    p.limb.joint[BRACE_TIBIA].gap_rad = 0.005f;
+    stand(&p);
+    asked.take_up = (brace_take_up_request_t){.joint = BRACE_TIBIA, .flank = 1};
+    takes(BRACE_REQUEST_TAKE_UP);
+    brace_app_session(&app, &told);
+    asked.sign_of_life = (brace_sign_of_life_request_t){.heard = told.number & 0xffffu, .check = told.number};
+    takes(BRACE_REQUEST_SIGN_OF_LIFE);
+    TEST_ASSERT_EQUAL(BRACE_OWNER_CAN, answer.sign_of_life.owner);
+    TEST_ASSERT_EQUAL(BRACE_SETTING_BENCH, answer.sign_of_life.setting);
+    TEST_ASSERT_EQUAL_HEX32(told.number, answer.sign_of_life.number);
+    ticks(30);
+    brace_session_report_t later;
+    brace_app_session(&app, &later);
+    TEST_ASSERT_TRUE(later.number != told.number);
+    asked.sign_of_life.check = told.begin;
+    takes(BRACE_REQUEST_SIGN_OF_LIFE);
+    TEST_ASSERT_EQUAL_HEX32(later.number, answer.sign_of_life.number);
+    ticks(2);
+    TEST_ASSERT_EQUAL(BRACE_MODE_TAKING_UP, now()->mode);
+    ticks(160);
+    brace_app_session(&app, &later);
+    refuses(BRACE_REFUSED_LATE, later.number, BRACE_REQUEST_SIGN_OF_LIFE);
 }
 
 /* Somebody asks for a take-up and stops it before the first sign of life: it is taken back, and does not begin later. */
@@ -255,15 +297,15 @@ static void test_stop_takes_back_what_has_not_begun(void)
     asked.take_up = (brace_take_up_request_t){.joint = BRACE_TIBIA, .flank = 1};
     takes(BRACE_REQUEST_TAKE_UP);
     ticks(2);
-    TEST_ASSERT_EQUAL(BRACE_MODE_TAKING_UP, now()->mode);
+    TEST_ASSERT_EQUAL(BRACE_MODE_MONITOR, now()->mode);
+    const uint32_t begin = begin_now();
     asked.write_entry = (brace_write_entry_request_t){
         BRACE_ENTRY_COMMANDS + (uint32_t)(offsetof(brace_commands_t, stop) / 4u), 1};
     takes(BRACE_REQUEST_WRITE_ENTRY);
     TEST_ASSERT_EQUAL(asked.write_entry.index, answer.write_entry.index);
     TEST_ASSERT_EQUAL(BRACE_SETTING_BENCH, answer.write_entry.value);
-    ticks(2);
-    TEST_ASSERT_EQUAL(BRACE_MODE_MONITOR, now()->mode);
-    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_life(&app, who, NULL));
+    asked.sign_of_life = (brace_sign_of_life_request_t){.check = begin};
+    TEST_ASSERT_EQUAL(BRACE_REFUSED_LATE, put(BRACE_REQUEST_SIGN_OF_LIFE));
     ticks(200);
     TEST_ASSERT_EQUAL(BRACE_MODE_MONITOR, now()->mode);
     TEST_ASSERT_EQUAL_FLOAT(0.0f, fake.joint[BRACE_TIBIA].command.offset_rad);
@@ -716,6 +758,7 @@ int main(void)
     RUN_TEST(test_faults_are_cleared_and_what_is_left_is_told);
     RUN_TEST(test_each_number_of_a_drift);
     RUN_TEST(test_play_and_its_take_up);
+    RUN_TEST(test_a_sign_of_life);
     RUN_TEST(test_stop_takes_back_what_has_not_begun);
     RUN_TEST(test_a_seal_is_for_a_command);
     RUN_TEST(test_an_entry_that_is_none_is_no_command);

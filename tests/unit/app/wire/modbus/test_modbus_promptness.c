@@ -35,11 +35,11 @@ const brace_parameters_t *brace_app_parameters(const brace_app_t *asked) { retur
 bool brace_app_is_storing(const brace_app_t *asked) { return (void)asked, false; }
 brace_setting_t brace_app_setting(const brace_app_t *asked) { return (void)asked, BRACE_SETTING_BENCH; }
 
-int32_t brace_app_life(brace_app_t *asked, brace_who_t who, const brace_seal_t *seal)
+int32_t brace_app_life(brace_app_t *asked, brace_who_t who, const brace_sign_t *sign)
 {
     (void)asked;
     (void)who;
-    return (void)seal, BRACE_OK;
+    return (void)sign, BRACE_OK;
 }
 
 int32_t brace_app_may_command(brace_app_t *asked, brace_command_t command, brace_who_t who, const brace_seal_t *seal,

@@ -94,7 +94,7 @@ static void test_what_a_command_s_register_reads(void)
     TEST_ASSERT_EQUAL(0, told_by(offsetof(brace_commands_t, commit)));
     TEST_ASSERT_EQUAL(0, told_by(offsetof(brace_commands_t, let_go)));
     TEST_ASSERT_EQUAL(0, told_by(offsetof(brace_commands_t, stop)));
-    TEST_ASSERT_EQUAL(0, told_by(offsetof(brace_commands_t, life_counter)));
+    TEST_ASSERT_EQUAL(0, told_by(offsetof(brace_commands_t, life_heard)));
     TEST_ASSERT_EQUAL(0, told_by(offsetof(brace_commands_t, seal_mac)));
     TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_enter(&app));
     ticks(1);
