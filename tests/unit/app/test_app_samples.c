@@ -57,6 +57,20 @@ static void test_a_sample_that_never_ages_in_name_is_not_believed(void)
     }
 }
 
+/* A board's tick takes its time before it reads the joints: their samples are a few us younger than the tick. */
+static void test_a_sample_taken_within_the_tick_is_not_stale(void)
+{
+    for (int joint = BRACE_FEMUR; joint <= BRACE_TIBIA; joint++) {
+        fake.joint[joint].keeps_taken_us = true;
+    }
+    for (int i = 0; i < 50; i++) {
+        fake.joint[BRACE_FEMUR].sample.taken_us = fake.joint[BRACE_TIBIA].sample.taken_us = fake.now_us + TICK_US + 20u;
+        ticks(1);
+    }
+    TEST_ASSERT_TRUE(now()->k_is_valid);
+    TEST_ASSERT_BITS(BRACE_FLAG_STALE, 0, now()->stiffness.now.flags);
+}
+
 static void test_a_snapshot_is_as_old_as_its_older_sample_across_the_clock_s_wrap(void)
 {
     fake.now_us = 0xffffff00u - 5u * TICK_US;
@@ -505,6 +519,7 @@ int main(void)
     RUN_TEST(test_a_short_gap_in_the_samples_keeps_the_last_K);
     RUN_TEST(test_samples_too_old_are_stale_and_a_fault_until_they_have_been_back_for_a_while);
     RUN_TEST(test_a_sample_that_never_ages_in_name_is_not_believed);
+    RUN_TEST(test_a_sample_taken_within_the_tick_is_not_stale);
     RUN_TEST(test_a_snapshot_is_as_old_as_its_older_sample_across_the_clock_s_wrap);
     RUN_TEST(test_play_that_no_load_can_tell_is_always_open);
     RUN_TEST(test_absurd_samples_are_never_used);

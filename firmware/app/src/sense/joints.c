@@ -261,8 +261,9 @@ static void read_one(joints_t *joints, int index, const brace_hal_t *hal, const 
     const int32_t age_us = (int32_t)(now_us - joint->sample.taken_us);
     joint->sound = joint->samples_seen != 0u && age_us <= limit_us && age_us >= -limit_us;
     joint->samples_seen = joint->sound ? joint->samples_seen : 0u;
-    joint->may_have_moved =
-        may_have_moved(joint, drive, parameters->limb.uncertainty.angle_rad, now_us - joint->sample.taken_us);
+    /* A board takes its sample within the tick, a few us after now_us: its age is less than nothing. */
+    const uint32_t apart_us = age_us < 0 ? 0u - (uint32_t)age_us : (uint32_t)age_us;
+    joint->may_have_moved = may_have_moved(joint, drive, parameters->limb.uncertainty.angle_rad, apart_us);
     compare_encoders(joint, index, parameters);
     joint->is_new_enough_to_prove_a_flank = joint->sound && age_us <= (int32_t)(PROVING_TICKS * tick_us);
 }
