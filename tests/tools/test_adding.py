@@ -259,8 +259,7 @@ kind = "value"
 step = 0.5
 unit = "N mm"
 description = "the load that the joint's gap transmits"
-''', after='from = "sigma_k_across"\nbits = 16\nkind = "value"\nstep = 0.0005\nunit = "N/mm"\n'
-                'description = "one sigma of k_across"\n')
+''', after='description = "one sigma of k_across"\n')  # the last of details: its first place in the file
     copy.generate()
     assert copy.by_hand() == {MESSAGES}
     assert "201 00c8fdff00000000" in copy.run()
