@@ -175,7 +175,7 @@ def _run_single(arguments: argparse.Namespace, model: LimbModel) -> int:
             sigma = LoadedLimbInSpace(model, is_weightless=True).sigma(theta_rad, np.zeros((1, 3)))
         elif arguments.is_loaded:
             given = (true1, true2, arguments.fx, arguments.fz)
-            result = stiffness_under_load(model, *(np.array([value]) for value in given), arguments.arith)
+            result = stiffness_under_load(model, *(np.array([value]) for value in given), arithmetic=arguments.arith)
             if without_rest(result)[0]:
                 raise LoadedLimb(model, arguments.arith).refusal(0, *given)
             sigma = LoadedLimb(model).sigma(*given)

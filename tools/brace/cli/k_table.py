@@ -78,7 +78,7 @@ def _under_load(table: PostureTable, model: LimbModel, arguments: argparse.Names
     force_n = _forces(table, {"fx_n": arguments.fx, "fz_n": arguments.fz})
     true1 = stiffness.within_half_turn(true1)
     path = "loaded, fixed" if arguments.arith == "fixed" else "loaded"
-    return stiffness_under_load(model, true1, true2, *force_n, arguments.arith), path
+    return stiffness_under_load(model, true1, true2, *force_n, arithmetic=arguments.arith), path
 
 
 def _in_space_under_load(
