@@ -83,6 +83,15 @@ static int other_joint(int joint)
     return joint == BRACE_FEMUR ? BRACE_TIBIA : BRACE_FEMUR;
 }
 
+/* How far an angle is from where it was when the samples ended: a limb that moves may hide an offset. */
+static double has_moved_rad(const fault_t *f, const plant_t *plant)
+{
+    sensors_t then;
+    fault_t at_begin = *f;
+    plant_sense(plant, f->from + (int32_t)f->other, 0, &then);
+    return fabs((double)*angle_of(f, &then) + f->size - (double)*angle_of(f, &at_begin.at_begin));
+}
+
 /* Numbers of a fault, by its kind. returns whether it is one */
 static bool draw_size(fault_t *f, const plant_t *plant)
 {
@@ -110,7 +119,7 @@ static bool draw_size(fault_t *f, const plant_t *plant)
     case KIND_LOST_AND_ELSEWHERE:
         f->size = either_way(lots, GAP_LEAST_RAD, 2.0);
         f->other = 1.0 + lot_bits(lots) % 300u;
-        return true;
+        return has_moved_rad(f, plant) >= GAP_LEAST_RAD;
     case KIND_STAMPS: f->size = lot_bits(lots) % 2u == 0u ? 0.0 : lot_between(lots, 50e3, 1e9); return true;
     case KIND_SAMPLES_OLD: f->size = floor(lot_between(lots, 25.0, 200.0)); return true;
     case KIND_APART_FROM_START: f->size = either_way(lots, 0.5, TURN_RAD); return plant->has_link_encoders;

@@ -67,8 +67,9 @@ int main(void)
     if (state == BRACE_STORE_DONE && reloads) {
         PROVE(store.in_force == in_force && stage == STAGE_REREAD, "reloaded: the set in force stays in force");
     } else if (state == BRACE_STORE_DONE) {
-        PROVE(store.in_force == target + 1u && (stage == STAGE_COMMIT || stage == STAGE_WITHDRAW),
-              "done: the new set is in force, by its last mark");
+        PROVE(store.in_force == target + 1u && (stage == STAGE_PAST || stage == STAGE_WITHDRAW_AGAIN),
+              "done: the new set is in force, behind the mark that decides");
+        PROVE(!store.is_old, "and nothing has followed it");
         PROVE(store.slot[target].condition == BRACE_SLOT_COUNTS || rolls_back, "and counts");
     } else {
         PROVE(state == BRACE_STORE_FAILED && store.in_force == in_force, "failed: the set of before is in force");

@@ -8,7 +8,7 @@
 #include "store_state.h"
 
 /* A slot's look, as store_look.c proves it. */
-void store_look(brace_store_t *store, uint32_t slot, brace_parameters_t *parameters)
+void store_look(brace_store_t *store, uint32_t slot, brace_parameters_t *parameters, store_claim_t *claim)
 {
     PROVE(slot < (uint32_t)BRACE_NVM_SLOT_COUNT, "a slot that there is");
     PROVE(__CPROVER_w_ok(parameters, sizeof *parameters), "there is room for its set");
@@ -18,6 +18,8 @@ void store_look(brace_store_t *store, uint32_t slot, brace_parameters_t *paramet
     store->next_mark[slot] = any_u8();
     ASSUME(store->next_mark[slot] <= BRACE_STORE_MARK_COUNT);
     store->clean[slot] = store->affirmed[slot] = false;
+    *claim = (store_claim_t){
+        .is_past = any_bool(), .later = any_u32(), .is_rotten = any_bool(), .sequence = any_u32()};
 }
 
 bool store_fits(const brace_hal_t *hal)
@@ -32,9 +34,10 @@ bool store_is_ours(const brace_slot_report_t *report)
     return any_bool();
 }
 
-void store_mark(uint8_t mark[BRACE_STORE_MARK_BYTES], store_word_t word, uint32_t block_crc)
+void store_mark(uint8_t mark[BRACE_STORE_MARK_BYTES], store_word_t word, uint32_t later, uint32_t block_crc)
 {
     (void)word;
+    (void)later;
     (void)block_crc;
     PROVE(__CPROVER_w_ok(mark, BRACE_STORE_MARK_BYTES), "room for a mark");
 }

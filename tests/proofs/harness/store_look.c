@@ -45,7 +45,12 @@ int main(void)
     const uint32_t slot = any_bool() ? 1u : 0u, other = 1u - slot;
     const uint8_t other_mark = store.next_mark[other];
     ASSUME(store.next_mark[slot] <= BRACE_STORE_MARK_COUNT); /* a start sets it to 0 first */
-    store_look(&store, slot, &set);
+    store_claim_t claim;
+    store_look(&store, slot, &set, &claim);
+    PROVE(!claim.is_past || store.slot[slot].condition == BRACE_SLOT_COUNTS, "what another set has followed counts");
+    PROVE(!claim.is_rotten || store.slot[slot].condition == BRACE_SLOT_DAMAGED ||
+              store.slot[slot].condition == BRACE_SLOT_REFUSED,
+          "what has rotted does not");
     PROVE(store.next_mark[slot] <= BRACE_STORE_MARK_COUNT, "the next mark goes within their places");
     PROVE((uint32_t)store.slot[slot].condition <= (uint32_t)BRACE_SLOT_UNREADABLE, "a condition that there is");
     PROVE(!store.clean[slot] && !store.affirmed[slot], "nothing is taken for untouched or affirmed");

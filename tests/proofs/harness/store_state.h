@@ -16,7 +16,7 @@ static bool members_are_sound(const brace_store_t *s)
 {
     return s->in_force <= 2u && s->next_mark[0] <= BRACE_STORE_MARK_COUNT &&
            s->next_mark[1] <= BRACE_STORE_MARK_COUNT && is_bool(&s->rolling_back) &&
-           is_bool(&s->reloading) && is_bool(&s->memory_fault) && is_bool(&s->clean[0]) &&
+           is_bool(&s->reloading) && is_bool(&s->memory_fault) && is_bool(&s->is_old) && is_bool(&s->clean[0]) &&
            is_bool(&s->clean[1]) && is_bool(&s->affirmed[0]) && is_bool(&s->affirmed[1]);
 }
 
@@ -47,13 +47,15 @@ static bool position_is_sound(uint32_t stage, uint32_t at)
 static bool sound(const brace_store_t *s)
 {
     const uint32_t stage = s->stage;
-    const bool only_rollback = stage == STAGE_REREAD || stage == STAGE_WITHDRAW;
+    const bool only_rollback =
+        stage == STAGE_REREAD || stage == STAGE_WITHDRAW || stage == STAGE_WITHDRAW_AGAIN;
     const bool either = stage == STAGE_AFFIRM || stage == STAGE_UNDO;
     const bool manner = s->reloading      ? !s->rolling_back && stage == STAGE_REREAD && s->in_force == s->target + 1u
                         : s->rolling_back ? (only_rollback || either) && s->in_force == 2u - s->target
                                           : !only_rollback && s->in_force != s->target + 1u;
     return members_are_sound(s) && s->state == BRACE_STORE_BUSY && stage <= STAGE_UNDO &&
            position_is_sound(stage, s->position) && s->target < 2u && manner &&
+           (stage != STAGE_PAST || s->slot[s->target].condition == BRACE_SLOT_COUNTS) &&
            (stage != STAGE_UNDO || s->failure < BRACE_STORE_FINE);
 }
 
