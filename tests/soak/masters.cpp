@@ -12,6 +12,10 @@
 #include <algorithm>
 #include <cerrno>
 
+extern "C" {
+#include "brace/can_messages.h"
+}
+
 namespace soak
 {
 namespace
@@ -228,10 +232,12 @@ void CanMaster::step(const std::string &place, Chance &chance, bool is_calm, Ans
     const std::uint32_t theta1 = micro_rad(kTheta1_rad), theta2 = micro_rad(kTheta2_rad);
     ++token_;
     char text[64];
-    std::snprintf(text, sizeof text, "t%03X8%02X%02X%02X%02X%02X%02X%02X%02X\r", 0x600 + limb, 3, token_, theta1 & 0xff,
-                  theta1 >> 8 & 0xff, theta1 >> 16 & 0xff, theta2 & 0xff, theta2 >> 8 & 0xff, theta2 >> 16 & 0xff);
+    std::snprintf(text, sizeof text, "t%03X8%02X%02X%02X%02X%02X%02X%02X%02X\r", 0x600 + limb,
+                  BRACE_REQUEST_K_AT_POSTURE, token_, theta1 & 0xff, theta1 >> 8 & 0xff, theta1 >> 16 & 0xff,
+                  theta2 & 0xff, theta2 >> 8 & 0xff, theta2 >> 16 & 0xff);
     socket_.send(text, std::strlen(text));
-    std::snprintf(text, sizeof text, "t%03X8%02X%02X", 0x580 + limb, 3 + 2 * 32, token_); // the answer's last part
+    // the answer's last part
+    std::snprintf(text, sizeof text, "t%03X8%02X%02X", 0x580 + limb, BRACE_K_AT_POSTURE_ANSWER_3, token_);
     awaited_ = text;
     waits_ticks_ = 0;
     come_.clear();
