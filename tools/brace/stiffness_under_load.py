@@ -109,6 +109,7 @@ def stiffness_under_load(
     theta2_rad: np.ndarray,
     fx_n: np.ndarray,
     fz_n: np.ndarray,
+    *,
     arithmetic: str = "f32",
 ) -> np.ndarray:
     """LoadedLimb.stiffness; raises PostureError for the first posture or force that is out of range. A row without a
