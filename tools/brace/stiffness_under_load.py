@@ -7,6 +7,7 @@ import numpy as np
 from brace.hardening import Spring, settle
 from brace.model import LimbModel
 from brace.native import library
+from brace.native.c_data import CData
 from brace.native.limb import firmware_limb, status_text
 from brace.sigma import sigma_in_plane
 from brace.stiffness import E_SINGULAR, PLANAR_C, PLANAR_K, PLANAR_REST, PostureError
@@ -86,6 +87,20 @@ class LoadedLimb:
         else:
             lib.brace_loaded_batch(self._loaded, *rows)
         return found
+
+    def rest_at(self, theta_rad: tuple[float, float], force_n: tuple[float, float]) -> tuple[CData, CData, CData]:
+        """brace_loaded_stiffness_t at true angles under a force on the tip, the load, and the weights. Raises
+        PostureError where there is no rest."""
+        ffi = self._native.ffi
+        row = [np.array([value], np.float32) for value in (*theta_rad, *force_n)]
+        hardens = any(spring.hardens for spring in self._springs)
+        found = settle(self._springs, lambda: self._batch(row)) if hardens else self._batch(row)
+        if np.isnan(found["k_xx_n_per_mm"][0]):
+            raise self.refusal(0, *theta_rad, *force_n)
+        self._joints.tip.x_n, self._joints.tip.z_n = force_n
+        rest = ffi.new("brace_loaded_stiffness_t *")
+        ffi.memmove(rest, ffi.from_buffer(found), ffi.sizeof("brace_loaded_stiffness_t"))
+        return rest, self._joints, self._weights
 
     def refusal(self, index: int, theta1_rad: float, theta2_rad: float, fx_n: float, fz_n: float) -> PostureError:
         """Why a posture has no K; `index` is its place among others."""

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from brace.model import LimbModel
+    from brace.play_under_load import Play
     from brace.stiffness import PostureError
 
 ARITHMETICS = ("f32", "fixed", "general")
@@ -209,6 +210,9 @@ def _run_single(arguments: argparse.Namespace, model: LimbModel) -> int:
     commanded = {name: float(posture[name]) for name in names if name in posture}
     at = {name: np.array([angle]) for name, angle in commanded.items()}
     values["flags"] |= int(flags_of_postures(model, at, unloaded=unloaded)[0])
+    play = _play(model, (true1, true2), values, arguments)
+    if play and play.open:
+        sigma = {}  # of K with every gap closed
     free = _both_open(gaps_rad(model), while_open)
     if arguments.json:
         common.print_json(
@@ -216,6 +220,7 @@ def _run_single(arguments: argparse.Namespace, model: LimbModel) -> int:
                 **values,
                 "while_open": while_open,
                 "open": free,
+                **({"held": play.held, "engaged": play.engaged} if play else {}),
                 "flag_names": stiffness.flag_names(values["flags"]),
                 **sigma,
                 **posture,
@@ -226,8 +231,8 @@ def _run_single(arguments: argparse.Namespace, model: LimbModel) -> int:
     else:
         common.emit(_text(model.name, values, sigma, posture, path, stiffness.flag_names(values["flags"])))
         for joint, gap_rad in gaps_rad(model, arguments.theta0 is not None).items():
-            common.emit(_gap_text(joint, gap_rad, while_open.get(joint)))
-        for line in _play_text(gaps_rad(model), free, arguments):
+            common.emit(_gap_text(joint, gap_rad, while_open.get(joint), is_told=play is not None))
+        for line in _play_text(gaps_rad(model), free, arguments, play):
             common.emit(line)
         if told := outside(model, commanded):
             common.say(told)
@@ -246,12 +251,41 @@ def _both_open(gaps: dict[str, float], while_open: dict[str, dict[str, float]]) 
     return dict.fromkeys(PLANAR_K, 0.0)
 
 
-def _play_text(gaps: dict[str, float], free: dict[str, float], arguments: argparse.Namespace) -> list[str]:
+def _play(
+    model: LimbModel, true_rad: tuple[float, float], values: dict[str, float], arguments: argparse.Namespace
+) -> Play | None:
+    """Which play the load takes up, of a limb in its plane; K of now goes into `values`."""
+    from brace.play_under_load import play_under_load, put_into
+
+    if not arguments.is_loaded or arguments.theta0 is not None:
+        return None
+    play = play_under_load(model, *true_rad, arguments.fx, arguments.fz, arguments.arith)
+    if play:
+        put_into(values, play)
+    return play
+
+
+def _play_text(
+    gaps: dict[str, float], free: dict[str, float], arguments: argparse.Namespace, play: Play | None
+) -> list[str]:
     """Which of the two K holds."""
     if not gaps or arguments.theta0 is not None:
         return []
-    if arguments.is_loaded:
-        return ["           this load takes it up, where its torque about the joint is more than the friction"]
+    if play:
+        sides = {joint: "+" if side > 0 else "-" for joint, side in play.held.items()}
+        lines = [
+            f"           this load holds the {joint} on its {side} side; nothing has proven it (PLAY_ASSUMED)"
+            for joint, side in sides.items()
+        ]
+        for joint in play.open:
+            lines.append(
+                f"           this load does not hold the {joint}: its gap is open, and K above is that of the open gap; "
+                f"brace take-up {joint}- --bus URL (or {joint}+) takes it up"
+            )
+        if play.open:
+            once = ", ".join(f"{play.engaged[f'k_{entry}_n_per_mm']:.6g}" for entry in ("xx", "xz", "zz"))
+            lines.append(f"           once all is taken up K = {once} N/mm (xx, xz, zz)")
+        return lines
     if not free:
         return []
     entries = ", ".join(f"{value:.6g}" for value in free.values())
@@ -276,10 +310,12 @@ def _while_open(
     return found
 
 
-def _gap_text(joint: str, gap_rad: float, k: dict[str, float] | None) -> str:
+def _gap_text(joint: str, gap_rad: float, k: dict[str, float] | None, *, is_told: bool) -> str:
     import math
 
     size = f"{gap_rad:g} rad ({math.degrees(gap_rad):.3g} deg)"
+    if is_told:
+        return f"backlash  joint.{joint} {size}"
     head = f"backlash  joint.{joint} {size}: the K above holds once it is taken up"
     if k is None:
         return head

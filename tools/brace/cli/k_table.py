@@ -13,6 +13,7 @@ from brace.cli.k_load import refuse_across_the_plane, refuse_in_space, refuse_lo
 from brace.errors import BadFileError, UsageError
 from brace.files import check_file, write_file
 from brace.model import LimbModel
+from brace.play_under_load import play_under_load, put_into
 from brace.posture_table import PostureTable, read_postures
 from brace.stiffness_in_space_under_load import LOADED_SPACE_REST, LoadedLimbInSpace
 from brace.stiffness_under_load import LOADED_REST, stiffness_under_load
@@ -44,6 +45,8 @@ def run_table(arguments: argparse.Namespace, model: LimbModel) -> int:
             next_step="angles are in rad, theta2_rad within [-pi, pi]; a singular posture needs another limb",
         ) from None
     result["flags"] |= flags_of_postures(model, table.angles, unloaded=not (spatial or loaded))
+    if loaded and not spatial:
+        _take_up(table, model, arguments, result)
     write_file(arguments.out, table.with_columns(names, [_texts(result[name]) for name in names]), inputs)
     no_rest = int(np.count_nonzero(np.isnan(result[k[0]])))
     summary = {
@@ -87,6 +90,21 @@ def _in_space_under_load(
     angles = [table.angles[name] for name in ("theta0_rad", "theta1_rad", "theta2_rad")]
     force_n = _forces(table, {"fx_n": arguments.fx, "fy_n": arguments.fy or 0.0, "fz_n": arguments.fz})
     return LoadedLimbInSpace(model).stiffness(np.column_stack(angles), np.column_stack(force_n)), "loaded"
+
+
+def _take_up(table: PostureTable, model: LimbModel, arguments: argparse.Namespace, result: np.ndarray) -> None:
+    """K of now where the load leaves a gap open, and the flags of the play that it holds."""
+    true1, true2 = stiffness.planar_limb(model).true_angles(table.angles["theta1_rad"], table.angles["theta2_rad"])
+    force_n = _forces(table, {"fx_n": arguments.fx, "fz_n": arguments.fz})
+    rows = np.column_stack([stiffness.within_half_turn(true1), true2, *force_n]).tolist()
+    for index, given in enumerate(rows):
+        play = None if np.isnan(result["k_xx_n_per_mm"][index]) else play_under_load(model, *given, arguments.arith)
+        if play is None:
+            continue
+        values = {name: result[name][index].item() for name in result.dtype.names or ()}
+        put_into(values, play)
+        for name, value in values.items():
+            result[name][index] = value
 
 
 def _forces(table: PostureTable, given: dict[str, float]) -> list[np.ndarray]:

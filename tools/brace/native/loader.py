@@ -27,6 +27,7 @@ FIRMWARE_HEADERS = (
     "gap_stiffness.h",
     "loaded.h",
     "loaded_fixed.h",
+    "play.h",
     "loaded_batch.h",
     "loaded_space.h",
     "kinematics_batch.h",

@@ -4,9 +4,11 @@
 
 #include <stddef.h>
 
+#include "brace/gap_stiffness.h"
 #include "brace/loaded.h"
 #include "brace/loaded_fixed.h"
 #include "brace/loaded_space_types.h"
+#include "brace/play.h"
 
 /* K and rest at n postures, each with a force of its own. No argument is checked for null.
  * loaded: from brace_loaded_collapse. joints: direction of the weight and the joints' springs; its tip force is ignored.
@@ -27,5 +29,14 @@ size_t brace_loaded_fixed_batch(const brace_loaded_fixed_t *fixed, float reach_m
 
 /* Of a limb in space: result->flags with those of brace_loaded_flags. */
 uint32_t brace_loaded_space_flags(const brace_space_result_t *result, float buckling_factor, float reach_mm);
+
+/* Which play of femur and tibia joint the load of a rest takes up, and K with the other gaps open, as a controller there.
+ * angles: commanded true ones; load, rest: what brace_loaded_stiffness was given and told. joint: femur, tibia.
+ * gaps: BRACE_GAP_... bits of the joints with play. flank (out): of each joint, 0: open, or no play.
+ * returns as brace_gap_stiffness_known */
+brace_status_t brace_loaded_play(const brace_limb_t *limb, const brace_gravity_t *weights, float theta1_rad,
+                                 float theta2_rad, const brace_load_t *load, const brace_loaded_stiffness_t *rest,
+                                 const brace_play_joint_t joint[2], uint32_t gaps, int flank[2],
+                                 brace_gap_stiffness_t *k);
 
 #endif

@@ -1,5 +1,7 @@
 #include "brace/loaded_batch.h"
 
+#include <math.h>
+
 #define NOT_A_NUMBER __builtin_nanf("")
 
 static void refuse(brace_status_t status, brace_loaded_stiffness_t *result)
@@ -68,4 +70,41 @@ uint32_t brace_loaded_space_flags(const brace_space_result_t *result, float buck
     const brace_vec3_t moved = result->displacement_mm;
     return result->flags |
            brace_loaded_flags(buckling_factor, moved.x * moved.x + moved.y * moved.y + moved.z * moved.z, reach_mm);
+}
+
+/* What the motor of the femur joint, and of the tibia joint, holds: theta2 is flexion, so its sense is clockwise. */
+static void loads_of(const brace_pose_t *pose, const brace_gravity_t *weights, const brace_load_t *load, float n_mm[2])
+{
+    const brace_vec_t down = load->down;
+    const float knee_mm = pose->knee.z_mm * down.x - pose->knee.x_mm * down.z;
+    const float shank_mm = 0.5f * (pose->tip.z_mm * down.x - pose->tip.x_mm * down.z - knee_mm);
+    const brace_force_t f = load->tip;
+    n_mm[0] = (0.5f * weights->femur_n + weights->knee_n + weights->tibia_n) * knee_mm + weights->tibia_n * shank_mm -
+              (pose->lever_femur.x_mm * f.x_n + pose->lever_femur.z_mm * f.z_n);
+    n_mm[1] = pose->lever_tibia.x_mm * f.x_n + pose->lever_tibia.z_mm * f.z_n - weights->tibia_n * shank_mm;
+}
+
+brace_status_t brace_loaded_play(const brace_limb_t *limb, const brace_gravity_t *weights, float theta1_rad,
+                                 float theta2_rad, const brace_load_t *load, const brace_loaded_stiffness_t *rest,
+                                 const brace_play_joint_t joint[2], uint32_t gaps, int flank[2],
+                                 brace_gap_stiffness_t *k)
+{
+    static const uint32_t bit[2] = {BRACE_GAP_FEMUR, BRACE_GAP_TIBIA};
+    brace_pose_t pose;
+    float load_n_mm[2];
+    uint32_t open = 0;
+    brace_kinematics_pose(limb, theta1_rad, theta2_rad, &pose);
+    const brace_vec_t tibia = rest->tibia_mm;
+    pose.tip = (brace_point_t){pose.tip.x_mm + rest->displacement.x_mm, pose.tip.z_mm + rest->displacement.z_mm};
+    pose.knee = (brace_point_t){pose.tip.x_mm - tibia.x, pose.tip.z_mm - tibia.z};
+    pose.lever_femur = (brace_point_t){-pose.tip.z_mm, pose.tip.x_mm};
+    pose.lever_tibia = (brace_point_t){-tibia.z, tibia.x};
+    loads_of(&pose, weights, load, load_n_mm);
+    for (int i = 0; i < 2; i++) {
+        const brace_point_t lever = i == 0 ? pose.lever_femur : pose.lever_tibia;
+        const float lever_mm = fabsf(lever.x_mm) + fabsf(lever.z_mm);
+        flank[i] = (gaps & bit[i]) != 0u ? brace_play_under_load(&joint[i], load_n_mm[i], lever_mm).flank : 0;
+        open |= flank[i] == 0 ? gaps & bit[i] : 0u;
+    }
+    return brace_gap_stiffness_known(&rest->stiffness, &pose, open, k);
 }
