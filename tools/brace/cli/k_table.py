@@ -97,8 +97,10 @@ def _take_up(table: PostureTable, model: LimbModel, arguments: argparse.Namespac
     true1, true2 = stiffness.planar_limb(model).true_angles(table.angles["theta1_rad"], table.angles["theta2_rad"])
     force_n = _forces(table, {"fx_n": arguments.fx, "fz_n": arguments.fz})
     rows = np.column_stack([stiffness.within_half_turn(true1), true2, *force_n]).tolist()
-    for index, given in enumerate(rows):
-        play = None if np.isnan(result["k_xx_n_per_mm"][index]) else play_under_load(model, *given, arguments.arith)
+    for index, (theta1, theta2, fx_n, fz_n) in enumerate(rows):
+        if np.isnan(result["k_xx_n_per_mm"][index]):
+            continue
+        play = play_under_load(model, theta1, theta2, fx_n, fz_n, arguments.arith)
         if play is None:
             continue
         values = {name: result[name][index].item() for name in result.dtype.names or ()}
