@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import contextlib
 import json
+import time
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from conftest import LIMB, Outcome
+from conftest import LIMB, Outcome, spawn
 from test_sim_command import FREE, running
 
 from brace.bus import taking_up
@@ -42,6 +43,23 @@ def test_a_flank_is_held_and_let_go(brace: Callable[..., Outcome], with_play: Pa
         refused = brace("take-up", "femur+", "--bus", url)  # it has no play
         assert refused.code == 5 and "refuses" in refused.err and "try:" in refused.err
         assert wire != "can" or "no play to take up" in refused.err, refused.err
+
+
+@pytest.mark.parametrize("wire", WIRES)
+def test_a_stop_by_somebody_else(brace: Callable[..., Outcome], with_play: Path, wire: str) -> None:
+    """While another program takes up play; and once more, where nothing moves."""
+    with running(with_play, *FREE) as (_, ready):
+        urls = ready["limbs"][0]
+        moving = spawn("take-up", "tibia-", "--wait", "3", "--bus", urls["can"])
+        until = time.monotonic() + 20.0
+        mode = ""
+        while mode != "taking_up" and time.monotonic() < until:
+            mode = json.loads(brace("query", "--bus", urls["modbus_tcp"], "--json").out)["mode"]
+        stopped = brace("stop", "--bus", urls[wire], "--json")
+        assert stopped.code == 0 and json.loads(stopped.out)["nodes"] == [1], stopped.err
+        moving.communicate(timeout=60.0)
+        assert brace("stop", "--bus", urls[wire]).code == 0
+        assert brace("stop", "--bus", urls[wire], *(["--node", 1] if wire == "can" else [])).code == 0
 
 
 def test_what_is_no_flank_is_refused(brace: Callable[..., Outcome]) -> None:

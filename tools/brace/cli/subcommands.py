@@ -26,6 +26,7 @@ SUBCOMMANDS = {
     "gravity": "tells a controller where down is, or asks it",
     "take-up": "takes up the backlash of joints on a controller: the limb moves",
     "let-go": "lets go of the joints whose backlash a controller has taken up: the limb moves",
+    "stop": "stops every limb of a bus where it is: anybody may, without a key",
     "clear": "clears a latched fault of a controller",
     "dbc": "the frames of all nodes of a bus as a CAN database (DBC), for candump's, cantools' and other programs",
     "flash": "put an image on a board",
