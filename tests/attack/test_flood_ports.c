@@ -361,7 +361,7 @@ static void test_masters_of_a_bus_take_turns(void)
 /* Signs of life without a key, as often as every connection takes them. */
 static void strangers_live_over_tcp(void)
 {
-    const uint32_t place = COMMAND_REGISTER(life_counter);
+    const uint32_t place = COMMAND_REGISTER(life_heard);
     const uint8_t life[14] = {16, (uint8_t)(place >> 8), (uint8_t)place, 0, 4, 8};
     for (uint32_t connection = 0; connection < CONNECTIONS; connection++) {
         (void)adu_arrives(connection, life, sizeof life);
