@@ -21,7 +21,10 @@ BACK_S = 20.0  # far more than any way back
 SERVO_S = 3.0  # what the controller grants its servos at each step
 QUICK_SERVO_S = 0.4  # what simulated ones take of it
 COLUMNS = tuple(column.name for column in LOADING)[:15]
-RUNNING, DONE = 1, 2
+RUNNING, DONE, STOPPED = 1, 2, 3
+
+SMALLER = "a smaller --step-mm or fewer --steps; the tip must stand on something that does not yield"
+AFTER_A_STOP = "the limb stands where it was stopped; brace let-go when it may move, then the test again"
 
 
 @dataclass(frozen=True)
@@ -59,7 +62,7 @@ def run(session: Session, plan: Plan, advance: Callable[[int], None]) -> None:
             f"the loading test along {plan.axis} failed, and nothing was written",
             where=session.where,
             why=f"outcome {outcome}" if said is None else said.text.rstrip("."),
-            next_step="a smaller --step-mm or fewer --steps; the tip must stand on something that does not yield",
+            next_step=AFTER_A_STOP if outcome == STOPPED else SMALLER,
         )
 
 
