@@ -122,7 +122,7 @@ static void links(void)
     ASSUME(size_of(f.b_by_a) <= RATIO_MOST && size_of(f.root_by_a) <= RATIO_MOST && size_of(f.root_by_b) <= RATIO_MOST);
     lost_t lost = any_u32();
     is_true = true;
-    (void)add_link(&c, &springs, &rest, &f, any_vector(BEYOND_MOST), &lost);
+    (void)add_link(&c, &springs, &rest, &f, any_bool() ? 2u : 0u, any_vector(BEYOND_MOST), &lost);
     PROVE(lost >= LOST || is_true, "levers that are not noted are true");
 }
 

@@ -13,8 +13,8 @@
 #define SMALL_ANGLE_MOST ((int)PART_OF(29, 1.045))
 
 /* Angles of a shape on the way, and at points of it (loaded_points). */
-#define ROOT_ANGLE_MOST PART_OF(29, 2.0)
-#define CURVATURE_MOST PART_OF(29, 0.9)
+#define ROOT_ANGLE_MOST PART_OF(29, 3.1)
+#define CURVATURE_MOST PART_OF(29, 1.2)
 #define FIRST_MOST PART_OF(29, 2.52)
 #define SECOND_MOST PART_OF(29, 3.42)
 #define NEAR_MOST PART_OF(29, 0.52)  /* from the root to the first, from the second to the end */

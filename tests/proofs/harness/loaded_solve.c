@@ -65,6 +65,10 @@ static uint32_t bits_in(uint32_t word)
 
 static int32_t any_times(int32_t a, int32_t b, int bits)
 {
+    if (bits == 30) { /* a way, and the part of it that a shape goes */
+        PROVE(b >= 0 && b <= 1 << 30, "a part is no more than the whole");
+        return any_within(size_of(a));
+    }
     PROVE(a > 0 && b > 0, "of numbers above zero");
     const uint64_t any = any_u64();
     const uint32_t in = bits_in((uint32_t)a) + bits_in((uint32_t)b);
@@ -146,7 +150,8 @@ static void steps(void)
     ASSUME(is_first || (is_bent_as_promised(&limb.femur_shape) && is_bent_as_promised(&limb.tibia_shape)));
     ASSUME(limb.femur.bend >= 0 && limb.tibia.bend >= 0);
     is_true = true;
-    if (fixed_step(&limb, is_first, any_within(INT32_MAX), any_within(INT32_MAX))) {
+    int32_t turned_q27;
+    if (fixed_bounded_step(&limb, is_first, any_within(INT32_MAX), any_within(INT32_MAX), &turned_q27)) {
         PROVE(is_true, "a step that is answered is true");
         PROVE(is_bent_as_promised(&limb.femur_shape) && is_bent_as_promised(&limb.tibia_shape), "to a shape again");
     }

@@ -322,9 +322,10 @@ static void any_spring_added(fixed_tensor_t *c, fixed_vec_t v)
 }
 
 static fixed_vec_t any_link_added(fixed_tensor_t *c, fixed_tensor_t *springs, const fixed_rest_t *rest,
-                                  const fixed_factors_t *f, fixed_vec_t beyond, lost_t *lost)
+                                  const fixed_factors_t *f, uint32_t coarser, fixed_vec_t beyond, lost_t *lost)
 {
     (void)rest, (void)f;
+    PROVE(coarser <= 2u, "yields keep their words");
     PROVE(size_of(beyond.x) <= BEYOND_MOST && size_of(beyond.z) <= BEYOND_MOST, "what is beyond the link");
     add_terms(c, 1ull << 62);
     add_terms(c, 1ull << 62);

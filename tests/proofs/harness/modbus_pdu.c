@@ -73,7 +73,7 @@ int32_t answer_request(request_t *request, uint32_t code, const brace_request_t 
           "a request that Modbus knows");
     PROVE(code != BRACE_REQUEST_TAKE_UP || asked->take_up.flank == 1 || asked->take_up.flank == -1,
           "a flank that there is");
-    PROVE(request->transfer == NULL, "no block is committed that nobody has uploaded");
+    PROVE(request->upload == NULL && request->download == NULL, "no block is committed that nobody has uploaded");
     PROVE(code != BRACE_REQUEST_WRITE_ENTRY || asked->write_entry.index >= BRACE_ENTRY_COMMANDS, "an entry that is a command");
     *answer = any;
     request->is_of_now = any_bool();

@@ -50,19 +50,20 @@ static bool is_sound(const ownership_t *o)
     const bool is_bench = s->setting == BRACE_SETTING_BENCH;
     return (is_bench || is_guarded(s) || s->setting == BRACE_SETTING_NO_KEY) &&
            (s->setting != BRACE_SETTING_NO_KEY || (!s->is_open && !s->has_challenge)) &&
-           (!is_guarded(s) || !s->is_open || (s->is_alive && s->has_challenge)) &&
-           (is_bench || (!s->has_heard && !o->waits_for_life)) && (s->is_open || !s->is_alive) &&
-           (!o->waits_for_life || o->is_held) && s->silent_us <= SESSION_CLOSED_US &&
-           (!s->has_heard || s->heard_us <= s->life_us) && s->life_us <= SESSION_IDLE_US;
+           (!is_guarded(s) || !s->is_open || (s->is_alive && s->has_challenge)) && (is_bench || !s->has_hung_up) &&
+           (s->is_open || !(s->is_alive || s->has_begin || s->has_begun || s->is_begun)) &&
+           (!s->has_begun || s->is_alive) && s->silent_us <= SESSION_CLOSED_US && s->life_us >= SESSION_LIFE_US &&
+           s->life_us <= SESSION_IDLE_US && s->slot_us < s->life_us / (uint32_t)SESSION_SLOTS_PER_LIFE;
 }
 
 /* C lets a bool's byte hold 0 and 1 only. */
 static void any_state(ownership_t *o)
 {
-    bool *const flags[] = {&o->session.has_challenge, &o->session.is_open,     &o->session.is_alive,
-                           &o->session.has_hung_up,   &o->session.has_heard,   &o->program_moves,
-                           &o->is_held,               &o->waits_for_life,      &o->was_held,
-                           &o->fell_silent,           &o->is_by_wire,          &o->has_configurer};
+    session_t *const s = &o->session;
+    bool *const flags[] = {&s->has_challenge, &s->is_open,   &s->is_alive,       &s->has_hung_up,
+                           &s->has_begin,     &s->has_begun, &s->is_begun,       &o->program_moves,
+                           &o->is_held,       &o->waits,     &o->fell_silent,    &o->is_by_wire,
+                           &o->has_configurer};
     ANY(*o);
     for (uint32_t i = 0; i < sizeof flags / sizeof *flags; i++) {
         *flags[i] = any_bool();
@@ -78,7 +79,53 @@ static bool may_move(const ownership_t *o)
 
 /* -------------------------------------------------------------------------------------------- events -- */
 
-static void ask(ownership_t *o, const ownership_t *before, bool is_life)
+static void is_refused(const session_t *s, const session_t *was)
+{
+    PROVE(s->is_open == was->is_open && s->counter == was->counter && s->silent_us == was->silent_us &&
+              s->counted == was->counted && s->has_begun == was->has_begun,
+          "what is refused neither opens a session nor prolongs one, nor begins a motion");
+    PROVE(s->counts.strangers != was->counts.strangers || s->counts.replays != was->counts.replays ||
+              was->counts.strangers == UINT32_MAX || was->counts.replays == UINT32_MAX,
+          "a refusal is counted");
+}
+
+/* Is it one of the numbers that a sign of life may carry, and the one that this sign carries? */
+static bool is_good(const session_t *s, uint32_t number, const brace_sign_t *sign)
+{
+    bool is_one = (s->has_begin || s->is_begun) && number == s->begin;
+    for (uint32_t i = 0; i < (uint32_t)SESSION_NUMBERS; i++) {
+        is_one = is_one || number == s->number[i];
+    }
+    return is_one && (number & UINT32_MAX >> (32u - sign->heard_bits)) == sign->heard;
+}
+
+static void live(ownership_t *o, const ownership_t *before)
+{
+    const brace_who_t who = {(brace_asker_t)any_u8(), any_u32()};
+    const brace_sign_t sign = {any_u32(), any_bool() ? 16u : 32u, any_u32()};
+    const int32_t status = session_life(&o->session, who, &sign);
+    const session_t *s = &o->session, *was = &before->session;
+    if (s->setting == BRACE_SETTING_NO_KEY) {
+        PROVE(status == BRACE_REFUSED_NO_KEY, "without a key nobody is let in");
+    }
+    if (status != BRACE_OK) {
+        is_refused(s, was);
+        return;
+    }
+    if (is_guarded(s)) {
+        PROVE(sign.check == (uint32_t)mac, "only with the right check");
+        PROVE(hashed_count == 2u && hashed[0] == was->challenge, "made over this session's challenge");
+        PROVE(hashed[1] >> 32 == SESSION_LIFE && is_good(was, (uint32_t)hashed[1], &sign),
+              "over the kind and a whole number that is good");
+        PROVE(s->is_open && is_same_master(s->owner, who), "and by the owner alone");
+    }
+    const bool has_begun = was->has_begin && !s->has_begin && s->has_begun;
+    PROVE(s->silent_us == was->silent_us || !was->is_open || has_begun || (int32_t)(s->counted - was->counted) > 0,
+          "a number counts once");
+    PROVE(s->has_begun == was->has_begun || has_begun, "a motion begins with its own number");
+}
+
+static void command(ownership_t *o, const ownership_t *before)
 {
     const brace_who_t who = {(brace_asker_t)any_u8(), any_u32()};
     const brace_seal_t seal = {any_bool(), any_u32(), any_u32(), any_u32()};
@@ -86,34 +133,42 @@ static void ask(ownership_t *o, const ownership_t *before, bool is_life)
     const uint8_t bytes[8] = {0};
     ASSUME(seal.counter_bits >= 8u && seal.counter_bits <= 32u);
     ASSUME(seal.counter_bits == 32u || seal.counter >> seal.counter_bits == 0u);
-    const int32_t status =
-        is_life ? session_life(&o->session, who, given) : session_command(&o->session, who, given, bytes, sizeof bytes);
+    const int32_t status = session_command(&o->session, who, given, bytes, sizeof bytes);
     const session_t *s = &o->session, *was = &before->session;
     if (s->setting == BRACE_SETTING_NO_KEY) {
         PROVE(status == BRACE_REFUSED_NO_KEY, "without a key nobody is let in");
     }
     if (status != BRACE_OK) {
-        PROVE(s->is_open == was->is_open && s->counter == was->counter && s->silent_us == was->silent_us,
-              "what is refused neither opens a session nor prolongs one");
-        PROVE(s->counts.strangers != was->counts.strangers || s->counts.replays != was->counts.replays ||
-                  was->counts.strangers == UINT32_MAX || was->counts.replays == UINT32_MAX,
-              "a refusal is counted");
+        is_refused(s, was);
         return;
     }
     if (is_guarded(s)) {
         PROVE(given != NULL && seal.is_there && seal.mac == (uint32_t)mac, "only with the right check");
         PROVE(hashed_count == 2u && hashed[0] == was->challenge, "made over this session's challenge");
-        PROVE(hashed[1] == ((uint64_t)(is_life ? SESSION_LIFE : SESSION_COMMAND) << 32 | s->counter),
-              "over the kind and the whole counter");
-        PROVE(was->is_open ? s->counter > was->counter : is_life && s->counter == 0u,
-              "a counter comes once; a session is opened by number 0");
-        PROVE(s->is_open && is_same_master(s->owner, who), "and by the owner alone");
+        PROVE(hashed[1] == ((uint64_t)SESSION_COMMAND << 32 | s->counter), "over the kind and the whole counter");
+        PROVE(was->is_open && s->counter > was->counter, "a counter comes once, in a session that is open");
+        PROVE(is_same_master(s->owner, who), "and by the owner alone");
     }
-    if (!is_life && s->setting != BRACE_SETTING_NO_KEY) { /* a command that is let in may begin a motion */
-        o->is_by_wire = true;
-        ownership_begin(o);
-        PROVE(o->is_held || may_move(o), "a motion begins with its owner, or waits for its first sign of life");
-    }
+    ownership_wait(o);
+    PROVE(o->waits && s->has_begin && !s->has_begun, "what is let in waits for its sign of life");
+    PROVE(o->is_held == before->is_held && may_move(o) == may_move(before), "and changes nothing of what moves");
+}
+
+static void pass(ownership_t *o, const ownership_t *before)
+{
+    const uint32_t since_us = any_u32();
+    ASSUME(since_us <= UINT32_MAX / 2u);
+    session_pass(&o->session, since_us);
+    const session_t *s = &o->session, *was = &before->session;
+    const uint32_t slot_us = s->life_us / (uint32_t)SESSION_SLOTS_PER_LIFE;
+    PROVE(since_us < slot_us * (uint32_t)SESSION_NUMBERS || s->slot - was->slot >= (uint32_t)SESSION_NUMBERS,
+          "no number is left for longer than life_us and a slot");
+    PROVE(!(s->has_begin || s->is_begun) || (was->begin_us <= s->life_us && since_us <= s->life_us - was->begin_us),
+          "nor that of a motion for longer than life_us");
+    PROVE(s->is_open || !s->has_challenge || was->challenge_us + (uint64_t)since_us < SESSION_CHALLENGE_US,
+          "a challenge that nobody answers goes");
+    PROVE(s->is_open == was->is_open && s->is_alive == was->is_alive && s->has_begun == was->has_begun,
+          "time alone opens and begins nothing");
 }
 
 static void tick(ownership_t *o, const ownership_t *before)
@@ -123,9 +178,9 @@ static void tick(ownership_t *o, const ownership_t *before)
     ASSUME(!inputs.moves || inputs.runs);
     const ownership_step_t step = ownership_step(o, &inputs);
     const session_t *s = &o->session, *was = &before->session;
-    PROVE(!inputs.runs || o->is_held || may_move(o) || step == OWNERSHIP_FORGETS, "no motion without an owner");
-    PROVE(step != OWNERSHIP_FORGETS || before->waits_for_life, "what has begun to move is not forgotten");
+    PROVE(!inputs.runs || o->is_held || may_move(o), "no motion without an owner");
     PROVE(step != OWNERSHIP_STOPS || o->is_held, "what is stopped stands");
+    PROVE(!before->is_held || !inputs.runs || o->is_held, "and goes on standing");
     PROVE(step != OWNERSHIP_LETS_GO || (inputs.let_go_after_us != 0u && o->is_held && o->fell_silent),
           "it lets go only where it was told to, after its owner has fallen silent");
     PROVE(was->is_open || !s->is_open, "no session begins by itself");
@@ -134,6 +189,27 @@ static void tick(ownership_t *o, const ownership_t *before)
         PROVE(s->silent_us == was->silent_us + (inputs.stores ? 0u : inputs.since_us), "silence adds up");
         PROVE(s->silent_us <= most_us, "and ends the session: it always ends");
     }
+    if (step == OWNERSHIP_BEGINS) {
+        PROVE(before->waits && was->has_begun, "a motion begins after its sign of life");
+        o->is_by_wire = true;
+        ownership_begin(o);
+        PROVE(may_move(o) && !o->waits, "with its owner");
+    }
+}
+
+static void stop(ownership_t *o)
+{
+    const bool runs = any_bool();
+    ownership_stop(o, runs);
+    PROVE(o->is_held || !runs, "stop is anybody's, and the limb stands");
+    PROVE(!o->waits && !o->session.has_begin && !o->session.has_begun, "and nothing waits to begin");
+}
+
+static void begin_by_program(ownership_t *o)
+{
+    o->is_by_wire = false;
+    ownership_begin(o);
+    PROVE(!o->session.is_open && !o->waits, "what the program around the controller begins has no other owner");
 }
 
 int main(void)
@@ -142,9 +218,9 @@ int main(void)
     any_state(&o);
     mac = any_u64();
     const ownership_t before = o;
-    switch (any_u8() % 7u) {
-    case 0: ask(&o, &before, true); break;
-    case 1: ask(&o, &before, false); break;
+    switch (any_u8() % 8u) {
+    case 0: live(&o, &before); break;
+    case 1: command(&o, &before); break;
     case 2: tick(&o, &before); break;
     case 3:
         ASSUME(is_guarded(&o.session) && !o.session.is_open); /* app.c asks for a challenge only then */
@@ -154,15 +230,9 @@ int main(void)
         session_hang_up(&o.session);
         PROVE(!is_guarded(&o.session) || !o.session.is_open, "who hangs up is the owner no longer");
         break;
-    case 5:
-        (void)ownership_stop(&o);
-        PROVE(o.is_held, "stop is anybody's, and the limb stands");
-        break;
-    default:
-        o.is_by_wire = false;
-        ownership_begin(&o);
-        PROVE(!o.session.is_open, "what the program around the controller begins has no other owner");
-        break;
+    case 5: stop(&o); break;
+    case 6: pass(&o, &before); break;
+    default: begin_by_program(&o); break;
     }
     PROVE(is_sound(&o), "a sound state again");
     PROVE(o.session.setting == before.session.setting, "the setting stays");
