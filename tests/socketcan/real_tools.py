@@ -21,7 +21,7 @@ from wire_by_hand import ANSWER, DBC, LIMB, NODE, PROJECT, REQUEST, k_request
 QUIET = Path("/dev/shm/quiet-limb.toml")  # the guest's own: its disk is read-only
 
 ASKED_RAD = (0.7, 1.1)  # not where the limb stands
-ANSWERS = 3
+ANSWERS = 4
 CLIENT = PROJECT / "build" / "host" / "tools" / "client"
 
 

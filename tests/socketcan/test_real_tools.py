@@ -15,6 +15,7 @@ from processes import emulated, in_guest
 from real_tools import ASKED_RAD
 from wire_by_hand import (
     ANSWER,
+    DETAILS,
     EIGENVALUES,
     HEARTBEAT,
     K,
@@ -63,7 +64,7 @@ def test_candump_sees_every_message_at_its_rate(seen: dict[str, Any]) -> None:
     frames = frames_of(seen["candump"])
     base = {identifier - NODE for _, identifier, _ in frames}
     assert base >= {STIFFNESS_A, STIFFNESS_B, EIGENVALUES, POSTURE}, base
-    assert base <= {STIFFNESS_A, STIFFNESS_B, EIGENVALUES, POSTURE, HEARTBEAT, EMERGENCY}
+    assert base <= {STIFFNESS_A, STIFFNESS_B, EIGENVALUES, POSTURE, DETAILS, HEARTBEAT, EMERGENCY}
     for data in (data for _, identifier, data in frames if identifier == EMERGENCY + NODE):
         assert int.from_bytes(data[4:8], "little") & ~TICK_LATE == 0, data  # an emulator may be late, nothing else
     ticks = [data[0] for _, identifier, data in frames if identifier == STIFFNESS_A + NODE]
@@ -81,7 +82,7 @@ def test_candump_sees_every_message_at_its_rate(seen: dict[str, Any]) -> None:
 def test_k_as_candump_prints_it_is_the_limbs(seen: dict[str, Any]) -> None:
     by_id = {identifier - NODE: data for _, identifier, data in frames_of(seen["candump"])}
     a, b = by_id[STIFFNESS_A], by_id[STIFFNESS_B]
-    xx, xz = (whole(a, start, 24, True) * K_STEP_N_PER_MM for start in (16, 40))
+    xx, xz = (whole(a, start, 24, True) * K_STEP_N_PER_MM for start in (8, 32))
     true = expected(*STANDS_RAD)
     zz = whole(b, 8, 24, True) * K_STEP_N_PER_MM
     for told, expect in ((xx, true.xx), (xz, true.xz), (zz, true.zz)):

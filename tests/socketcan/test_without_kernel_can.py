@@ -57,10 +57,10 @@ def test_cantools_monitor_shows_k(channel: str) -> None:
     names = ("k_xx", "k_xz", "k_zz", "lambda_min")
     text = screen_of(
         [program, "monitor", "-s", "-i", "slcan", "-c", channel, "-b", "1000000", str(DBC)],
-        [rf"{name}: -?\d+\.?\d* N/mm" for name in names],
+        [rf"\b{name}: -?\d+\.?\d* N/mm" for name in names],
     )
     for name, value in zip(names, (true.xx, true.xz, true.zz, true.low), strict=True):
-        shown = re.search(rf"{name}: (-?\d+\.?\d*) N/mm", text)
+        shown = re.search(rf"\b{name}: (-?\d+\.?\d*) N/mm", text)
         assert shown and float(shown[1]) == pytest.approx(value, abs=0.01), name
 
 
@@ -79,6 +79,6 @@ def test_cantools_decodes_a_log(channel: str, tmp_path: Path) -> None:
     )  # fmt: skip
     decoded = run.stdout.splitlines()
     assert len(decoded) == len(lines) == 40
-    shown = [float(found[1]) for line in decoded if (found := re.search(r"k_zz: (-?\d+\.?\d*) N/mm", line))]
+    shown = [float(found[1]) for line in decoded if (found := re.search(r"\bk_zz: (-?\d+\.?\d*) N/mm", line))]
     assert len(shown) >= 10
     assert shown == pytest.approx([expected(*STANDS_RAD).zz] * len(shown), abs=0.01)

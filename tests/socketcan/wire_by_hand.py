@@ -18,7 +18,7 @@ LIMB = PROJECT / "tools" / "brace" / "data" / "paper-limb.toml"
 DBC = PROJECT / "firmware" / "interface" / "brace.dbc"
 
 NODE = 1
-STIFFNESS_A, STIFFNESS_B, EIGENVALUES, POSTURE, HEARTBEAT = 0x180, 0x280, 0x380, 0x480, 0x700
+STIFFNESS_A, DETAILS, STIFFNESS_B, EIGENVALUES, POSTURE, HEARTBEAT = 0x180, 0x200, 0x280, 0x380, 0x480, 0x700
 REQUEST, ANSWER = 0x600, 0x580
 READ_ENTRY, K_AT_POSTURE = 1, 3
 K_ANSWERS = [3, 4, 5, 6]  # the numbers of the frames that answer it
