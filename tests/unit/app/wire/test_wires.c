@@ -8,7 +8,7 @@
 #include "wire/wire.h"
 #include "wire/wires.h"
 
-enum { LINE_SILENT_TICKS = 2, DATA_WAIT_MOST_TICKS = 16 };
+enum { LINE_SILENT_TICKS = 2, DATA_WAIT_MOST_TICKS = 8 };
 
 static void start_at(uint32_t stiffness_hz, uint32_t posture_hz, uint32_t load_hz)
 {
@@ -345,7 +345,7 @@ static void test_a_snapshot_is_not_told_after_the_bus_was_off(void)
     TEST_ASSERT_FALSE(app.wires.can.bus.is_off);
 }
 
-/* In a tick with an answer no process data leave; after sixteen such ticks, one frame does. */
+/* In a tick with an answer no process data leave; after eight such ticks, one frame does. */
 static void test_answers_go_first_for_a_while(void)
 {
     uint32_t without = 0;

@@ -32,8 +32,23 @@ static brace_command_t command_of(uint32_t code, const brace_request_t *asked)
     }
 }
 
+/* Has the dictionary such a request? */
+static bool is_known(uint32_t code)
+{
+#define KNOWN(CODE, name) case CODE:
+    switch (code) {
+        BRACE_REQUESTS(KNOWN)
+        return true;
+    default: return false;
+    }
+#undef KNOWN
+}
+
 answer_rank_t answer_rank(uint32_t code, const brace_request_t *asked)
 {
+    if (!is_known(code)) {
+        return ANSWER_UNKNOWN;
+    }
     switch (code) {
     case BRACE_REQUEST_LOADING_TEST_STOP: return ANSWER_STOPS;
     case BRACE_REQUEST_WRITE_ENTRY: return asked->write_entry.index == STOP ? ANSWER_STOPS : ANSWER_OF_SESSION;

@@ -72,7 +72,8 @@ BRACE_REQUESTS(ANSWER_FUNCTION)
 typedef enum {
     ANSWER_STOPS,      /* the limb: obeyed as soon as it is seen, before anything else */
     ANSWER_OF_SESSION, /* a sign of life, a seal, a command: each in its order, before all questions */
-    ANSWER_QUESTION
+    ANSWER_QUESTION,
+    ANSWER_UNKNOWN     /* the dictionary has no such request: refused where it is seen */
 } answer_rank_t;
 
 /* asked: looked at where the code alone does not say it. 30 instructions. */

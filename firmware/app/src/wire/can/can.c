@@ -11,7 +11,7 @@
 #define REFUSALS_PER_TICK 2u /* of questions too many; more of them are only counted */
 #define NODE_MOST 127u
 #define STORING_PARTS 2u /* of the answer to a commit, which comes by itself */
-#define DATA_WAIT_MOST 16u /* ticks with answers in a row, in which no process data leave */
+#define DATA_WAIT_MOST 8u /* ticks with answers in a row, in which no process data leave: four frames take 36 ticks */
 #define ANSWERS_PER_TICK ((uint32_t)BRACE_CAN_ANSWER_PARTS_MOST + STORING_PARTS) /* frames that a tick can add */
 #define ROOM_FOR_REFUSALS 8u /* frames of room that refusals of questions leave to other answers */
 #define TEXT_ANSWERS_PER_TICK 5u /* frames as text, which cost twice as much: all of an answer, if it is not about K */
@@ -104,13 +104,13 @@ static void keep_silent(can_t *can, way_t way, const wire_tick_t *tick)
     }
 }
 
-/* A question finds its master's queue full. It is refused, or counted where even the refusal finds no room. */
-static void refuse_busy(can_requests_t *requests, const wire_tick_t *tick, const uint8_t *data)
+/* A request that waits in no queue is refused at once, or counted where even the refusal finds no room. */
+static void refuse(can_requests_t *requests, const wire_tick_t *tick, const uint8_t *data, int32_t status,
+                   uint32_t detail)
 {
-    brace_count(&tick->counters->questions_busy);
     if (requests->refusals_left > 0u && can_answers_have_room(&requests->answers, 1u + ROOM_FOR_REFUSALS)) {
         requests->refusals_left--;
-        can_answers_refuse(&requests->answers, data[0], data[1], BRACE_REFUSED_CROWDED, CAN_QUESTIONS_EACH);
+        can_answers_refuse(&requests->answers, data[0], data[1], status, detail);
     } else {
         brace_count(&tick->counters->requests_lost);
     }
@@ -138,9 +138,15 @@ static bool sort_frame(can_t *can, way_t way, const wire_tick_t *tick, const bra
         brace_can_unpack_request(frame->data, &asked);
     }
     const answer_rank_t rank = answer_rank(frame->data[0], &asked);
+    if (rank == ANSWER_UNKNOWN) { /* noise takes no turn from anybody */
+        brace_count(&tick->counters->frames_unknown);
+        refuse(requests, tick, frame->data, BRACE_REFUSED_UNKNOWN, BRACE_REQUEST_CODE_MOST);
+        return false;
+    }
     if (rank == ANSWER_QUESTION) {
-        if (!can_queue_put_question(&requests->queue, frame->data)) {
-            refuse_busy(requests, tick, frame->data);
+        if (!can_queue_put_question(&requests->queue, frame->data)) { /* its master's is full */
+            brace_count(&tick->counters->questions_busy);
+            refuse(requests, tick, frame->data, BRACE_REFUSED_CROWDED, CAN_QUESTIONS_EACH);
         }
         return false;
     }

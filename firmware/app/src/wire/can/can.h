@@ -4,7 +4,7 @@
  * every tick, before anything else: a stop is obeyed at once, and what belongs to a session goes before questions. Of
  * the questions each port answers one in a tick, of its masters in turn. Each port has its own process data, heartbeats
  * and emergencies. One tick makes two frames of process data at most, and the ports have the first choice in turns.
- * Process data wait in a tick in which a request is answered, on whatever wire, at most 16 ticks in a row. A port
+ * Process data wait in a tick in which a request is answered, on whatever wire, at most 8 ticks in a row. A port
  * without room for an answer lets questions wait in their queues until there is room again. A question whose master's
  * queue is full is refused as BRACE_REFUSED_CROWDED, or counted where even that finds no room.
  *
@@ -79,7 +79,7 @@ uint32_t can_answer(can_t *can, const wire_tick_t *tick, bool has_room);
 
 /* Then: sends what is due.
  *   most: frames of process data that may leave, at most PROCESS_FRAMES_PER_TICK; 0: they wait, but not for more than
- *     16 ticks in a row; then one leaves
+ *     8 ticks in a row; then one leaves
  * Both halves take about 300 instructions when nothing happens. A request adds what its answer costs, each frame sent
  * 160, as text 380.
  * returns how much it has done for process data: frames that have left, and what process_tick has done */
