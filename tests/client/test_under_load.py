@@ -160,7 +160,7 @@ def test_a_controller_that_sends_no_load(probe: Probe, sim: Sim) -> None:
 
 
 def test_a_force_that_folds_the_limb_or_is_no_force(probe: Probe, url: str) -> None:
-    folds = probe(url, "under_load", 0.3, 0.6, -400.0, 0.0)
+    folds = probe(url, "under_load", 0.3, 0.6, -2000.0, 0.0)
     assert folds.code == REFUSED and "folds the limb" in folds.err and "refusal -6" in folds.err
     assert probe(url, "under_load", 0.3, 0.6, math.nan, 0.0).code == USAGE
     assert probe(url, "under_load", 0.3, 0.6, 9000.0, 0.0).code == USAGE
