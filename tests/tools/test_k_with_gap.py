@@ -77,9 +77,11 @@ def test_the_text_tells_both(brace: Brace, with_gap: Path, paper_limb: Path) -> 
 
 
 def test_under_a_load_the_gap_is_taken_up(brace: Brace, with_gap: Path) -> None:
-    text = brace("k", "--model", with_gap, *POSTURE, "--fz", 10).out
+    text = brace("k", "--model", with_gap, *POSTURE, "--fz", 2).out
     assert "backlash  joint.tibia 0.004 rad (0.229 deg)" in text and "while it is open" not in text
     assert "this load holds the tibia on its + side; nothing has proven it (PLAY_ASSUMED)" in text
+    text = brace("k", "--model", with_gap, *POSTURE, "--fz", 10).out
+    assert "this load holds the tibia on its + side: its motor's torque proves it" in text and "PLAY" not in text
 
 
 def test_a_load_that_holds_no_side_leaves_the_gap_open(brace: Brace, with_gap: Path) -> None:
@@ -88,12 +90,12 @@ def test_a_load_that_holds_no_side_leaves_the_gap_open(brace: Brace, with_gap: P
     assert "GAP_OPEN" in weak["flag_names"] and "PLAY_ASSUMED" not in weak["flag_names"]
     assert weak["lambda_min_n_per_mm"] == 0.0 and weak["engaged"]["k_xx_n_per_mm"] == pytest.approx(3.97, abs=0.01)
     assert "brace take-up tibia-" in brace("k", "--model", with_gap, *POSTURE, "--fz", 0.3).out
-    held = json.loads(brace("k", "--model", with_gap, *POSTURE, "--fz", 10, "--json").out)
+    held = json.loads(brace("k", "--model", with_gap, *POSTURE, "--fz", 2, "--json").out)
     assert "PLAY_ASSUMED" in held["flag_names"] and "GAP_OPEN" not in held["flag_names"]
     assert held["held"] == {"tibia": 1}  # its motor holds the tibia up: it stands half the gap off
     shifted = ("--theta1", 1, "--theta2", 1.4 - 0.002)
     none = with_gap.parent / "none.toml"
     none.write_text(with_gap.read_text().replace("gap_rad = 0.004", "gap_rad = 0.0"))
-    off = json.loads(brace("k", "--model", none, *shifted, "--fz", 10, "--json").out)
+    off = json.loads(brace("k", "--model", none, *shifted, "--fz", 2, "--json").out)
     for name in K:
         assert held[name] == pytest.approx(off[name], rel=1e-6)

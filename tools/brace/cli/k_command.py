@@ -255,11 +255,11 @@ def _play(
     model: LimbModel, true_rad: tuple[float, float], values: dict[str, float], arguments: argparse.Namespace
 ) -> Play | None:
     """Which play the load takes up, of a limb in its plane; K of now goes into `values`."""
-    from brace.play_under_load import play_under_load, put_into
+    from brace.play_under_load import PlayUnderLoad, put_into
 
     if not arguments.is_loaded or arguments.theta0 is not None:
         return None
-    play = play_under_load(model, *true_rad, arguments.fx, arguments.fz, arguments.arith)
+    play = PlayUnderLoad(model, arguments.arith).at(*true_rad, arguments.fx, arguments.fz)
     if play:
         put_into(values, play)
     return play
@@ -274,7 +274,12 @@ def _play_text(
     if play:
         sides = {joint: "+" if side > 0 else "-" for joint, side in play.held.items()}
         lines = [
-            f"           this load holds the {joint} on its {side} side; nothing has proven it (PLAY_ASSUMED)"
+            f"           this load holds the {joint} on its {side} side"
+            + (
+                "; nothing has proven it (PLAY_ASSUMED)"
+                if joint in play.assumed
+                else ": its motor's torque proves it in a controller there"
+            )
             for joint, side in sides.items()
         ]
         for joint in play.open:

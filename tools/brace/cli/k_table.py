@@ -13,7 +13,7 @@ from brace.cli.k_load import refuse_across_the_plane, refuse_in_space, refuse_lo
 from brace.errors import BadFileError, UsageError
 from brace.files import check_file, write_file
 from brace.model import LimbModel
-from brace.play_under_load import play_under_load, put_into
+from brace.play_under_load import PlayUnderLoad, put_into
 from brace.posture_table import PostureTable, read_postures
 from brace.stiffness_in_space_under_load import LOADED_SPACE_REST, LoadedLimbInSpace
 from brace.stiffness_under_load import LOADED_REST, stiffness_under_load
@@ -97,10 +97,11 @@ def _take_up(table: PostureTable, model: LimbModel, arguments: argparse.Namespac
     true1, true2 = stiffness.planar_limb(model).true_angles(table.angles["theta1_rad"], table.angles["theta2_rad"])
     force_n = _forces(table, {"fx_n": arguments.fx, "fz_n": arguments.fz})
     rows = np.column_stack([stiffness.within_half_turn(true1), true2, *force_n]).tolist()
+    limb = PlayUnderLoad(model, arguments.arith)
     for index, (theta1, theta2, fx_n, fz_n) in enumerate(rows):
         if np.isnan(result["k_xx_n_per_mm"][index]):
             continue
-        play = play_under_load(model, theta1, theta2, fx_n, fz_n, arguments.arith)
+        play = limb.at(theta1, theta2, fx_n, fz_n)
         if play is None:
             continue
         values = {name: result[name][index].item() for name in result.dtype.names or ()}

@@ -27,6 +27,7 @@ FIRMWARE_HEADERS = (
     "gap_stiffness.h",
     "loaded.h",
     "loaded_fixed.h",
+    "backlash.h",
     "play.h",
     "loaded_batch.h",
     "loaded_space.h",
@@ -36,6 +37,7 @@ FIRMWARE_HEADERS = (
     "slope.h",
     "contact.h",
     "parameters.h",
+    "play_parameters.h",
     "status_text.h",
 )
 HOST_HEADER = "brace_host.h"

@@ -1,46 +1,12 @@
 #include "flank/flank.h"
 
-#include "brace/play.h"
-
-#define LEAST_GAP_RAD 1e-5f /* below it there is no play to watch */
-
-#define TAKEUP_RATE_RAD_PER_S 0.1f
-#define TAKEUP_TIME_US 8000000u
-#define TAKEUP_VERIFY_US 100000u
-#define TAKEUP_SPARE_RAD 0.004f
-#define TAKEUP_TRAVEL_MOST_RAD 1.0f
-#define TAKEUP_DROOP_RAD 0.2f /* by which a soft servo gives way at the take-up's torque */
-
-/* The take-up may travel the gap and three tenths of it more, and what the joint's spring gives way by. */
-static brace_takeup_bounds_t takeup_bounds(const brace_drive_t *drive, const brace_joint_t *joint)
-{
-    const float yields_rad = drive->takeup_torque_n_mm * joint->compliance_rad_per_n_mm;
-    const float wanted_rad = 1.3f * joint->gap_rad + yields_rad + TAKEUP_SPARE_RAD;
-    const float travel_rad = wanted_rad < TAKEUP_TRAVEL_MOST_RAD ? wanted_rad : TAKEUP_TRAVEL_MOST_RAD;
-    return (brace_takeup_bounds_t){.torque_max_n_mm = drive->takeup_torque_n_mm,
-                                   .travel_max_rad = travel_rad,
-                                   .reach_max_rad = travel_rad + TAKEUP_DROOP_RAD,
-                                   .rate_rad_per_s = TAKEUP_RATE_RAD_PER_S,
-                                   .time_max_us = TAKEUP_TIME_US,
-                                   .verify_us = TAKEUP_VERIFY_US};
-}
+#include "brace/play_parameters.h"
 
 void flank_configure(flank_t *flank, int joint_index, const joints_t *joints, const brace_parameters_t *parameters)
 {
     flank_joint_t *ours = &flank->joint[joint_index];
-    const brace_drive_t *drive = &parameters->drive[joint_index];
-    const brace_joint_t *joint = &parameters->limb.joint[joint_index];
-    const brace_backlash_params_t params = {.tick_us = parameters->controller.tick_us,
-                                            .gap_rad = joint->gap_rad,
-                                            .friction_n_mm = drive->motor_friction_n_mm,
-                                            .friction_tolerance_ratio = drive->motor_friction_tolerance_ratio,
-                                            .inertia_n_mm_s2_per_rad = drive->motor_inertia_n_mm_s2_per_rad,
-                                            .torque_range_n_mm = drive->torque_range_n_mm,
-                                            .torque_noise_n_mm = drive->torque_noise_n_mm,
-                                            .torque_bias_n_mm = drive->torque_bias_n_mm,
-                                            .angle_step_rad = drive->angle_step_rad,
-                                            .takeup = takeup_bounds(drive, joint)};
-    ours->has_play = joints->joint[joint_index].fitted && joint->gap_rad >= LEAST_GAP_RAD;
+    const brace_backlash_params_t params = brace_play_watched(parameters, joint_index);
+    ours->has_play = joints->joint[joint_index].fitted && params.gap_rad >= BRACE_BACKLASH_LEAST_GAP_RAD;
     ours->out = (brace_backlash_out_t){.valid = false}; /* what a joint that is not watched leaves as it is */
     ours->watched = ours->has_play && brace_backlash_init(&ours->machine, &params) == BRACE_OK;
 }
@@ -51,26 +17,13 @@ int flank_expect_load(brace_backlash_sample_t *sample, int index, const tip_forc
     const brace_point_t lever = index == BRACE_FEMUR ? posture->pose.lever_femur : posture->pose.lever_tibia;
     const float expected_n_mm = posture_gravity_n_mm(posture, &parameters->gravity, down, index) +
                                 posture_tip_load_n_mm(posture, force->x_n, force->z_n, index);
-    const brace_drive_t *drive = &parameters->drive[index];
-    const brace_play_joint_t joint = {.coulomb_n_mm = drive->coulomb_n_mm,
-                                      .coulomb_per_load_ratio = drive->coulomb_per_load_ratio,
-                                      .noise_n = parameters->sensor.noise_n,
-                                      .gain_rel = parameters->limb.uncertainty.gain_rel};
+    const brace_play_joint_t joint = brace_play_joint(parameters, index);
     const brace_play_t play =
         brace_play_under_load(&joint, expected_n_mm, __builtin_fabsf(lever.x_mm) + __builtin_fabsf(lever.z_mm));
     sample->load_is_expected = true;
     sample->expected_n_mm = expected_n_mm;
     sample->expected_off_n_mm = play.off_n_mm;
     return play.flank;
-}
-
-/* Proven by the motor's torque, or named by the machine and held by the load, where the load is told by the tip's
- * force. Where nobody tells the load, the side that the machine names is assumed. */
-static void engage(flank_joint_t *ours, bool is_expected, int held)
-{
-    const bool is_named = ours->out.flank != 0 && (!is_expected || held == ours->out.flank);
-    ours->is_engaged = ours->out.valid || is_named;
-    ours->is_assumed = is_named && !ours->out.valid;
 }
 
 void flank_tick(flank_t *flank, const joints_t *joints, const tip_force_t *force, const posture_t *posture,
@@ -103,7 +56,10 @@ void flank_tick(flank_t *flank, const joints_t *joints, const tip_force_t *force
             const int held =
                 is_expected ? flank_expect_load(&sample, i, force, posture, down, parameters) : 0;
             (void)brace_backlash_tick(&ours->machine, &sample, &ours->out);
-            engage(ours, is_expected, held);
+            const brace_engagement_t engagement =
+                brace_play_engagement(ours->out.flank, ours->out.valid, is_expected, held);
+            ours->is_engaged = engagement.is_engaged;
+            ours->is_assumed = engagement.is_assumed;
         }
     }
 }

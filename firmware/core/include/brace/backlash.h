@@ -47,6 +47,15 @@ brace_status_t brace_backlash_init(brace_backlash_t *joint, const brace_backlash
 brace_status_t brace_backlash_tick(brace_backlash_t *joint, const brace_backlash_sample_t *sample,
                                    brace_backlash_out_t *out);
 
+/* What ticks end at when the motor has stood under one torque for a second or longer, from a fresh start: for tools
+ * that know the load and have no controller.
+ *   joint: prepared; only read. sample: its torque is the load; motor_rad and now_us do not count
+ *   flank (out): the side that is named, +1 or -1; 0: none. is_proven (out): the torque itself proves it
+ * returns BRACE_OK, BRACE_E_NULL, BRACE_E_NOT_FINITE, BRACE_E_RANGE
+ * Not for the tick; stack at most 400 bytes. */
+brace_status_t brace_backlash_at_rest(const brace_backlash_t *joint, const brace_backlash_sample_t *sample, int *flank,
+                                      bool *is_proven);
+
 /* Longest time after the gap has opened for which the flank is still valid [us], as brace_backlash_init computed it. 0
  * for null. */
 uint32_t brace_backlash_detection_us(const brace_backlash_t *joint);

@@ -5,6 +5,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#define BRACE_BACKLASH_LEAST_GAP_RAD 1e-5f /* below it there is no play to watch */
+
 typedef enum {
     BRACE_BACKLASH_UNKNOWN = 0,          /* no flank is known: no load has shown one yet, or none for 250 ms */
     BRACE_BACKLASH_TAKING_UP = 1,        /* a take-up moves the motor through the gap */

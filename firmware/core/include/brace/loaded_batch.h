@@ -30,13 +30,15 @@ size_t brace_loaded_fixed_batch(const brace_loaded_fixed_t *fixed, float reach_m
 /* Of a limb in space: result->flags with those of brace_loaded_flags. */
 uint32_t brace_loaded_space_flags(const brace_space_result_t *result, float buckling_factor, float reach_mm);
 
-/* Which play of femur and tibia joint the load of a rest takes up, and K with the other gaps open, as a controller there.
- * angles: commanded true ones; load, rest: what brace_loaded_stiffness was given and told. joint: femur, tibia.
- * gaps: BRACE_GAP_... bits of the joints with play. flank (out): of each joint, 0: open, or no play.
+/* Which play of femur and tibia joint the load of a rest takes up, and K with the other gaps open, as a controller
+ * there that has settled (brace_play_at_rest).
+ * angles: commanded true ones; load, rest: what brace_loaded_stiffness was given and told. joint, machine: of femur and
+ * tibia joint; a machine is null where the joint cannot be watched. engaged (out): a joint without play is engaged
+ * without a side. k (out): flags with PLAY_ASSUMED.
  * returns as brace_gap_stiffness_known */
 brace_status_t brace_loaded_play(const brace_limb_t *limb, const brace_gravity_t *weights, float theta1_rad,
                                  float theta2_rad, const brace_load_t *load, const brace_loaded_stiffness_t *rest,
-                                 const brace_play_joint_t joint[2], uint32_t gaps, int flank[2],
-                                 brace_gap_stiffness_t *k);
+                                 const brace_play_joint_t joint[2], const brace_backlash_t *const machine[2],
+                                 brace_engagement_t engaged[2], brace_gap_stiffness_t *k);
 
 #endif

@@ -52,7 +52,7 @@ static brace_status_t check_params(const brace_backlash_params_t *p)
 {
     const float range = p->torque_range_n_mm;
     const range_t ranges[] = {
-        {p->gap_rad, 1e-5f, BRACE_RANGE_JOINT_GAP_RAD_MAX},
+        {p->gap_rad, BRACE_BACKLASH_LEAST_GAP_RAD, BRACE_RANGE_JOINT_GAP_RAD_MAX},
         {p->friction_n_mm, BRACE_RANGE_DRIVE_MOTOR_FRICTION_N_MM_MIN, BRACE_RANGE_DRIVE_MOTOR_FRICTION_N_MM_MAX},
         {p->friction_tolerance_ratio, BRACE_RANGE_DRIVE_MOTOR_FRICTION_TOLERANCE_RATIO_MIN,
          BRACE_RANGE_DRIVE_MOTOR_FRICTION_TOLERANCE_RATIO_MAX},
@@ -236,6 +236,23 @@ brace_status_t brace_backlash_tick(brace_backlash_t *joint, const brace_backlash
     facts |= sample->stands ? backlash_takeup_stand(joint) : backlash_takeup_advance(joint, facts, proven);
     advance_state(joint, facts);
     tell(joint, proven, out);
+    return status;
+}
+
+brace_status_t brace_backlash_at_rest(const brace_backlash_t *joint, const brace_backlash_sample_t *sample, int *flank,
+                                      bool *is_proven)
+{
+    if (joint == NULL || sample == NULL || flank == NULL || is_proven == NULL) {
+        return BRACE_E_NULL;
+    }
+    const brace_status_t status = check_sample(joint, sample);
+    if (status == BRACE_OK) {
+        brace_backlash_t settled = *joint;
+        backlash_load_settle(&settled, sample->torque_n_mm);
+        const int proven = backlash_load_proven(&settled);
+        *flank = proven != 0 ? proven : backlash_load_told(&settled, sample, TOLD_SHARE);
+        *is_proven = proven != 0;
+    }
     return status;
 }
 

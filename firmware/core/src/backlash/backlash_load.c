@@ -106,6 +106,17 @@ void backlash_load_observe(brace_backlash_t *joint, const brace_backlash_sample_
     joint->play_high_rad = clamped(joint->play_high_rad + moved_rad, -half_gap_rad, half_gap_rad);
 }
 
+void backlash_load_settle(brace_backlash_t *joint, float torque_n_mm)
+{
+    const brace_backlash_params_t *p = &joint->params;
+    joint->fast_n_mm = joint->slow_n_mm = joint->torque_n_mm = torque_n_mm;
+    joint->fast_width_n_mm = joint->slow_width_n_mm = p->friction_n_mm * (1.0f + p->friction_tolerance_ratio);
+    joint->slow_spread_n_mm = joint->slow_sigma_n_mm;
+    const float off_n_mm = backlash_load_off_n_mm(joint);
+    joint->positive_us = torque_n_mm > off_n_mm ? CONFIRM_US : 0u;
+    joint->negative_us = torque_n_mm < -off_n_mm ? CONFIRM_US : 0u;
+}
+
 float backlash_load_off_n_mm(const brace_backlash_t *joint)
 {
     return joint->fast_width_n_mm + PROOF_SIGMAS * joint->fast_sigma_n_mm + joint->params.torque_bias_n_mm;

@@ -20,6 +20,9 @@ void backlash_load_start(brace_backlash_t *joint, const brace_backlash_sample_t 
 /* Takes in the sample of a tick. */
 void backlash_load_observe(brace_backlash_t *joint, const brace_backlash_sample_t *sample);
 
+/* As backlash_load_observe leaves it after standing for long under one torque. */
+void backlash_load_settle(brace_backlash_t *joint, float torque_n_mm);
+
 /* The sign of the load that the fast interval proves for CONFIRM_US; 0 if it proves none. */
 int backlash_load_proven(const brace_backlash_t *joint);
 

@@ -86,13 +86,13 @@ static void loads_of(const brace_pose_t *pose, const brace_gravity_t *weights, c
 
 brace_status_t brace_loaded_play(const brace_limb_t *limb, const brace_gravity_t *weights, float theta1_rad,
                                  float theta2_rad, const brace_load_t *load, const brace_loaded_stiffness_t *rest,
-                                 const brace_play_joint_t joint[2], uint32_t gaps, int flank[2],
-                                 brace_gap_stiffness_t *k)
+                                 const brace_play_joint_t joint[2], const brace_backlash_t *const machine[2],
+                                 brace_engagement_t engaged[2], brace_gap_stiffness_t *k)
 {
     static const uint32_t bit[2] = {BRACE_GAP_FEMUR, BRACE_GAP_TIBIA};
     brace_pose_t pose;
     float load_n_mm[2];
-    uint32_t open = 0;
+    uint32_t open = 0, assumed = 0;
     brace_kinematics_pose(limb, theta1_rad, theta2_rad, &pose);
     const brace_vec_t tibia = rest->tibia_mm;
     pose.tip = (brace_point_t){pose.tip.x_mm + rest->displacement.x_mm, pose.tip.z_mm + rest->displacement.z_mm};
@@ -103,8 +103,17 @@ brace_status_t brace_loaded_play(const brace_limb_t *limb, const brace_gravity_t
     for (int i = 0; i < 2; i++) {
         const brace_point_t lever = i == 0 ? pose.lever_femur : pose.lever_tibia;
         const float lever_mm = fabsf(lever.x_mm) + fabsf(lever.z_mm);
-        flank[i] = (gaps & bit[i]) != 0u ? brace_play_under_load(&joint[i], load_n_mm[i], lever_mm).flank : 0;
-        open |= flank[i] == 0 ? gaps & bit[i] : 0u;
+        engaged[i] = (brace_engagement_t){0, true, false};
+        if (limb->joint[BRACE_FEMUR + i].gap_rad >= BRACE_BACKLASH_LEAST_GAP_RAD) {
+            engaged[i] = brace_play_at_rest(&joint[i], machine[i], load_n_mm[i], lever_mm, true);
+        }
+        open |= engaged[i].is_engaged ? 0u : bit[i];
+        assumed |= engaged[i].is_assumed ? (uint32_t)BRACE_FLAG_PLAY_ASSUMED : 0u;
     }
-    return brace_gap_stiffness_known(&rest->stiffness, &pose, open, k);
+    const brace_status_t status = brace_gap_stiffness_known(&rest->stiffness, &pose, open, k);
+    if (status == BRACE_OK) {
+        k->now.flags |= assumed;
+        k->engaged.flags |= assumed;
+    }
+    return status;
 }
