@@ -5,7 +5,7 @@
  *   wait: until it has ended | steps:MS: a control loop for so long | silent:MS: hangs for so long
  *   reads:MS: reads the load for so long, which over CAN does not come where controller.load_hz is 0
  *   read:MS: reads K with that time-out, its number in the place of the state
- *   stop | clear:FAULTS | gravity:DIRECTION:LEAN | entry:INDEX: its 32 bits in the place of the state */
+ *   stop | stop_all:ID | clear:FAULTS | gravity:DIRECTION:LEAN | entry:INDEX: its 32 bits in the place of the state */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -99,6 +99,9 @@ static brace_client_status_t act(brace_client_t *limb, const char *name, const f
     }
     if (strcmp(name, "stop") == 0) {
         return brace_client_stop(limb, ANSWER_MS);
+    }
+    if (strcmp(name, "stop_all") == 0) {
+        return brace_client_stop_all(limb, (uint32_t)n[0], ANSWER_MS);
     }
     if (strcmp(name, "clear") == 0) {
         return brace_client_clear(limb, (uint32_t)n[0], ANSWER_MS, value);

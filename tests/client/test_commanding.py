@@ -135,6 +135,20 @@ def test_a_loading_test_is_done_and_another_is_stopped(bench: Sim) -> None:
     assert mode_of(bench.can) == "MONITOR"
 
 
+def test_every_limb_of_a_bus_is_stopped(tmp_path: Path, with_play: Path) -> None:
+    with simulated(tmp_path, with_play, "--speed", SPEED, "--limbs", 2) as sim:
+        other = subprocess.Popen([MOTION_PROBE, sim.can, "2", "-", UP, "wait"], stdout=subprocess.PIPE, text=True)
+        held, why = acts(sim.can, UP, "steps:100", "stop_all:1", f"entry:{INDEX['is_held']}")
+        assert [act.status for act in held] == [0, 0, 0, 0] and held[2].state == STOPPED and held[3].state == 1, why
+        out, _ = other.communicate(timeout=60)
+        name, status, state, _ = out.splitlines()[-1].split()
+        assert (name, int(status), int(state)) == ("wait", REFUSED, STOPPED), out
+        beyond, why = acts(sim.can, "stop_all:0", "stop_all:128")
+        assert [act.status for act in beyond] == [USAGE, USAGE] and "outside its range" in why
+        by_register, why = acts(sim.modbus, "stop_all:1")
+        assert by_register[0].status == UNSUPPORTED and "its own client" in why
+
+
 def test_the_example(bench: Sim, guarded: Sim, keys: tuple[Path, Path]) -> None:
     for command in ([bench.can, 1, 2, -1], [guarded.modbus, 1, 2, -1, keys[0]]):
         done = subprocess.run([TAKE_UP_AND_LET_GO, *map(str, command)], capture_output=True, text=True, timeout=60)

@@ -4,16 +4,21 @@ from __future__ import annotations
 
 import contextlib
 import json
+import socket
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
+from bus_bench import adapter
 from conftest import LIMB, Outcome, spawn
 from test_sim_command import FREE, running
 
-from brace.bus import taking_up
+from brace.bus import stopping, taking_up
+from brace.bus.open import DEFAULT_BIT_RATE, open_bus
 from brace.bus.taking_up import Flank, let_go, take_up
+from brace.bus.url import parse
 from brace.errors import DeviceFaultError, NoDeviceError
 from brace.wire.codes import MODE
 
@@ -56,10 +61,88 @@ def test_a_stop_by_somebody_else(brace: Callable[..., Outcome], with_play: Path,
         while mode != "taking_up" and time.monotonic() < until:
             mode = json.loads(brace("query", "--bus", urls["modbus_tcp"], "--json").out)["mode"]
         stopped = brace("stop", "--bus", urls[wire], "--json")
-        assert stopped.code == 0 and json.loads(stopped.out)["nodes"] == [1], stopped.err
+        assert stopped.code == 0 and json.loads(stopped.out)["held"] == [1], stopped.err
         moving.communicate(timeout=60.0)
         assert brace("stop", "--bus", urls[wire]).code == 0
         assert brace("stop", "--bus", urls[wire], *(["--node", 1] if wire == "can" else [])).code == 0
+
+
+@contextlib.contextmanager
+def two_taking_up(brace: Callable[..., Outcome], model: Path) -> Iterator[str]:
+    """The play of two limbs on one bus is being taken up. Yields their URL."""
+    with running(model, *FREE, "--limbs", 2) as (_, ready):
+        url = ready["limbs"][0]["can"]
+        moving = [spawn("take-up", "tibia-", "--wait", 3, "--bus", url, "--node", node) for node in (1, 2)]
+        try:
+            until = time.monotonic() + 20.0
+            while {live(brace, url, node)["mode"] for node in (1, 2)} != {"taking_up"}:
+                assert time.monotonic() < until, "nothing moves"
+            yield url
+        finally:
+            for process in moving:
+                process.communicate(timeout=60.0)
+
+
+def live(brace: Callable[..., Outcome], url: str, node: int) -> dict[str, Any]:
+    values: dict[str, Any] = json.loads(brace("query", "--bus", url, "--node", node, "--json").out)
+    return values
+
+
+def is_held(brace: Callable[..., Outcome], url: str, node: int) -> bool:
+    asked = brace("query", "--bus", url, "--node", node, "--entry", "is_held", "--json")
+    return bool(json.loads(asked.out)["entries"]["is_held"]["value"] == 1)
+
+
+def test_two_limbs_of_one_bus_stand(brace: Callable[..., Outcome], with_play: Path) -> None:
+    with two_taking_up(brace, with_play) as url:
+        one = brace("stop", "--bus", url, "--node", 2, "--json")
+        assert one.code == 0 and json.loads(one.out) == {"nodes": [2], "held": [2], "stopped": True}, one.err
+        assert is_held(brace, url, 2) and live(brace, url, 1)["mode"] == "taking_up"
+        both = brace("stop", "--bus", url, "--json")
+        assert both.code == 0 and json.loads(both.out)["held"] == [1, 2], both.err
+        assert is_held(brace, url, 1) and is_held(brace, url, 2)
+
+
+def test_a_bus_with_another_stop(brace: Callable[..., Outcome], with_play: Path) -> None:
+    """The identifier is named, or learnt from a limb that answers."""
+    text = with_play.read_text()
+    assert "[controller]" not in text
+    with_play.write_text(text + "\n[controller]\nstop_id = 5\n")
+    with two_taking_up(brace, with_play) as url:
+        for given in (5, stopping.STOP_ID):
+            with contextlib.closing(open_bus(parse(url), DEFAULT_BIT_RATE)) as bus:
+                sent: list[int] = []
+                send = bus.send
+
+                def watched(identifier: int, data: bytes, sent: list[int] = sent, send: Any = send) -> None:
+                    sent.append(identifier)
+                    send(identifier, data)
+
+                bus.send = watched  # type: ignore[method-assign]
+                assert stopping.stop_on(bus, None, given) == {1: True, 2: True}
+                assert sent[0] == given and 5 in sent
+        assert brace("stop", "--bus", url, "--stop-id", 5).code == 0
+        assert brace("stop", "--bus", url, "--stop-id", 128).code == 2
+
+
+def test_a_stop_that_nobody_answers(brace: Callable[..., Outcome], with_play: Path) -> None:
+    with adapter(lambda line: b"\r") as url:
+        outcome = brace("stop", "--bus", url)
+        assert outcome.code == 4 and "no controller is heard" in outcome.err and "try:" in outcome.err, outcome.err
+    with running(with_play, *FREE) as (_, ready):
+        urls = ready["limbs"][0]
+        assert brace("stop", "--bus", urls["can"], "--node", 7).code == 4
+        refused = brace("stop", "--bus", urls["modbus_tcp"], "--stop-id", 5)
+        assert refused.code == 2 and "a register stops it" in refused.err
+    with socket.socket() as nobody:
+        nobody.bind(("127.0.0.1", 0))
+        assert brace("stop", "--bus", f"modbus-tcp://127.0.0.1:{nobody.getsockname()[1]}").code == 4
+
+
+def test_a_limb_that_moves_on_is_told() -> None:
+    moving = {"is_held": 0, "mode": next(code.number for code in MODE.codes if code.name == "TAKING_UP")}
+    with pytest.raises(DeviceFaultError, match="moves on"):
+        stopping._is_held(lambda name: moving[name], "here")
 
 
 def test_what_is_no_flank_is_refused(brace: Callable[..., Outcome]) -> None:

@@ -23,6 +23,7 @@ import pytest
 from bus_bench import limb_on_tcp
 from conftest import LIMB, PROJECT, Outcome, spawn
 from test_printed_commands import START, lines_of_code
+from test_sim_command import FREE, running
 
 from brace.bus.can_controller import CanController
 from brace.bus.open import open_bus
@@ -219,9 +220,10 @@ class ByHand:
 
 
 def test_a_take_up_by_hand(tmp_path: Path) -> None:
-    """The page's loop, run by a shell as it stands, over the bus that is there."""
+    """The page's loop, run by a shell as it stands, over the bus that is there. At a speed of its own a limb waits for
+    its owner for 0.5 s of the clock: a turn of the loop starts two programs, which takes long on a busy machine."""
     Path("limb.toml").write_text(LIMB.replace("[joint.femur]", "[joint.femur]\ngap_rad = 0.006"))
-    with limb_on_tcp(Path("limb.toml")) as url:
+    with limb_on_tcp(Path("limb.toml"), "--speed", 0.9) as url:
         bus = open_bus(parse(url))
         controller = CanController(Session(bus, 1))
         assert controller.take_ups()["femur"] == "none"
@@ -229,7 +231,7 @@ def test_a_take_up_by_hand(tmp_path: Path) -> None:
         shell = subprocess.Popen(["sh", "-c", block_with("security.md", "candump -L can0") + "wait"],
                                  env=hand.environment, start_new_session=True)
         try:
-            hand.carry(6.0)
+            hand.carry(8.0)
         finally:
             os.killpg(shell.pid, signal.SIGKILL)
             shell.wait(timeout=30.0)
@@ -243,6 +245,28 @@ def test_the_registers_by_hand() -> None:
     assert f"-r {addresses['life_number']} -c 2" in block
     assert addresses["begin_number"] == addresses["life_number"] + 2
     assert f"-r {addresses['life_heard']} " in block and f"-r {addresses['take_up']} " in block
+
+
+def test_a_take_up_by_registers_by_hand() -> None:
+    """The page's loop with mbpoll, likewise."""
+    if shutil.which("mbpoll") is None:
+        pytest.skip("mbpoll is missing (Debian package mbpoll)")
+    Path("limb.toml").write_text(LIMB.replace("[joint.femur]", "[joint.femur]\ngap_rad = 0.006"))
+    with running(Path("limb.toml"), *FREE, "--speed", 0.9) as (_, ready):
+        urls = ready["limbs"][0]
+        (port,) = re.findall(r":(\d+)$", urls["modbus_tcp"])
+        controller = CanController(Session(open_bus(parse(urls["can"])), 1))
+        loop = block_with("security.md", "mbpoll $tcp -t 3:int").replace("-p 1502", f"-p {port}")
+        shell = subprocess.Popen(["sh", "-c", loop + "wait"], stdout=subprocess.DEVNULL, start_new_session=True)
+        try:
+            until = time.monotonic() + 60.0
+            while controller.take_ups()["femur"] != "held" and time.monotonic() < until:
+                time.sleep(0.1)
+        finally:
+            os.killpg(shell.pid, signal.SIGKILL)
+            shell.wait(timeout=30.0)
+        assert controller.take_ups()["femur"] == "held"
+        assert controller.read_entry("silences") == 0
 
 
 def test_the_core_in_two_files() -> None:

@@ -209,6 +209,24 @@ brace_client_status_t brace_client_stop(brace_client_t *client, int timeout_ms)
     return BRACE_CLIENT_OK;
 }
 
+brace_client_status_t brace_client_stop_all(brace_client_t *client, uint32_t stop_id, int timeout_ms)
+{
+    const uint64_t deadline_us = brace_client_deadline_after(timeout_ms);
+    const brace_bus_frame_t frame = {.id = stop_id};
+    if (client->bus == NULL) {
+        return brace_client_fail(client, BRACE_CLIENT_E_UNSUPPORTED,
+                                 "%s: over Modbus no request stops every limb; stop each by its own client",
+                                 client->url);
+    }
+    if (stop_id < 1u || stop_id > 127u) {
+        return brace_client_out_of_range(client);
+    }
+    client->lives = false;
+    /* What is wrong with the bus, the answer below says. */
+    (void)brace_bus_send(client->bus, &frame, brace_bus_left_ms(deadline_us));
+    return brace_client_stop(client, brace_bus_left_ms(deadline_us));
+}
+
 brace_client_status_t brace_client_clear(brace_client_t *client, uint32_t faults, int timeout_ms, uint32_t *left)
 {
     const uint64_t deadline_us = brace_client_deadline_after(timeout_ms);

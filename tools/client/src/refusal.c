@@ -60,6 +60,9 @@ const char *brace_client_reason(uint32_t code, int32_t status, uint32_t detail)
     case BRACE_REFUSED_REPLAY:
         return "the command came twice, or another program's session is open; ask again in a second";
     case BRACE_REFUSED_OWNED: return "somebody else moves the limb or writes to it; wait until that is done";
+    case BRACE_REFUSED_CROWDED: return "so many questions of this program wait there already; ask again";
+    case BRACE_REFUSED_LATE:
+        return "the sign of life carries an old number of the controller's: the link is slow (docs/security.md)";
     case BRACE_REFUSED_NO_KEY: return "it is guarded and has no key yet; docs/security.md says how it gets one";
     default: return brace_status_text((brace_status_t)status);
     }

@@ -23,7 +23,10 @@
 extern "C" {
 #endif
 
-enum { BRACE_CLIENT_KEY_BYTES = 16 };
+enum {
+    BRACE_CLIENT_KEY_BYTES = 16,
+    BRACE_CLIENT_STOP_ID = 1 /* the default of controller.stop_id */
+};
 
 typedef enum {
     BRACE_MOTION_NONE = 0,      /* nothing was asked for */
@@ -101,6 +104,13 @@ brace_client_status_t brace_client_wait(brace_client_t *client, brace_motion_t *
 /* The limb stands where it is. Anybody may, without a key too. Nothing is let go: brace_client_begin_let_go does that
  * later, brace_client_begin_end_test after a loading test. OK where nothing moves, too. */
 brace_client_status_t brace_client_stop(brace_client_t *client, int timeout_ms);
+
+/* Every limb of the client's CAN bus stands where it is, whoever moves it: sends a frame of the identifier stop_id,
+ * which wins over all others. Then the client's own limb is asked as brace_client_stop does, so OK says that this one
+ * stands; of the others no answer comes, and a frame that finds no bus is not heard. It may be called again and again.
+ *   stop_id: what the limbs have as controller.stop_id [1, 127], BRACE_CLIENT_STOP_ID unless it was set otherwise
+ * returns E_UNSUPPORTED over Modbus, where each limb is stopped by its own client. Else as brace_client_stop */
+brace_client_status_t brace_client_stop_all(brace_client_t *client, uint32_t stop_id, int timeout_ms);
 
 /* Clears faults that stay until somebody clears them: ENCODER_STUCK (bit 2; it comes
  * again while its cause lasts), MODEL_DRIFT (bit 7), CRASHED (bit 8).
