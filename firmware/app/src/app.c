@@ -12,6 +12,7 @@
 #define GUARDED_WORDS_PER_MS 8u
 #define GUARDED_WORDS_FEWER 3u
 #define TOLD_MOST 3u /* a tick in which the wires have done more (wire/wire.h) has no room for a job's step */
+#define TOLD_FULL 6u /* nor for a step that has waited for long; where commands flood in, each fifth tick is emptier */
 #define STEPS_IN_A_QUIET_TICK 2u
 #define UNWATCHED_MOST 17u /* ticks after one another in which a job works and the sensors' watch waits */
 #define LISTENED_US 20000u /* a tick that comes later has not listened meanwhile, and has not moved the limb either */
@@ -459,7 +460,9 @@ static bool work_on_jobs(controller_t *controller, const brace_snapshot_t *now, 
 }
 
 /* What costs much and moves nothing comes last, where the wires have left room for it. Whoever uses K needs to know how
- * exactly it is known: a step of that job which has waited for too long comes before all others, also in a full tick.
+ * exactly it is known: a step of that job which has waited for too long comes before all others, also where the wires
+ * have done more; where they have not, another job has its step too. A tick that is full of a burst or of commands has
+ * no step at all.
  * returns whether a job has worked, so that the sensors' watch waits */
 static bool work(controller_t *controller, const brace_snapshot_t *now, uint32_t told)
 {
@@ -470,17 +473,18 @@ static bool work(controller_t *controller, const brace_snapshot_t *now, uint32_t
     if (controller->model.is_spatial && controller->ticks_unwatched >= UNWATCHED_MOST) {
         return false;
     }
-    if (sigma_job_is_overdue(&controller->sigma) && work_on_sigma(controller)) {
-        return true;
-    }
-    if (told > TOLD_MOST) {
+    if (told > TOLD_FULL) {
         return false;
+    }
+    const bool was_overdue = sigma_job_is_overdue(&controller->sigma) && work_on_sigma(controller);
+    if (told > TOLD_MOST) {
+        return was_overdue;
     }
     if (softening_is_overdue(softening)) {
         work_on_softening(controller);
         return true;
     }
-    if (work_on_jobs(controller, now, told)) {
+    if (work_on_jobs(controller, now, was_overdue ? TOLD_MOST : told) || was_overdue) {
         return true;
     }
     const bool softens = told == 0u && softening_is_due(softening);

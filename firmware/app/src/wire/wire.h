@@ -15,7 +15,8 @@ enum {
     WIRE_TAKEN = 1,          /* a request, answered or not */
     WIRE_DATA_ARE_TAKEN = 1, /* a snapshot for process data */
     WIRE_K_ANSWERED = 2,     /* to a request that has waited for it */
-    WIRE_DATA_ARE_SET_UP = 3 /* their periods, for another set of parameters */
+    WIRE_DATA_ARE_SET_UP = 3, /* their periods, for another set of parameters */
+    WIRE_BURST_IS_SORTED = 8 /* far more at once than a line carries in a tick */
 };
 
 typedef struct {

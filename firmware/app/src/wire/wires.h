@@ -15,6 +15,8 @@ typedef struct {
     modbus_t modbus; /* a serial line (RTU) and TCP connections */
     brace_measured_t measured; /* of the newest snapshot */
     uint32_t obeyed; /* how much wires_hear has done in this tick */
+    bool has_burst;  /* a burst has come in this tick, and questions and jobs wait for the next one */
+    uint8_t ticks_without_burst; /* [0, 2] */
 } wires_t;
 
 /* Sets the ports up. Before the first tick; may block can_setup's 1 ms, twice where CAN FD is refused. */

@@ -5,8 +5,9 @@
 #define CAUSES_FROM 1u
 #define LOADS_FROM (CAUSES_FROM + BRACE_CAUSE_COUNT)
 #define KS_OF_A_ROUND (LOADS_FROM + (uint32_t)(SIGMA_SIDES * BRACE_LINK_COUNT))
-#define WAITS_TICKS_MOST 3u  /* so a round of 260 steps ends within 1,040 ticks, however full they are, */
-#define OLDEST_TICKS 2500u   /* and what it tells holds until the next has ended */
+#define WAITS_TICKS_MOST 3u  /* so a round of 260 steps ends within 1,040 ticks where questions never end, and within
+                              * 1,300 in a flood of commands, which leaves it each fifth tick, */
+#define OLDEST_TICKS 3000u   /* and what it tells holds until the next has ended */
 #define MOVED_MOST_RAD 0.05f /* of all joints together, since the samples that sigma comes from */
 #define STIFFER_MOST 0.15f   /* K's change since then, as a share of K */
 #define BEYOND_MOST 10.0f    /* times the load that a round has looked at: beyond nobody knows K */

@@ -7,6 +7,7 @@
 #define FRAMES_PER_TICK 72u /* looked at: a ring of 64, and what comes while it is emptied */
 #define LINES_PER_TICK 512u /* the same as text: a board's line carries fewer, a host's TCP connection more */
 #define SESSION_PER_MS 11u  /* requests of a session that are obeyed: more than 1 Mbit/s carries, which is 8 or 9 */
+#define BURST_PER_MS 16u /* frames and lines; twice what a bus carries */
 #define ROOM_TICKS 5u       /* in each fifth tick only one is, so that questions and jobs go on in any flood */
 #define REFUSALS_PER_TICK 2u /* of questions too many; more of them are only counted */
 #define NODE_MOST 127u
@@ -127,6 +128,7 @@ static bool sort_frame(can_t *can, way_t way, const wire_tick_t *tick, const bra
 {
     can_requests_t *requests = &port_of(can, way)->requests;
     brace_request_t asked;
+    can->sorted++;
     if (frame->id == can->bus.setup.urgent_id) {
         (void)brace_app_stop(tick->app);
         return true;
@@ -321,15 +323,24 @@ static uint32_t speak(can_t *can, way_t way, const wire_tick_t *tick, uint32_t m
 bool can_hear(can_t *can, const wire_tick_t *tick)
 {
     can->bus_port.requests.refusals_left = can->text_port.requests.refusals_left = REFUSALS_PER_TICK;
+    can->sorted = 0;
     const bool stops_on_bus = hear_bus(can, tick);
     return hear_text(can, tick) || stops_on_bus;
 }
 
-uint32_t can_obey(can_t *can, const wire_tick_t *tick)
+bool can_has_burst(const can_t *can, const wire_tick_t *tick)
+{
+    return can->sorted > BURST_PER_MS * brace_app_parameters(tick->app)->controller.tick_us / 1000u;
+}
+
+uint32_t can_obey(can_t *can, const wire_tick_t *tick, bool is_burst)
 {
     const uint32_t each_tick = SESSION_PER_MS * brace_app_parameters(tick->app)->controller.tick_us / 1000u;
-    can->ticks_to_room = (uint8_t)((can->ticks_to_room + 1u) % ROOM_TICKS);
-    const uint32_t most = can_leaves_room(can) ? 1u : each_tick;
+    if (!is_burst) {
+        can->ticks_to_room = (uint8_t)((can->ticks_to_room + 1u) % ROOM_TICKS);
+    }
+    const bool leaves_room = (is_burst && can_has_burst(can, tick)) || (!is_burst && can_leaves_room(can));
+    const uint32_t most = leaves_room ? 1u : is_burst ? 2u * each_tick / 3u : each_tick;
     return obey_session(can, ON_BUS, tick, most) + obey_session(can, AS_TEXT, tick, most);
 }
 

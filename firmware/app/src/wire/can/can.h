@@ -42,6 +42,7 @@ typedef struct {
     slcan_t text;
     bool text_first;         /* in the last tick the text port spoke before the bus did */
     uint8_t ticks_to_room;   /* until sessions leave a tick to questions and jobs [0, 4] */
+    uint16_t sorted;         /* frames and lines that have come in this tick */
     uint8_t data_waited;     /* ticks in a row in which process data have waited for answers */
     uint32_t data_done;      /* in this tick, by process_tick */
     can_port_t bus_port;
@@ -61,10 +62,14 @@ bool can_hear(can_t *can, const wire_tick_t *tick);
  * nothing any more. */
 void can_stop(can_t *can);
 
-/* Behind it: obeys what belongs to a session, at most eleven requests of each port for each millisecond of a tick, and
- * one in each fifth tick.
+/* Have more frames and lines come in this tick than the bus carries: a burst, after the processor stood still? */
+bool can_has_burst(const can_t *can, const wire_tick_t *tick);
+
+/* Behind it: obeys what belongs to a session, at most eleven requests of each port for each millisecond of a tick; one
+ * in each fifth tick, one behind a burst of frames, and two thirds of them where another wire has a burst.
+ *   is_burst: there is one
  * returns how much both have done (wire/wire.h) */
-uint32_t can_obey(can_t *can, const wire_tick_t *tick);
+uint32_t can_obey(can_t *can, const wire_tick_t *tick, bool is_burst);
 
 /* Is this the tick in five in which questions and jobs go on, whatever floods the ports? */
 static inline bool can_leaves_room(const can_t *can)

@@ -21,6 +21,8 @@ enum { STOP_LEAST = ADDRESS_BYTES + 5 + CRC_BYTES, STOP_MOST = ADDRESS_BYTES + 1
  * where a tick comes late. */
 #define BYTES_AHEAD 48u
 
+#define BURST_BYTES 64u /* in a tick: three times what 230,400 baud carry in a millisecond */
+
 #define CHARACTER_BITS 11u
 #define LEAST_SILENCE_US 1750u /* above 19200 bit/s the standard has it whatever the rate */
 
@@ -75,7 +77,8 @@ static bool gather(modbus_line_t *line, const wire_tick_t *tick)
         begin_frame(line);
         take_ahead(line, tick);
     }
-    (void)modbus_link_receive(link, tick, BRACE_SERIAL_MODBUS, MODBUS_LINK_BYTES - (uint32_t)link->count);
+    line->came = (uint16_t)modbus_link_receive(link, tick, BRACE_SERIAL_MODBUS,
+                                               MODBUS_LINK_BYTES - (uint32_t)link->count);
     if (link->is_skipping || link->count > FRAME_MOST) {
         link->is_skipping = true;
         line->checked = link->count;
@@ -89,10 +92,11 @@ static void gather_ahead(modbus_line_t *line, const wire_tick_t *tick)
     const uint32_t room = MODBUS_AHEAD_BYTES - (uint32_t)line->ahead_count;
     const int32_t count = tick->hal->serial_read(tick->hal->context, BRACE_SERIAL_MODBUS,
                                                  line->ahead + line->ahead_count, room);
-    line->ahead_count = (uint8_t)(line->ahead_count + (count > 0 ? (uint32_t)count : 0u));
+    line->came = count > 0 ? (uint16_t)count : (uint16_t)0u;
+    line->ahead_count = (uint8_t)(line->ahead_count + line->came);
 }
 
-/* Do these bytes begin with a whole request to stop, to this controller or to everybody? At least STOP_LEAST of them. */
+/* Do these bytes, at least STOP_LEAST, begin with a whole request to stop, to this controller or to everybody? */
 static bool begins_with_stop(const modbus_server_t *server, const uint8_t *bytes, uint32_t count)
 {
     const bool writes = bytes[ADDRESS_BYTES] == MODBUS_WRITE_ONE || bytes[ADDRESS_BYTES] == MODBUS_WRITE_BLOCK;
@@ -106,8 +110,8 @@ static bool begins_with_stop(const modbus_server_t *server, const uint8_t *bytes
            modbus_crc(MODBUS_CRC_START, bytes, whole) == 0u;
 }
 
-/* Looks for a stop in bytes that have come, from the first one on that may still begin one. Up to 260 bytes come at once,
- * so one byte of a request's register decides whether it is looked at further: 5 instructions for each byte.
+/* Looks for a stop in bytes that have come, from the first one on that may still begin one. Up to 260 bytes come at
+ * once, so one byte of a request's register decides whether more is looked at: 5 instructions for each byte.
  *   looked (in, out): bytes that can begin none any more
  * returns whether there is one: it is obeyed */
 static bool obey_stop(const modbus_server_t *server, const wire_tick_t *tick, const uint8_t *bytes, uint32_t count,
@@ -292,6 +296,11 @@ static uint32_t close_unanswered(modbus_line_t *line, modbus_server_t *server, c
     begin_frame(line);
     take_ahead(line, tick);
     return done;
+}
+
+bool modbus_line_has_burst(const modbus_line_t *line)
+{
+    return line->came > BURST_BYTES;
 }
 
 bool modbus_line_hear(modbus_line_t *line, modbus_server_t *server, const wire_tick_t *tick, uint32_t *done)

@@ -28,6 +28,7 @@ typedef struct {
     modbus_half_t half;    /* of a value */
     uint16_t sound;        /* so many bytes were a sound frame in a tick in which none came; 0: none are */
     uint16_t looked;       /* through so many bytes for a stop */
+    uint16_t came;         /* so many bytes, in this tick */
     bool has_question;     /* the link holds one, to be answered at the end of this tick, or of one that has room */
     uint8_t asked_count;   /* bytes of the question that is being worked out, without its check; 0: none is */
     uint8_t asked[MODBUS_LINE_QUESTION_BYTES];
@@ -44,6 +45,9 @@ void modbus_line_start(modbus_line_t *line, const brace_hal_t *hal, uint32_t bau
  *   done (out): how much it has done is added (wire/wire.h)
  * returns whether there was a stop */
 bool modbus_line_hear(modbus_line_t *line, modbus_server_t *server, const wire_tick_t *tick, uint32_t *done);
+
+/* Have far more bytes come in this tick than a line carries, from an adapter that gathers them? */
+bool modbus_line_has_burst(const modbus_line_t *line);
 
 /* The end of a tick: answers the question that silence has ended, or whose K is there, and the answer begins to leave.
  * Its check is worked out while it leaves, a part in each tick, ahead of the line. A master that sends another request
