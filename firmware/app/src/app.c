@@ -461,11 +461,12 @@ static bool work_on_jobs(controller_t *controller, const brace_snapshot_t *now, 
 
 /* What costs much and moves nothing comes last, where the wires have left room for it. Whoever uses K needs to know how
  * exactly it is known: a step of that job which has waited for too long comes before all others, also where the wires
- * have done more; where they have not, another job has its step too. A tick that is full of a burst or of commands has
+ * have done more. In the tick that a flood of commands leaves to jobs, another one has its step too. A tick that is full of a burst or of commands has
  * no step at all.
  * returns whether a job has worked, so that the sensors' watch waits */
-static bool work(controller_t *controller, const brace_snapshot_t *now, uint32_t told)
+static bool work(brace_app_t *app, const brace_snapshot_t *now, uint32_t told)
 {
+    controller_t *controller = &app->controller;
     softening_t *softening = &controller->softening;
     if (controller->parameters.comes_in_force) { /* then the model may be that of the set before */
         return false;
@@ -477,7 +478,7 @@ static bool work(controller_t *controller, const brace_snapshot_t *now, uint32_t
         return false;
     }
     const bool was_overdue = sigma_job_is_overdue(&controller->sigma) && work_on_sigma(controller);
-    if (told > TOLD_MOST) {
+    if (told > TOLD_MOST || (was_overdue && !app->wires.leaves_room)) {
         return was_overdue;
     }
     if (softening_is_overdue(softening)) {
@@ -622,7 +623,7 @@ void brace_app_tick(brace_app_t *app, uint32_t now_us)
     publish(controller, snapshot);
     const uint32_t told = tell(app, now_us);
     part_is_done(controller, PART_TOLD);
-    const bool has_worked = work(controller, snapshot, told);
+    const bool has_worked = work(app, snapshot, told);
     part_is_done(controller, PART_WORKED);
     step_watches(controller, has_worked);
     part_is_done(controller, PART_GUARDED);

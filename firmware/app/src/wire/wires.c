@@ -43,6 +43,7 @@ uint32_t wires_tick(wires_t *wires, const brace_hal_t *hal, brace_app_t *app, br
         .hal = hal, .app = app, .counters = counters, .measured = &wires->measured, .now_us = now_us};
     measured_take(app, counters, now_us, &wires->measured);
     const bool is_too_full = wires->obeyed > OBEYED_MOST && can_leaves_room(&wires->can);
+    wires->leaves_room = is_too_full || (can_leaves_room(&wires->can) && can_session_waits(&wires->can));
     const uint32_t obeyed = is_too_full ? OBEYED_MOST : wires->obeyed;
     const bool has_room = obeyed <= OBEYED_MOST && !wires->has_burst;
     const uint32_t sorted = wires->has_burst ? (uint32_t)WIRE_BURST_IS_SORTED : (uint32_t)WIRE_NOTHING;

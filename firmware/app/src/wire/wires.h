@@ -17,6 +17,7 @@ typedef struct {
     uint32_t obeyed; /* how much wires_hear has done in this tick */
     bool has_burst;  /* a burst has come in this tick, and questions and jobs wait for the next one */
     uint8_t ticks_without_burst; /* [0, 2] */
+    bool leaves_room; /* commands flood in, and this tick is the one in five that they leave to questions and jobs */
 } wires_t;
 
 /* Sets the ports up. Before the first tick; may block can_setup's 1 ms, twice where CAN FD is refused. */

@@ -77,6 +77,12 @@ static inline bool can_leaves_room(const can_t *can)
     return can->ticks_to_room == 0u;
 }
 
+/* Does anything of a session wait for the next tick? */
+static inline bool can_session_waits(const can_t *can)
+{
+    return can->bus_port.requests.queue.session_count > 0u || can->text_port.requests.queue.session_count > 0u;
+}
+
 /* At the end of the tick: answers a question of each port.
  *   has_room: questions may be answered; else they wait
  * returns how much both have done (wire/wire.h) */
