@@ -217,7 +217,7 @@ static const meaning_t loading_outcome_meanings[] = {
     {2, "DONE",
      "The test is done, and its results hold."},
     {3, "STOPPED",
-     "Somebody stopped the test."},
+     "Somebody stopped the test, or its owner fell silent."},
     {-1, "FORCE",
      "The force at the tip passed its bound."},
     {-2, "TORQUE",

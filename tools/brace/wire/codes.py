@@ -69,7 +69,7 @@ LOADING_OUTCOME = CodeTable("loading_outcome", False, (
     Code(0, "NONE", "Nobody has asked for a loading test since start."),
     Code(1, "RUNNING", "The test is under way."),
     Code(2, "DONE", "The test is done, and its results hold."),
-    Code(3, "STOPPED", "Somebody stopped the test."),
+    Code(3, "STOPPED", "Somebody stopped the test, or its owner fell silent."),
     Code(-1, "FORCE", "The force at the tip passed its bound."),
     Code(-2, "TORQUE", "A motor's torque passed its bound."),
     Code(-3, "TRAVEL", "A joint came to the end of its travel."),
