@@ -461,8 +461,8 @@ static bool work_on_jobs(controller_t *controller, const brace_snapshot_t *now, 
 
 /* What costs much and moves nothing comes last, where the wires have left room for it. Whoever uses K needs to know how
  * exactly it is known: a step of that job which has waited for too long comes before all others, also where the wires
- * have done more. In the tick that a flood of commands leaves to jobs, another one has its step too. A tick that is full of a burst or of commands has
- * no step at all.
+ * have done more. In the tick that a flood of commands leaves to jobs, another one has its step too. A tick that is
+ * full of a burst or of commands has no step at all.
  * returns whether a job has worked, so that the sensors' watch waits */
 static bool work(brace_app_t *app, const brace_snapshot_t *now, uint32_t told)
 {
