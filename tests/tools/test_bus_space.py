@@ -14,6 +14,7 @@ from test_sim_command import FREE, running
 
 from brace.bus.drift import drift_of, take_up_lines
 from brace.bus.frame import Frame
+from brace.bus.open_play import open_joints, open_play_lines
 from brace.bus.snapshot import emergency_of
 from brace.cli.monitor_display import emergency_line
 from brace.model import load_limb
@@ -139,7 +140,7 @@ def test_query_asks_for_k_in_space_under_a_force(brace: Callable[..., Outcome], 
         alone = six(json.loads(brace("query", "--bus", url, *asked, "--json").out))
         assert np.linalg.norm(alone - six(told)) > 5 * WORST_K * np.linalg.norm(k)  # the force matters
         assert "move the tip by" in brace("query", "--bus", url, *asked, *FORCE).out
-        folds = brace("query", "--bus", url, *asked, "--fx", -300, "--fy", 0, "--fz", -300)
+        folds = brace("query", "--bus", url, *asked, "--fx", -300, "--fy", 0, "--fz", 0)
         assert folds.code == 2 and "no stable equilibrium" in folds.err
 
 
@@ -278,3 +279,33 @@ def test_an_emergency_names_the_cause(brace: Callable[..., Outcome], tmp_path: P
     assert "likeliest cause is femur_link" in brace("replay", log).out
     [event] = map(json.loads, brace("replay", log, "--json").out.splitlines())
     assert event["event"] == "emergency" and event["drift_cause"] == "femur_link"
+
+
+# ---------------------------------------------------------------------------------------------- open play
+
+
+@pytest.mark.parametrize("wire", WIRES)
+def test_an_open_gap_is_named_with_the_command_that_helps(
+    brace: Callable[..., Outcome], planar: Path, wire: str
+) -> None:
+    """The tip is free and bears nothing; over Modbus K once taken up is sent, too."""
+    planar.write_text(planar.read_text().replace("[joint.tibia]", "[joint.tibia]\ngap_rad = 0.004", 1))
+    with running(planar, *FREE) as (_, ready):
+        url = ready["limbs"][0][wire]
+        text = brace("query", "--bus", url).out
+        assert "GAP_OPEN" in text
+        assert f"brace take-up tibia- --bus {url} (or tibia+) takes it up" in text
+        assert ("once all is taken up K = [" in text) == (wire == "modbus_tcp")
+
+
+def test_which_joints_an_open_gap_may_belong_to() -> None:
+    assert open_joints((), ("unknown", "unknown")) == ()
+    assert open_joints(("GAP_OPEN",), ("engaged_positive", "crossing")) == ("tibia",)
+    assert open_joints(("GAP_OPEN",), ("unknown", "engaged_negative")) == ("femur",)
+    assert open_joints(("GAP_OPEN",), ("unknown", "unknown")) == ("femur", "tibia")
+    assert open_joints(("GAP_OPEN",), ("engaged_positive", "engaged_negative")) == ("femur", "tibia")
+    told = open_play_lines(("GAP_OPEN",), ("engaged_positive", "unknown"), "can0", (1.0, 0.5, 2.0))
+    assert told == [
+        "the gap of the tibia is open: brace take-up tibia- --bus can0 (or tibia+) takes it up",
+        "once all is taken up K = [1.0000 0.5000; 0.5000 2.0000] N/mm",
+    ]

@@ -62,7 +62,9 @@ def test_a_limb_is_told_with_its_place_and_its_trust(limb_file: Path) -> None:
     assert view["is_valid"] and view["silent_s"] is None
     assert words["lengths_mm"] == [57.0, 185.0, 313.5] and view["theta_rad"] == [None, 1.0, 1.4]
     assert view["relative_sigma"] is not None and all(0.01 < sigma < 0.2 for sigma in view["relative_sigma"])
-    assert words["play"] == [{"joint": "tibia", "state": "crossing", "text": "backlash is open"}]  # the femur has none
+    (play,) = words["play"]  # the femur has none
+    assert (play["joint"], play["state"]) == ("tibia", "crossing")
+    assert play["text"] == "backlash is open; brace take-up tibia- --bus URL (or tibia+) takes it up"
     assert words["faults"][0]["name"] == "ENCODER_STUCK" and words["faults"][0]["text"].endswith(".")
     assert words["flags"][0]["name"] == "GAP_OPEN" and words["mode_text"]
     assert "load_hz" in words["load_why"]

@@ -133,6 +133,10 @@ class CanController:
         """How each joint's last take-up went."""
         return {joint: take_up_of(self.read_entry(f"take_up_{joint}")) for joint in TAKE_UPS}
 
+    def engaged_k(self) -> tuple[Value, Value, Value] | None:
+        """No frame carries it."""
+        return None
+
     def k_at_tip(self, x_mm: float, z_mm: float, knee_up: bool, force_n: Force | None = None) -> StiffnessAnswer:
         """From the femur axis."""
         return self._ask_k(f"at_tip_knee_{'up' if knee_up else 'down'}", {"x": x_mm, "z": z_mm}, force_n)

@@ -89,6 +89,9 @@ class Controller(Protocol):
     def k_at_tip(self, x_mm: float, z_mm: float, knee_up: bool, force_n: Force | None = None) -> StiffnessAnswer:
         """The same with the tip at a place before the load moves it."""
 
+    def engaged_k(self) -> tuple[Value, Value, Value] | None:
+        """K xx, xz, zz with every gap closed; None: this wire does not send it at once."""
+
     def load(self) -> Load:
         """What the K of now counts."""
 

@@ -29,6 +29,7 @@ from brace.bus.modbus_values import (
     AT_ONCE,
     BY_NAME,
     DRIFT,
+    ENGAGED,
     LOAD,
     SIGMA,
     SPACE,
@@ -210,6 +211,11 @@ class ModbusController:
         if force_n is None:
             return self._stiffness(self._ask("asked_tip_x", ">ffI", x_mm, z_mm, int(not knee_up)))
         return self._under_load(self._ask("asked_tip_force_x", ">ffffI", *force_n, x_mm, z_mm, int(not knee_up)))
+
+    def engaged_k(self) -> tuple[Value, Value, Value] | None:
+        """Of one read."""
+        v = self._values_of(ENGAGED)
+        return v["engaged_k_xx"], v["engaged_k_xz"], v["engaged_k_zz"]
 
     def load(self) -> Load:
         """Of one read."""

@@ -28,6 +28,7 @@ SPACE = _between("k_is_in_space", "play_coxa")
 DRIFT = _between("drift_state", "drift_next_step")
 TAKE_UP_OF = _between("take_up_coxa", "take_up_tibia")
 LOAD = _between("unloaded_k_xx", "unloaded_k_across")
+ENGAGED = _between("engaged_k_xx", "engaged_k_zz")
 SIGMA = _between("sigma_k_xx", "sigma_k_across")
 
 

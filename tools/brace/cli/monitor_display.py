@@ -34,6 +34,8 @@ _FLAG_WORDS = {  # shorter than the dictionary's, for a panel
     "OUT_OF_RANGE": "posture outside the model's range",
     "LOAD_UNKNOWN": "no load counted",
     "SOFTENED": "the load makes it much softer",
+    "MOVED_FAR": "the load moves the tip too far for its accuracy",
+    "PLAY_ASSUMED": "the load holds a joint's play; not proven",
 }
 
 
@@ -182,6 +184,8 @@ def picture(watch: Watch) -> Columns:
 
 
 def _lines(state: NodeState) -> list[str]:
+    from brace.bus.open_play import open_play_lines
+
     k, posture, beat = shown(state), state.posture, state.heartbeat
     lines = []
     if k is None:
@@ -217,6 +221,7 @@ def _lines(state: NodeState) -> list[str]:
             f"age {'over 127' if k.age_ms is None else format(k.age_ms, 'g')} ms, {state.rate_hz:.0f} Hz"
         )
         lines.append(f"play {k.play[0]}, {k.play[1]}" if len(k.play) == 2 else "play not sent")
+        lines += open_play_lines(k.flags, k.play, "URL")
         lines += [f"flag {name}: {_FLAG_WORDS.get(name, located('docs/errors.md'))}" for name in k.flags] or ["flags none"]
     if beat is not None:
         faults = "not heard yet" if state.faults is None else " ".join(fault_words(state)) or "none"

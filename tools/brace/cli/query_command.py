@@ -265,6 +265,7 @@ def _yielding(arguments: argparse.Namespace, device: Controller) -> int:
 
 def _live(arguments: argparse.Namespace, device: Controller) -> int:
     from brace.bus.drift import take_up_lines
+    from brace.bus.open_play import open_play_lines
     from brace.cli.space_text import coxa_lines, space_lines
     from brace.errors import EXIT_DEVICE_FAULT, EXIT_OK
 
@@ -296,6 +297,9 @@ def _live(arguments: argparse.Namespace, device: Controller) -> int:
             common.emit(line)
         age = "over 127 ms" if snapshot.age_ms is None else f"{snapshot.age_ms:g} ms"
         common.emit(f"age {age}; play femur {snapshot.play[0]}, tibia " f"{snapshot.play[1]}")
+        engaged = device.engaged_k() if "GAP_OPEN" in snapshot.flags else None
+        for line in open_play_lines(snapshot.flags, snapshot.play, str(device.url), engaged):
+            common.emit(line)
         common.emit(
             f"faults {' '.join(faults) or 'none'}; "
             f"parameters {identity.origin}, CRC {identity.parameter_crc:08x}"

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from functools import lru_cache
 from typing import TypedDict
 
 from brace.bus.load import Load
+from brace.bus.open_play import open_joints
 from brace.bus.sigma import Sigma
 from brace.bus.snapshot import Snapshot
 from brace.bus.watch import NodeState
@@ -187,6 +189,7 @@ def _words(
 ) -> LimbWords:
     states = [] if not coxa else [("coxa", coxa)]
     states += zip(("femur", "tibia"), femur_and_tibia, strict=False)
+    opened = [joint for joint in open_joints(flags, femur_and_tibia) if joint not in card.tight_joints]
     return {
         "node": node,
         "name": card.name,
@@ -194,7 +197,7 @@ def _words(
         "lengths_why": card.why_not,
         "load_why": load_why,
         "play": [
-            {"joint": joint, "state": state, "text": _PLAY_WORDS.get(state, state)}
+            {"joint": joint, "state": state, "text": _PLAY_WORDS.get(state, state) + _help(joint, opened)}
             for joint, state in states
             if joint not in card.tight_joints
         ],
@@ -203,6 +206,11 @@ def _words(
         "faults": [{"name": name.upper(), "text": _text(FAULT, name.upper())} for name in faults],
         "flags": [{"name": name.upper(), "text": _text(FLAG, name.upper())} for name in flags],
     }
+
+
+def _help(joint: str, opened: Sequence[str]) -> str:
+    """What takes up play that leaves K open."""
+    return f"; brace take-up {joint}- --bus URL (or {joint}+) takes it up" if joint in opened else ""
 
 
 def _text(table: CodeTable, name: str) -> str:
