@@ -11,7 +11,8 @@ _JOINTS = ("femur", "tibia")
 
 def open_joints(flags: Sequence[str], play: Sequence[str]) -> tuple[str, ...]:
     """Joints of the plane whose gap K counts as open; () while none is. play: of femur and tibia, as the controller
-    sends it. A joint without play is sent as one whose side is not known; where both have a side, the load holds neither."""
+    sends it. A joint without play is sent as one whose side is not known; where both have a side, the load
+    holds neither."""
     if "GAP_OPEN" not in flags or len(play) != len(_JOINTS):
         return ()
     without_side = tuple(joint for joint, side in zip(_JOINTS, play, strict=True) if not side.startswith("engaged"))
