@@ -211,7 +211,8 @@ static void judge(void)
     modes[s->mode]++;
     bool open = false;
     for (int i = 0; i < 2; i++) {
-        open |= app.controller.flank.joint[BRACE_FEMUR + i].has_play && !s->play[BRACE_FEMUR + i].valid;
+        const flank_joint_t *joint = &app.controller.flank.joint[BRACE_FEMUR + i];
+        open |= joint->has_play && !s->play[BRACE_FEMUR + i].valid && !joint->is_assumed;
         if (!isfinite(fake.joint[1 + i].command.offset_rad) || !(fake.joint[1 + i].command.torque_limit_n_mm >= 0.0f)) {
             broken("no number for a drive");
         }
@@ -231,7 +232,8 @@ static void judge(void)
     if ((s->faults & BRACE_FAULTS_NO_K) != 0u) {
         broken("valid with a fault that has no K");
     }
-    if (((now_k->flags | engaged->flags) & (BRACE_FLAG_STALE | BRACE_FLAG_OUT_OF_RANGE)) != 0u) {
+    const bool is_fresh = s->taken_us == fake.now_us; /* else a joint may have moved since, and K says so */
+    if (is_fresh && ((now_k->flags | engaged->flags) & (BRACE_FLAG_STALE | BRACE_FLAG_OUT_OF_RANGE)) != 0u) {
         broken("valid, flagged otherwise");
     }
     if ((now_k->flags & BRACE_FLAG_GAP_OPEN) != 0u ? !open : open) {
@@ -277,6 +279,7 @@ static void recover(void)
         if (app.controller.ownership.is_held) {
             (void)brace_app_let_go(&app); /* somebody has stopped it, or has asked and gone */
         }
+        (void)brace_app_clear(&app, BRACE_FAULT_JUMP_COXA | BRACE_FAULT_JUMP_FEMUR | BRACE_FAULT_JUMP_TIBIA);
         if (app.controller.mode.now == BRACE_MODE_MONITOR && us > 300000u) {
             recovered++;
             return;

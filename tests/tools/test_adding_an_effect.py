@@ -24,7 +24,7 @@ TRUE_RATIO = -0.3
 
 DICTIONARY_ENTRY = """[[group.entry]]
 name = "one_sided_ratio"
-register = [226, 228, 230]
+register = [228, 230, 232]
 table = "joint.*"
 unit = ""
 range = [-0.9, 5.0]

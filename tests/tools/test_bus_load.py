@@ -99,7 +99,7 @@ def test_query_at_a_place_under_a_force(brace: Callable[..., Outcome], url: str,
     told = brace("query", "--bus", url, *at, "--fx", -40, "--fz", 0).out
     assert "force and weight move the tip by" in told and "flag SOFTENED: The load has softened the limb" in told
     assert "below 3 a limb is much softer than without load" in told
-    folded = brace("query", "--bus", url, *at, "--fx", -400, "--fz", 0)
+    folded = brace("query", "--bus", url, *at, "--fx", -2000, "--fz", 0)
     assert folded.code == 2 and "it folds the limb there" in folded.err and "smaller force" in folded.err
 
 

@@ -93,8 +93,9 @@ static brace_status_t ask_for(brace_app_t *app, const asked_motion_t *motion)
     if (status != BRACE_OK) {
         return status;
     }
-    const bool waits_already =
-        controller->ownership.waits && memcmp(motion, &controller->asked, sizeof *motion) == 0; /* it came twice */
+    const session_t *session = &controller->ownership.session;
+    const bool still_waits = controller->ownership.waits && (session->has_begin || session->has_begun);
+    const bool waits_already = still_waits && memcmp(motion, &controller->asked, sizeof *motion) == 0; /* it came twice */
     if (controller->ownership.is_by_wire && !waits_already) {
         controller->asked = *motion;
         ownership_wait(&controller->ownership);

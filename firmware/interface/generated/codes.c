@@ -468,7 +468,7 @@ static const meaning_t flag_meanings[] = {
     {3, "GAP_OPEN",
      "A joint's play may be open: that joint carries nothing until the gap has closed."},
     {4, "STALE",
-     "K is older than its age limit, or the mode is one that tells no K."},
+     "K is older than its age limit, a joint may have moved since its last sample, or the mode is one without K."},
     {5, "OUT_OF_RANGE",
      "The posture lies outside the range in which the model was identified."},
     {6, "LOAD_UNKNOWN",

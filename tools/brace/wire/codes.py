@@ -155,7 +155,7 @@ FLAG = CodeTable("flag", True, (
     Code(1, "NEAR_SINGULAR", "The stated accuracy is not promised for this limb at this posture."),
     Code(2, "SATURATED", "A value was limited to what its frame can say."),
     Code(3, "GAP_OPEN", "A joint's play may be open: that joint carries nothing until the gap has closed."),
-    Code(4, "STALE", "K is older than its age limit, or the mode is one that tells no K."),
+    Code(4, "STALE", "K is older than its age limit, a joint may have moved since its last sample, or the mode is one without K."),
     Code(5, "OUT_OF_RANGE", "The posture lies outside the range in which the model was identified."),
     Code(6, "LOAD_UNKNOWN", "The load is not counted, because it is not known: K is the one without load."),
     Code(7, "SOFTENED", "The load has softened the limb: the buckling factor is below 3, or no stable equilibrium is near."),
