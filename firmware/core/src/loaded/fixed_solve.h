@@ -84,6 +84,19 @@ INLINE bool fixed_solve_in(const fixed_pull_t *pull, int32_t bend, int32_t resis
 /* A solved shape, in q27: a step may lead further than a shape may be. */
 typedef fixed_shape_t fixed_far_shape_t;
 
+/* Where a link's end stands after a step, in q27: each of the three may be 8 rad, so the sum needs more than a word. */
+INLINE int64_t far_end_turn(const fixed_far_shape_t *to)
+{
+    return (int64_t)to->root + to->a + to->b;
+}
+
+/* How far a step turns a link's end, in q27. */
+INLINE uint32_t end_turned(const fixed_far_shape_t *to, const fixed_shape_t *from)
+{
+    const int64_t turned = far_end_turn(to) - (fixed_end_turn(from) >> 2);
+    return (uint32_t)(turned < 0 ? -turned : turned);
+}
+
 /* A turn in q27: what a compliance (q29) and a moment make, less what a ratio (q27) and a turn in q27 make. Noted as
  * lost from 8 rad on. */
 INLINE int32_t far_turn(int32_t yields, int32_t driven, int64_t less_q54, lost_t *lost)
@@ -150,7 +163,7 @@ INLINE bool fixed_step(const fixed_limb_t *limb, bool is_first, int32_t hip, int
     if (lost >= LOST) {
         return false;
     }
-    const int32_t by_end = kept((int64_t)fixed_end_turn(femur_to) * per_knee, 27, ROOM_FAR_TURN, &lost);
+    const int32_t by_end = kept(far_end_turn(femur_to) * per_knee, 27, ROOM_FAR_TURN, &lost);
     const int32_t by_knee = far_turn(knee, beyond_drives, 0, &lost);
     if (lost >= LOST) {
         return false;
@@ -163,12 +176,6 @@ INLINE bool fixed_step(const fixed_limb_t *limb, bool is_first, int32_t hip, int
 #define FIXED_ROOT_MOST ANGLE_Q27(3.1) /* as loaded.c */
 #define FIXED_BEND_MOST ANGLE_Q27(1.2) /* turns between the points of a link stay below 1.41 rad */
 #define FIXED_TURNS_MOST ANGLE_Q27(3.9) /* of a root and both curvatures together, the first by a tenth more */
-
-INLINE uint32_t larger_turn(int32_t a, int32_t b)
-{
-    const uint32_t first = magnitude_of(a), second = magnitude_of(b);
-    return first > second ? first : second;
-}
 
 /* Every angle along a link stays below 4 rad. */
 INLINE bool is_shape(const fixed_far_shape_t *shape)
@@ -205,12 +212,13 @@ INLINE bool fixed_bounded_step(fixed_limb_t *limb, bool is_first, int32_t hip, i
     if (!fixed_step(limb, is_first, hip, knee, &femur, &tibia)) {
         return false;
     }
-    const uint32_t turned = larger_turn(far_less(fixed_end_turn(&femur), fixed_end_turn(&limb->femur_shape)),
-                                        far_less(fixed_end_turn(&tibia), fixed_end_turn(&limb->tibia_shape)));
+    const uint32_t by_femur = end_turned(&femur, &limb->femur_shape);
+    const uint32_t by_tibia = end_turned(&tibia, &limb->tibia_shape);
+    const uint32_t turned = by_femur > by_tibia ? by_femur : by_tibia;
     const int32_t part_q30 = turned <= (uint32_t)FIXED_STEP_MOST
                                  ? 1 << 30
                                  : (int32_t)(((uint64_t)FIXED_STEP_MOST << 30) / turned);
-    *turned_q27 = (int32_t)turned;
+    *turned_q27 = turned <= (uint32_t)INT32_MAX ? (int32_t)turned : INT32_MAX;
     return fixed_shape_goes(&limb->femur_shape, &femur, part_q30) &&
            fixed_shape_goes(&limb->tibia_shape, &tibia, part_q30);
 }
