@@ -118,7 +118,7 @@ static bool obey_stop(const modbus_server_t *server, const wire_tick_t *tick, co
                       uint16_t *looked)
 {
     const uint8_t *end = bytes + count - (count < (uint32_t)STOP_LEAST ? count : (uint32_t)STOP_LEAST - 1u);
-    for (const uint8_t *at = bytes + *looked; at < end; at++) {
+    for (const uint8_t *at = bytes + *looked; at < end; at++) { /* at most 253 times */
         if (at[REGISTER_AT] == STOP_REGISTER_HIGH && begins_with_stop(server, at, count - (uint32_t)(at - bytes))) {
             (void)brace_app_stop(tick->app);
             *looked = (uint16_t)(at - bytes + 1);
