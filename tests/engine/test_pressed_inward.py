@@ -76,5 +76,6 @@ def test_pressed_inward(limbs: int, seed: int, path: str) -> None:
     )
     assert np.sum(refused & near) <= (0 if path == "float" else 2 + REFUSED_MOST * len(judged))
     assert unflagged.max() <= WORST[path]
-    assert np.mean(unflagged > 0.01) <= (0.004 if path == "space" else 0.0)
+    share = 0.004 if path == "space" else 0.0  # of a few limbs two or three more may be among them by chance
+    assert np.sum(unflagged > 0.01) <= share * unflagged.size + 2.0 * np.sqrt(share * unflagged.size)
     assert np.mean(flagged[promised]) <= 0.015
