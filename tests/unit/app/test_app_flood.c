@@ -16,7 +16,7 @@
 #define SPRING_N_MM_PER_RAD 80000.0f
 
 enum {
-    TICKS = ON_BOARD ? 1400 : 2000, /* of one limb under one flood */
+    TICKS = ON_BOARD ? 2400 : 2000, /* under one flood; without FPU a test in space takes more */
     TICKS_BETWEEN = 100,     /* in MONITOR, from one loading test or take-up to the next */
     TURNS_LEAST = ON_BOARD ? 1 : 2, /* loading tests and take-ups that end meanwhile */
     TICKS_HELD = 30,         /* with the backlash taken up, before the joints are let go */
