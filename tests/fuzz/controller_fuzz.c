@@ -233,7 +233,7 @@ static void judge(void)
         broken("valid with a fault that has no K");
     }
     const bool is_fresh = s->taken_us == fake.now_us; /* else a joint may have moved since, and K says so */
-    if (is_fresh && ((now_k->flags | engaged->flags) & (BRACE_FLAG_STALE | BRACE_FLAG_OUT_OF_RANGE)) != 0u) {
+    if (is_fresh && ((now_k->flags | engaged->flags) & BRACE_FLAG_STALE) != 0u) { /* a temperature sets OUT_OF_RANGE */
         broken("valid, flagged otherwise");
     }
     if ((now_k->flags & BRACE_FLAG_GAP_OPEN) != 0u ? !open : open) {
