@@ -16,6 +16,7 @@ from wire_by_hand import PROJECT, expected
 
 STANDS_RAD = (1.0, 1.4)  # brace sim's default
 PLACES = {"can": r"can tcp://127\.0\.0\.1:(\d+)", "modbus": r"modbus_tcp modbus-tcp://127\.0\.0\.1:(\d+)"}
+NUMBER = r"(\d+\.\d+) N/mm"
 PRINTED = {"can": "29536", "modbus": "1502"}
 
 
@@ -61,10 +62,10 @@ def as_printed(word: str, port: tuple[str, str]) -> list[str]:
 def test_cantools_monitor_as_printed(ports: dict[str, str]) -> None:
     true = expected(*STANDS_RAD)
     text = screen_of(
-        as_printed("cantools monitor", (PRINTED["can"], ports["can"])), [r"k_xx: \d+\.\d+ N/mm", r"k_zz: \d+\.\d+ N/mm"]
+        as_printed("cantools monitor", (PRINTED["can"], ports["can"])), [rf"\b{name}: {NUMBER}" for name in ("k_xx", "k_zz")]
     )
     for name, value in (("k_xx", true.xx), ("k_zz", true.zz)):
-        shown = re.search(rf"{name}: (\d+\.\d+) N/mm", text)
+        shown = re.search(rf"\b{name}: {NUMBER}", text)
         assert shown and float(shown[1]) == pytest.approx(value, abs=0.01)
 
 
