@@ -20,7 +20,7 @@ import pytest
 from conftest import PROJECT
 
 COPIED = ("firmware/core", "firmware/interface", "host_sim", "tools/interface", "tools/brace", "docs/protocol.md",
-          "docs/modbus.md", "docs/limb-keys.md")
+          "docs/limb-keys.md")
 DICTIONARY, MESSAGES = "firmware/interface/dictionary.toml", "firmware/interface/messages.toml"
 WARNINGS = ("-std=c11", "-O0", "-Wall", "-Wextra", "-Werror", "-Wno-unused-function")
 
@@ -239,7 +239,7 @@ int32_t answer_throw_away(void *request, const brace_throw_away_request_t *asked
         "import json; from brace.wire.frames import ANSWERS;"
         "print(json.dumps(ANSWERS['throw_away'][0].decode(bytes.fromhex('c8090e0000000000'))))"
     ) == {"doubled": 14}
-    assert "### 200 throw_away" in (copy.project / "docs/protocol.md").read_text()
+    assert "| 200 | `throw_away` |" in (copy.project / "docs/protocol.md").read_text()
 
 
 def test_a_message_is_one_file(copy: Copy) -> None:

@@ -12,7 +12,9 @@ import pytest
 
 from brace.model import LIMB_KEYS
 from brace.model.keys import KEY_BY_NAME
+from brace.wire.measured import MEASURED
 from brace.wire.names import OF_THE_MODEL, PARAMETERS, SCHEMA_HASH
+from brace.wire.registers import REGISTERS
 from conftest import PROJECT
 
 sys.path.insert(0, str(PROJECT / "tools"))
@@ -53,7 +55,12 @@ def test_pages_have_the_numbers_of_the_wire() -> None:
     }
     assert listed == {p.key: p.number for p in PARAMETERS}
     recorder = (PROJECT / "firmware/app/src/jobs/loading/recorder.c").read_text()
-    (row,) = re.findall(r"^\| 32 \| 8 \| `column`.*", (PROJECT / "docs" / "protocol.md").read_text(), re.M)
+    assert {entry.name: entry.index for entry in MEASURED} == {
+        register.name: 0x1000 + register.address // 2
+        for register in REGISTERS if register.table == "input" and register.address < 4096
+    }  # fmt: skip
+    database = (PROJECT / "firmware" / "interface" / "brace.dbc").read_text()
+    (row,) = re.findall(r'^CM_ SG_ \d+ fetch_row_column "(.*)"', database, re.M)
     columns = re.findall(r"case (\d+): \*value = row->(\w+);", recorder)
     assert len(columns) == 15
     for number, column in columns:

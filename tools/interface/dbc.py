@@ -49,6 +49,7 @@ class _Database:
             for signal in frame.signals:
                 full = f"{stem.replace('_answer_', '_')}_{signal.name}"
                 lines.append(_signal_line(signal, full, f"m{frame.command} ", to))
+                self.comments.append(f'CM_ SG_ {identifier + _NODE} {full} "{_words(signal)}";')
                 self._meanings(identifier + _NODE, signal, full)
         self.messages.append(_message(identifier + _NODE, name, from_, lines))
         self.values.append(f"VAL_ {identifier + _NODE} {selector} {' '.join(meanings)} ;")

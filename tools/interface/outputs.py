@@ -25,7 +25,7 @@ from interface.python_codes import codes_module
 from interface.python_messages import frames_module
 from interface.python_names import names_module
 from interface.questions import Question, load_questions, questions_header, questions_source
-from interface.registers import measured_module, registers, registers_csv, registers_module, registers_page
+from interface.registers import measured_module, registers, registers_csv, registers_module
 
 PROJECT = Path(__file__).resolve().parents[2]
 DICTIONARY = PROJECT / "firmware" / "interface" / "dictionary.toml"
@@ -58,7 +58,6 @@ def outputs(
         "firmware/interface/generated/brace/questions.h": questions_header(questions),
         "firmware/interface/generated/questions.c": questions_source(questions, values),
         "firmware/interface/modbus.csv": registers_csv(rows),
-        "docs/modbus.md": registers_page(rows),
         "docs/protocol.md": protocol_page(wire, values, language),
         "tools/brace/wire/codes.py": codes_module(codes),
         "tools/brace/wire/registers.py": registers_module(rows),

@@ -12,8 +12,13 @@ WRITTEN_AS_ENTRIES = ("stop", "end_test", "seal_mac")  # wire/answers/parameters
 
 _HEAD = """# Frames on CAN
 
-Written by tools/interface from the dictionary; do not edit. As CAN databases: `firmware/interface/brace.dbc`,
-and `brace_fd.dbc` for the frame of CAN FD.
+Written by tools/interface from the dictionary; do not edit. This page lists the frames and what each is for. Where a field
+lies in its frame, its step, its unit, its codes and what it means stand in the CAN databases
+[brace.dbc](../firmware/interface/brace.dbc) and, for the frames of CAN FD,
+[brace_fd.dbc](../firmware/interface/brace_fd.dbc), of node 1. The line `SG_ k_xx : 8|24@1- (0.0005,0)` of such a file
+says: 24 bits from bit 8 on, signed (`+`: unsigned), in steps of 0.0005. A field that occurs in a group, a request or an
+answer has that one's name before its own there: `space_k_xx`, `k_at_posture_theta1`.
+`brace dbc --nodes 1 2 3` writes databases for other nodes.
 
 Classic CAN, 11-bit identifiers shaped like CANopen's, eight bytes a frame, least significant bit first (Intel). A
 controller adds its node number, 1 to 127, to the identifiers below; without a number it only listens. A value that is not
@@ -42,50 +47,38 @@ With `controller.can_fd_bit_rate` set, and from the next start on, a controller 
 frame of CAN FD with bit-rate switch; all else stays classic. Everything in it is of one tick; its numbers are floats as the
 controller has them, NaN where a value is not known. Where the controller's CAN is classic only (bxCAN), or the interface's
 MTU is (SocketCAN, 16), it goes on with classic frames. Over SLCAN snapshots are classic too.
+
 """
 
 
 def protocol_page(wire: Wire, values: Values, dictionary_hash: int) -> str:
     """The whole page."""
+    classic, fd = wire.classic, wire.fd
     parts = [_HEAD,
              f"Protocol {wire.protocol}, dictionary 0x{dictionary_hash:08x}.\n\n", _identifiers(wire),
-             "\n## What a controller sends by itself\n"]
-    for frame in wire.messages:
-        often = f" As often as `{frame.rate}` says." if frame.rate else ""
-        parts.append(f"\n### {frame.name}, 0x{frame.identifier:03x} + node\n\n{_sentence(frame.description)}"
-                     f"{often}\n\n")
-        parts.append(_table(frame))
-    parts += [_parts(message) for message in wire.classic]
-    parts.append(_FD)
-    for frame in wire.fd_messages:
-        parts.append(f"\n### {frame.name}, 0x{frame.identifier:03x} + node, {frame.bytes} bytes\n\n"
-                     f"{_sentence(frame.description)}")
-        parts.append(f" As often as `{frame.rate}` says.\n\n")
-        parts.append(_table(frame))
-    parts += [_parts(message) for message in wire.fd]
+             "\n## What a controller sends by itself\n\n", _sent(wire.messages, classic),
+             *(_groups(message) for message in classic),
+             _FD, _sent(wire.fd_messages, fd), *(_groups(message) for message in fd)]
     parts.append(
         f"\n## What it answers\n\nAsked on 0x{wire.request_id:03x} + node, answered on 0x{wire.answer_id:03x} + node. "
         "Byte 0 of a request is its code. An answer has one frame or several; byte 0 of each is a number that no other"
         " frame of any answer has. Byte 1 is a token that comes back in every frame of the answer. The fields begin at"
         " bit 16. The token's upper four bits say which master of the bus asks: masters are answered"
-        " in turn, and what a master has begun (a force that was told, a download) is that master's. A stop is obeyed"
+        " in turn, and what a master has begun (a force that was sent, a download) is that master's. A stop is obeyed"
         " before anything else, commands go before questions, and each port answers one question a tick."
-        f" The number {REFUSED} is a refusal, of whatever request:\n\n"
+        f" The number {REFUSED} is a refusal, of whatever request: {_names(wire.refusal.signals)}"
+        " ([statuses and refusals](errors.md)).\n\n"
+        "| code | request | what it does | asked with | answered with, by number |\n|---|---|---|---|---|\n"
     )
-    parts.append(_table(wire.refusal))
     for request in wire.requests:
-        parts.append(f"\n### {request.code} {request.name}\n\n{_sentence(request.description)}\n\n")
-        parts.append(_table(request.question) if request.question.signals else "Nothing more is asked.\n")
-        for answer in request.answers:
-            parts.append(f"\nAnswer, number {answer.command}:\n\n" + _table(answer))
+        answers = "; ".join(f"{one.command}: {_names(one.signals) or 'nothing more'}" for one in request.answers)
+        asked = _names(request.question.signals) or "nothing more"
+        parts.append(f"| {request.code} | `{request.name}` | {_sentence(request.description)} | {asked} | {answers} |\n")
     parts.append(
-        "\n## Entries\n\nFor `read_entry` and `write_entry` parameters have the numbers that"
-        " [limb.toml's keys](limb-keys.md) are listed with, half their Modbus addresses; for `read_entry`"
-        f" measured values count from {MEASURED_ENTRY}:\n\n| number | name | type | unit |\n|---|---|---|---|\n"
-    )
-    parts += [f"| {MEASURED_ENTRY + v.index} | `{v.name}` | {v.type} | {v.unit} |\n" for v in values.measured]
-    parts.append(
-        "\n`write_entry` takes four commands, too, in every mode that allows them. Its answer's value is then the"
+        "\n## Entries\n\n`read_entry` and `write_entry` call parameters by the numbers that"
+        " [limb.toml's keys](limb-keys.md) are listed with, half their Modbus addresses. For `read_entry` a measured value"
+        f" has the number {MEASURED_ENTRY} and half its address in [modbus.csv](../firmware/interface/modbus.csv).\n"
+        "\n`write_entry` takes these commands, too, in every mode that allows them. Its answer's value is then the"
         " controller's setting: bench or guarded ([security.md](security.md)).\n\n| number | name | what it does |\n"
         "|---|---|---|\n"
     )
@@ -102,41 +95,30 @@ def _identifiers(wire: Wire) -> str:
     return "| identifier | what it is |\n|---|---|\n| 0x001 | stop |\n" + "".join(rows)
 
 
-def _parts(message: Multiplexed) -> str:
-    size = f", {message.bytes} bytes" if message.is_fd else ""
-    text = [f"\n### {message.name}, 0x{message.identifier:03x} + node{size}\n\n{_sentence(message.description)} "
-            f"Every frame has\n\n{_signals(message.common)}"]
+def _sent(frames: Sequence[Frame], multiplexed: Sequence[Multiplexed]) -> str:
+    """Messages of one frame, and what all frames of the others have."""
+    rows = [f"| `{frame.name}` | {_sentence(frame.description)}{_often(frame.rate)} | {_names(frame.signals)} |\n"
+            for frame in frames]  # fmt: skip
+    rows += [f"| `{message.name}` | {_sentence(message.description)} | in every part: {_names(message.common)} |\n"
+             for message in multiplexed]  # fmt: skip
+    return "| message | what it is | fields |\n|---|---|---|\n" + "".join(rows)
+
+
+def _groups(message: Multiplexed) -> str:
+    text = [f"\nThe parts of `{message.name}`, by number:\n\n| group | what it is | fields |\n|---|---|---|\n"]
     for group in message.groups:
-        often = f" As often as `{group.rate}` says." if group.rate else ""
-        text.append(f"\n#### {group.name}\n\n{_sentence(group.description)}{often}\n")
-        text += [f"\nPart {frame.part}:\n\n{_signals(message.own(frame))}" for frame in group.parts]
+        fields = "; ".join(f"{frame.part}: {_names(message.own(frame))}" for frame in group.parts)
+        text.append(f"| `{group.name}` | {_sentence(group.description)}{_often(group.rate)} | {fields} |\n")
     return "".join(text)
+
+
+def _often(rate: str) -> str:
+    return f" As often as `{rate}` says." if rate else ""
 
 
 def _sentence(words: str) -> str:
     return words[0].upper() + words[1:] + "."
 
 
-def _table(frame: Frame) -> str:
-    return _signals(frame.signals)
-
-
-def _signals(signals: Sequence[Signal]) -> str:
-    rows = [f"| {s.start} | {s.bits} | `{s.name}` | {_kind(s)} | {s.description}{_meanings(s)} |\n" for s in signals]
-    return "| bit | bits | name | what it counts | what it is |\n|---|---|---|---|---|\n" + "".join(rows)
-
-
-def _kind(signal: Signal) -> str:
-    sign = "signed" if signal.signed else "unsigned"
-    if signal.kind == "value":
-        unit = "" if signal.unit in ("", "1") else f" {signal.unit}"
-        return f"steps of {signal.step:.10g}{unit}, {sign}"
-    return "float" if signal.kind == "f32" else f"a number, {sign}"
-
-
-def _meanings(signal: Signal) -> str:
-    if signal.names:
-        return ": " + ", ".join(f"{number} {name}" for number, name in sorted(signal.names.items()))
-    if signal.bit_names:
-        return "; bits from 0: " + ", ".join(signal.bit_names)
-    return ""
+def _names(signals: Sequence[Signal]) -> str:
+    return ", ".join(f"`{signal.name}`" for signal in signals)
