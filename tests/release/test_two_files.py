@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -56,6 +57,7 @@ def test_same_bytes_and_nothing_of_others(core: Path, tmp_path: Path) -> None:
         text = (core / name).read_text()
         assert (tmp_path / name).read_text() == text
         assert '#include "' not in text.replace('#include "brace_core.h"', "")
+        assert re.match(r"/\* Brace \d+\.\d+\.\d+: ", text)
         assert "SPDX-License-Identifier" + ": Apache-2.0\n" in text and str(PROJECT) not in text
 
 

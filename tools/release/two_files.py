@@ -20,6 +20,7 @@ from pathlib import Path
 PROJECT = Path(__file__).resolve().parents[2]
 CORE = PROJECT / "firmware" / "core"
 LEFT_OUT = "batch"
+FIRST_TO_READ = "brace.h"
 
 LICENCE = """ * SPDX-FileCopyrightText: 2026 The Brace authors
  * SPDX-License-Identifier: Apache-2.0
@@ -28,8 +29,7 @@ HEADER_WORDS = """/* Brace {version}: the stiffness K at the tip of a robot's li
  *
 {licence} *
  * Written by tools/release/two_files.py; do not edit. brace_core.c has the functions. Both compile alone with any
- * C11 compiler: cc -std=c11 -O2 -c brace_core.c. A program that links them needs libm (-lm). Begin to read at
- * brace_planar_collapse and brace_planar_stiffness.
+ * C11 compiler: cc -std=c11 -O2 -c brace_core.c. A program that links them needs libm (-lm).
  */
 """
 SOURCE_WORDS = """/* Brace {version}: the stiffness K at the tip of a robot's limb. The core's sources.
@@ -165,6 +165,8 @@ def two_files(version: str) -> dict[str, str]:
     for path in public_headers():
         reader.take(path)
     manual, manual_includes = list(reader.parts.values()), sorted(reader.system)
+    first = reader.parts[CORE / "include" / "brace" / FIRST_TO_READ]  # only words are left of it, and includes of all
+    manual = [first, *(part for part in manual if part is not first)]
     reader.system = set()
     for path in sources():
         reader.take(path)
@@ -214,7 +216,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description="the core as brace_core.h and brace_core.c")
     parser.add_argument("--out", type=Path, required=True, metavar="FOLDER", help="where the two files go")
     out = parser.parse_args(arguments).out
-    version = re.search(r"^project\(brace VERSION (\S+)", (PROJECT / "CMakeLists.txt").read_text(), re.MULTILINE)
+    version = re.search(r"^set\(BRACE_VERSION (\S+)\)", (CORE / "cmake" / "version.cmake").read_text(), re.MULTILINE)
     out.mkdir(parents=True, exist_ok=True)
     for name, text in two_files(version[1] if version else "").items():
         (out / name).write_text(text)
