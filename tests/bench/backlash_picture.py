@@ -1,4 +1,4 @@
-"""docs/backlash.svg: wrong sides, angle errors and one history, the machine beside compensation by direction of motion.
+"""backlash.svg: wrong sides, angle errors and one history, the machine beside compensation by direction of motion.
 
 The same figures give the same bytes.
 """

@@ -1,4 +1,4 @@
-"""The preload state machine beside direction-of-motion compensation: figures, limits and docs/backlash.svg.
+"""The preload state machine beside direction-of-motion compensation: figures, limits and backlash.svg.
 
 Runs the histories of tests/property/backlash_histories.py on the reported seeds, and its oracle on the first of them.
 """
@@ -139,7 +139,7 @@ def extra(folder: Path) -> Extra:
 
 
 if __name__ == "__main__":
-    found = extra(Path(__file__).resolve().parents[2] / "docs")
+    found = extra(Path.cwd())
     for title, heads, rows in found.tables:
         print(title, heads, *rows, sep="\n  ")
     for check in found.checks:

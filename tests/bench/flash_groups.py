@@ -77,6 +77,6 @@ def extra() -> Extra:
                  "Linked one after the other, so each row holds only what no row before has brought in. A controller "
                  "links what it calls: nothing of the rows that it does not use. By kinds of instructions as "
                  f"disassembled; \"{CONSTANTS}\" are literals, their loads and tables. What that says: "
-                 "[kernel.md](kernel.md).",
+                 "docs/kernel.md.",
                  [("What the flash is made of, Cortex-M4F", heads, rows)], [],
                  {job.name: {"adds": job.adds, "up_to_here": job.total, **job.kinds} for job in jobs})

@@ -19,7 +19,7 @@ WEIGHTS_N = {"femur_n": 2.0, "knee_n": 1.0, "tibia_n": 1.5}  # image/loaded_case
 LEAST_FACTOR, MOST_MOVED = 2.0, 0.2  # where accuracy is promised: buckling factor, displacement over reach
 
 NOTE = """\
-K at the limb's rest under a force of up to 12 N on the tip and its own weight ([kernel.md](kernel.md#k-under-a-load)), the \
+K at the limb's rest under a force of up to 12 N on the tip and its own weight (docs/kernel.md), the \
 same 200 postures and as many from the whole workspace. All do the same job for the same limbs (tilt, any strength of moment \
 transfer, base): two steps of Newton's method, K, eigenvalues, stiff axis, displacement of the tip, buckling factor. Errors: \
 against the reference, of K as a fraction of its norm, where the buckling factor is at least 2 and the tip moves by at most a \

@@ -22,7 +22,7 @@ LIMBS = {"beams": (beam_limb, "BEAM"), "coxa link yields": (coxa_limb, "COXA"), 
 
 NOTE = """\
 K in space at the limb's rest under a force of up to 13 N on the tip and its own weight \
-([kernel.md](kernel.md#in-space-under-a-load)), the same 200 postures and as many from the whole workspace: rest, K, \
+(docs/kernel.md), the same 200 postures and as many from the whole workspace: rest, K, \
 displacement of the tip and turns of the joints; then K turned to the robot's frame with eigenvalues and stiff axis; \
 then the buckling factor, on demand. Errors: as for the plane."""
 

@@ -102,8 +102,8 @@ def _aligned(heads: list[str], rows: list[list[str]]) -> str:
 
 
 def as_markdown(bench: Bench) -> str:
-    """For docs/bench.md."""
-    parts = ["# What a K costs", "Written by `./dev bench`; do not edit.", NOTES]
+    """All tables as a page."""
+    parts = ["# What a K costs", NOTES]
     notes = {extra.tables[0][0]: extra.note for extra in bench.extras}
     for title, heads, rows in tables(bench):
         if title in notes:
@@ -116,7 +116,7 @@ def as_markdown(bench: Bench) -> str:
 
 
 def as_data(bench: Bench) -> dict[str, object]:
-    """For docs/bench.json."""
+    """All figures, for a program."""
     return {
         "format": 1,
         "versions": [{

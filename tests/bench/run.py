@@ -1,7 +1,7 @@
 """`./dev bench`: what a K costs, side by side with its peers, on the same postures; PASS or MISS per limit.
 
-Writes docs/bench.json, docs/bench.md, docs/backlash.svg and docs/loaded.svg. Exit codes: 0 every limit kept, 1 one missed,
-4 something is missing here.
+Writes bench.json, bench.md, backlash.svg and loaded.svg into build/bench/report. docs/bench.md has the main tables by hand.
+Exit codes: 0 every limit kept, 1 one missed, 4 something is missing here.
 """
 
 import argparse
@@ -91,7 +91,7 @@ def bench(out: Path) -> Bench:
 def main() -> int:
     """Run, print, write; the exit code."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--out", type=Path, default=fetch.ROOT / "docs", help="folder for bench.json and bench.md")
+    parser.add_argument("--out", type=Path, default=BUILD / "report", help="folder of what is written")
     out = parser.parse_args().out
     out.mkdir(parents=True, exist_ok=True)
     try:
@@ -107,7 +107,7 @@ def main() -> int:
     (out / "bench.md").write_text(as_markdown(result))
     missed = [check for check in result.all_checks if not check.passed]
     print(f"\n{len(result.all_checks) - len(missed)} limits kept, {len(missed)} missed; "
-          f"written: {out.name}/bench.json, {out.name}/bench.md")
+          f"written: bench.json, bench.md and pictures in {out}")
     return 1 if missed else 0
 
 

@@ -1,8 +1,8 @@
 """How many cases it takes to show that the diagnosis is better than a baseline, line by line, at p < 0.01.
 
-usage: power.py [N ...]
-From what the last run had (earlier_runs.json): the shares of cases that only one of the two has right. Prints, for
-each number of cases, the chance that the exact McNemar test comes out below 0.01 if those shares are the true ones."""
+usage: power.py FILE [N ...]     FILE: blind.json or blind-finite.json of an earlier run
+From that run: the shares of cases that only one of the two has right. Prints, for each number of cases, the chance that
+the exact McNemar test comes out below 0.01 if those shares are the true ones."""
 
 from __future__ import annotations
 
@@ -14,15 +14,6 @@ from typing import Any
 import numpy as np
 from baselines.compare import SIGNIFICANT, mcnemar_p
 from scipy.stats import binom
-
-EARLIER = Path(__file__).with_name("earlier_runs.json")
-
-
-def earlier() -> dict[str, Any]:
-    """Lines and paired counts of the last run before."""
-    found: list[dict[str, Any]] = json.loads(EARLIER.read_text())
-    return found[-1]
-
 
 def chance(cases: int, ours: float, theirs: float) -> float:
     """Of p < 0.01 in our favour, when each case is right for us alone with probability `ours`, for them alone with
@@ -39,9 +30,10 @@ def _above(apart: int, share: float) -> float:
     return float(binom.sf(least - 1, apart, share))
 
 
-def main(sizes: list[int]) -> int:
+def main(earlier: Path, sizes: list[int]) -> int:
+    found: dict[str, Any] = json.loads(earlier.read_text())
     print("line; baseline; ours:theirs of; chance at " + ", ".join(map(str, sizes)))
-    for row in earlier()["baselines"]:
+    for row in found["baselines"]:
         ours, theirs = row["only_diagnose_right"], row["only_baseline_right"]
         chances = [chance(size, ours / row["of"], theirs / row["of"]) for size in sizes]
         shown = " ".join(f"{value:.2f}" for value in chances)
@@ -50,4 +42,6 @@ def main(sizes: list[int]) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main([int(text) for text in sys.argv[1:]] or [216, 480, 1200]))
+    if len(sys.argv) < 2:
+        sys.exit("usage: power.py FILE [N ...]")
+    sys.exit(main(Path(sys.argv[1]), [int(text) for text in sys.argv[2:]] or [216, 480, 1200]))

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections import Counter, defaultdict
 from collections.abc import Sequence
-from pathlib import Path
 from statistics import median
 from typing import Any
 
@@ -14,7 +12,7 @@ from scoring import VISIBLE_GAP_N, Judged, Share, calibration, closed, coverage,
 from seeds import REPORTED_CASES
 
 HOW = """Effects are hidden in simulated loading tests by a simulator and a generator that share no code with the tool
-([tests/blind](../tests/blind/README.md)); the answers lie apart and are sealed before the run. Limbs, poses,
+(tests/blind); the answers lie apart and are sealed before the run. Limbs, poses,
 designs, noise, sizes and directions are random; each true limb also differs from what is believed within the
 calibration's trust. Detectability s = sqrt(2 x log-likelihood gain of the truth after refitting the base). An
 effect's class: those whose trace in this design has a cosine above 0.95 with the truth's."""
@@ -34,11 +32,9 @@ them explains a record as well as the hidden effect does, the tool tells both. T
 times rarer than an effect of the catalogue; only a rig that yields counts as common as an effect."""
 
 TITLES = {"simulator": "# Blind benchmark", "finite": "# Blind benchmark at finite displacements"}
-FINITE = """The simulator of [blind.md](blind.md) assumes that no limb turns as it is displaced. Here its limbs, tests,
-effects and outsiders are played by the physics engine of [tests/engine](../tests/engine/README.md), in which limbs
+FINITE = """The simulator of blind.md assumes that no limb turns as it is displaced. Here its limbs, tests,
+effects and outsiders are played by the physics engine of tests/engine, in which limbs
 turn; detectability and classes are worked out there, too. All else is as on that page."""
-
-EARLIER = Path(__file__).with_name("earlier_runs.json")
 
 __all__ = ["VISIBLE_GAP_N", "as_json", "cases_as_json", "figures", "page", "table"]
 
@@ -257,30 +253,8 @@ def closable(found: dict[str, Any]) -> str:
     )
 
 
-def _earlier(found: dict[str, Any]) -> str:
-    """The same lines of the runs before, each on a seed and cases of its own."""
-    runs = json.loads(EARLIER.read_text())
-    now = {x["figure"]: x for x in found["lines"]}
-    heads = [f"seed {run['seed']} | of" for run in runs]
-    rows = [f"| figure | must reach | {' | '.join(heads)} | this run | of |", "|---" * (2 * len(runs) + 4) + "|"]
-    for figure, this in now.items():
-        cells = []
-        for run in [*({x["figure"]: x for x in run["lines"]} for run in runs), now]:
-            x = run.get(figure, {"measured": "-", "of": 0, "met": ""})
-            cells.append(f"{x['measured']}, {x['met']} | {x['of'] or ''}" if x["met"] else "- |")
-        rows.append(f"| {figure} | {this['target']} | {' | '.join(cells)} |")
-    told = [
-        f"Test seed {run['seed']}, {run['cases']} cases, tool `{run['tool']}`: before {run['before']}." for run in runs
-    ]
-    return (
-        "\n".join(told) + "\n\nA seed's cases may be looked at once its run is over, and what they showed was worked on; "
-        "so each run has a seed of its own. The counts of cases that only one of two methods has right in the last one "
-        "set the size of this ([power.py](../tests/blind/power.py)).\n\n" + "\n".join(rows)
-    )
-
-
 def page(found: dict[str, Any], judged: Sequence[Judged], command: str) -> str:
-    """docs/blind.md."""
+    """Everything that a run found, in tables."""
     made = found["made"]
     kinds = ", ".join(f"{n} {kind}" for kind, n in sorted(found["kinds"].items()))
     besides = ["| figure | measured | 95 % interval | of |", "|---|---|---|---|"]
@@ -315,7 +289,6 @@ def page(found: dict[str, Any], judged: Sequence[Judged], command: str) -> str:
                 f"{v['median']:.1f}, {v['p95']:.1f}, {v['longest']:.1f} s by the {clock} clock"
                 for clock, v in found["seconds"].items()
             ) + ".",
-            *(["## Earlier runs", _earlier(found)] if made["set"] == "test" and made["world"] == "simulator" else []),
             *(["## Beside other ways to choose", found["baselines_text"]] if "baselines_text" in found else []),
             "## Besides",
             "\n".join(besides),
@@ -351,7 +324,7 @@ def missed_sets(judged: Sequence[Judged]) -> str:
 
 
 def as_json(found: dict[str, Any]) -> dict[str, Any]:
-    """docs/blind.json: the figures that the page is made of."""
+    """The figures that the page is made of."""
     return {key: value for key, value in found.items() if key not in ("after_next", "baselines_text")}
 
 

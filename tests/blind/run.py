@@ -1,4 +1,5 @@
-"""Runs the blind benchmark: makes the cases, seals the answers, diagnoses every case, judges, writes the tables.
+"""Runs the blind benchmark: makes the cases, seals the answers, diagnoses every case, judges, and writes a page
+of tables and figures below build/. The page of docs/ has the main table by hand.
 
 usage: run.py [--engine | --finite] [--development] [--cases N] [--seed S] [--only N] [--minutes M] [--processes P]
               [--out FOLDER]
@@ -29,7 +30,6 @@ import diagnoser
 import follow_up
 import report
 from generate import cases_of, default_folder, generate, generator_hash, seal_of, total
-from plant import BUILD
 from scoring import STRONG, Judged, gap_n, judge
 from worlds import SIMULATOR, options_of_world, world_called
 
@@ -226,13 +226,13 @@ def beside_baselines(
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     options_of_world(parser)
-    parser.add_argument("--development", action="store_true", help="the development seed; nothing is written to docs/")
+    parser.add_argument("--development", action="store_true", help="the development seed")
     parser.add_argument("--cases", type=cases_of, help="how many, or a plan")
     parser.add_argument("--only", type=int, help="of the plan, make and diagnose only the first so many")
     parser.add_argument("--minutes", type=float, default=math.inf, help="begin no diagnosis after so many")
-    parser.add_argument("--seed", type=int, help="another seed; nothing is written to docs/")
+    parser.add_argument("--seed", type=int, help="another seed")
     parser.add_argument("--processes", type=int, default=min(2, os.cpu_count() or 1))
-    parser.add_argument("--out", type=Path, help="folder of the tables; default docs/ for the test set")
+    parser.add_argument("--out", type=Path, help="folder of page and figures; default: that of the results, below build/")
     parser.add_argument("--quick", action="store_true", help="no next experiments, no repeats, no other seeds")
     options = parser.parse_args()
     world = world_called(options.world)
@@ -252,7 +252,6 @@ def main() -> int:
     names = sorted(path.name for path in (root / "cases").iterdir())
 
     begun = time.monotonic()
-    there = len(names)  # fewer than planned where two cases drew the same name, or one cannot be made
     jobs = [(str(root), str(results), n, k < world.reported_cases) for k, n in enumerate(names)]
     names = sorted(in_turn("diagnosing", _main_job, jobs, options.processes, begun + 60.0 * options.minutes))
     told = names if world.follows_up else []
@@ -300,16 +299,13 @@ def main() -> int:
         figures |= {key: value for key, value in beside.items() if key != "lines"}
         found = report.table(figures), report.page(figures, judged, command), report.as_json(figures)
     table, text, content = found
-    of_all = len(names) == there and options.only is None
-    part = not of_all and world.follows_up  # a world that is slow to play may report a part
-    whole = seed == world.test_seed and not part and not options.quick and cases == world.test_cases
-    out = options.out or (BUILD.parents[1] / "docs" if whole else results)
+    out = options.out or results
     out.mkdir(parents=True, exist_ok=True)
     (out / f"{world.page}.md").write_text(text)
     (out / f"{world.page}.json").write_text(json.dumps(content, indent=1) + "\n")
     (results / "judged.json").write_text(json.dumps(report.cases_as_json(judged), indent=1) + "\n")
     print(table)
-    places = f"tables in {out / world.page}.md, every case in {results / 'judged.json'}"
+    places = f"page in {out / world.page}.md, every case in {results / 'judged.json'}"
     print(f"\n{time.monotonic() - begun:.0f} s; {places}", file=sys.stderr)
     return 0
 

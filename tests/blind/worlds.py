@@ -53,7 +53,7 @@ class World:
     test_seed: int
     development_cases: int | str
     test_cases: int | str
-    page: str  # of docs/
+    page: str  # name of its page and figures
     prefix: str = ""  # of its folders' names
     classes: bool = True  # whether look-alikes of an effect are sought
     lacking: Callable[[Array, Sequence[str]], Array] = _as_it_is  # a believed limb that has not what will be hidden

@@ -11,7 +11,7 @@ import report
 from generate import LEFT_BY_CATALOGUE
 from scoring import Judged, Share, closed, share, strong
 
-HOW = """Limbs of a physics engine that nobody here wrote ([tests/engine](../tests/engine/README.md)), diagnosed from
+HOW = """Limbs of a physics engine that nobody here wrote (tests/engine), diagnosed from
 loading records alone; the answers lie apart and are sealed before the run. Each link is a beam of ten segments; the tip
 is held up to 2.54 mm off, and the engine's geometry is exact: force over displacement is no straight line for a sound
 limb either. Limbs, poses, strokes, noise, sizes and directions are random; each true limb also differs from what is

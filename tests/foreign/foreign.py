@@ -54,16 +54,16 @@ def judged(root: Path, results: Path, names: list[str], main: str = "main") -> l
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--foreign", action="store_true", help="this benchmark; what ./dev blind passes on")
-    parser.add_argument("--development", action="store_true", help="the development seed; nothing is written to docs/")
+    parser.add_argument("--development", action="store_true", help="the development seed")
     parser.add_argument("--parts", default="joint,loading,measured", help="which of them")
     parser.add_argument("--only", default="", help="cases whose group/kind holds this text")
     parser.add_argument("--cases", type=int, help="so many of the plan, the first in the order of their names")
-    parser.add_argument("--seed", type=int, help="another seed; nothing is written to docs/")
+    parser.add_argument("--seed", type=int, help="another seed")
     parser.add_argument(
         "--no-baselines", action="store_true", help="not beside the tool: forward selection, five numbers"
     )
     parser.add_argument("--processes", type=int, default=1)
-    parser.add_argument("--out", type=Path, help="folder of the page; default docs/ for the test set")
+    parser.add_argument("--out", type=Path, help="folder of page and figures; default build/foreign for the test set, else that of the results")
     options = parser.parse_args()
     try:
         diagnoser.require()
@@ -106,7 +106,7 @@ def main() -> int:
     command += f" --cases {options.cases}" if options.cases else ""
     how = {"command": command, "seed": seed, "tool": diagnoser.version()}
     sealed = {"set": {"dev": "development"}.get(label, label), "seal_sha256": seal, "generator": sets.sources_hash()}
-    out = options.out or (sets.PROJECT / "docs" if test and not options.only else results)
+    out = options.out or (sets.BUILD if test and not options.only else results)
     done = kept.read(out / "foreign.json")
     for part in ("joint", "loading"):
         here = [w for w in words if w.truth["part"] == part]

@@ -14,13 +14,13 @@ from verdicts import COVERED, SURE, Word
 from words import OUTSIDERS, TROUBLES
 
 HOW = """Records that neither the tool's plant nor its authors' simulator made
-([tests/foreign](../tests/foreign/README.md)): joint tests of an actuator simulator with LuGre, Dahl and generalised
+(tests/foreign): joint tests of an actuator simulator with LuGre, Dahl and generalised
 Maxwell-slip friction; loading records of a physics engine's limbs by instruments that misbehave; public measured
 joint tests. Answers lie apart and are sealed before the run. Sizes are those of real joints, rigs and recorders,
 without regard to how well they can be told."""
 
 READING = f"""Intervals are Wilson's, 95 %. A name is right if it is hidden, if it names the trouble or the outsider
-by a word of [words.py](../tests/foreign/words.py), or if the class that it was named with has such a member. A gap
+by a word of words.py, or if the class that it was named with has such a member. A gap
 larger than the joint swung is wrong whatever its name. Calibration error: over all names, in ten bins; there a name
 stands for itself alone. A trouble must be told where it leaves 8 sigmas after the base is refitted; noise and files'
 troubles always. Outsiders: named with more than {CONFIDENT} in a verdict `effect`. Coverage: the interval of a

@@ -8,7 +8,6 @@ from typing import Any
 
 import foreign_report
 import kept
-import pytest
 from test_verdicts import judged, said, truth
 from verdicts import Word
 
@@ -58,11 +57,3 @@ def test_a_part_that_is_run_leaves_the_others(tmp_path: Path) -> None:
     assert "- measured: not run" in page
     assert table in page
     assert f"seed {SEED}," in page and f"seed {SEED + 1}," in page
-
-
-def test_too_much_is_refused() -> None:
-    """A file that nobody could review is not written."""
-    many = part("joint")
-    many["cases"] *= 1000
-    with pytest.raises(ValueError, match="--cases"):
-        kept.text({"parts": {"joint": many}})

@@ -164,7 +164,7 @@ def section(
         [
             f"""Other people's ways to choose, on the same cases in the same run, judged by the same judge. Each is
 given the tool's own noise, refitted base and catalogue: one whitened column per way of an effect, played on the plant,
-the base taken out ([tests/blind/baselines](../tests/blind/baselines)). Each was tuned with {made['trials']} random trials
+the base taken out (tests/blind/baselines). Each was tuned with {made['trials']} random trials
 on the development set (`{made['command']}`), for naming, pairs and no false alarm in equal parts. Labels whose
 columns have a cosine above 0.9 with a chosen one are printed with it, as its class. What instruments do (a lag,
 a rig that turns or yields) has no column here, so a baseline never takes it for what is hidden. An `unknown` comes
