@@ -49,6 +49,15 @@ static void nothing_came_of_it(const state_t *before, situation_t situation, con
     attacks++;
 }
 
+static uint32_t next_random(void)
+{
+    static uint32_t state = 1;
+    state ^= state << 13;
+    state ^= state >> 17;
+    state ^= state << 5;
+    return state;
+}
+
 /* ------------------------------------------------------------------------------ commands over CAN -- */
 
 enum { COMMANDS = 13 };
@@ -338,7 +347,7 @@ static void test_a_command_does_not_count_twice_or_under_a_stolen_seal(void)
     says(data);
     ticks(4);
     nothing_came_of_it(&before, MOVING, "the command and its seal, once more", refusals_told());
-    /* The stranger's command between the operator's seal and its command: the seal is used up, and both are refused. */
+    /* The stranger's command between the operator's seal and its command is refused, and the seal waits for its own. */
     make_let_go(data);
     seal(data, sealing);
     make_command(3, stolen);
@@ -348,8 +357,66 @@ static void test_a_command_does_not_count_twice_or_under_a_stolen_seal(void)
     says(stolen);
     ticks(3);
     nothing_came_of_it(&before, MOVING, "a stranger's command under the operator's seal", refusals_told());
-    make_let_go(data); /* the operator tries again, and is heard */
-    accepted_command(data);
+    operator_says(data);
+    ticks(3);
+    TEST_ASSERT_TRUE(something_waits());
+}
+
+/* Is a command with this token among the answers that have come, and let in? */
+static bool is_let_in(const uint8_t data[8])
+{
+    brace_can_frame_t frame;
+    bool is_found = false;
+    while (brace_fake_frame_take(&fake, &frame)) {
+        is_found = is_found || (frame.id == 0x580u + NODE && !is_refusal(frame.data) &&
+                                answered_code(frame.data) == data[0] && frame.data[1] == data[1]);
+    }
+    return is_found;
+}
+
+static void send_forged_seals(uint32_t count, uint32_t token)
+{
+    uint8_t data[8];
+    for (uint32_t i = 0; i < count; i++) {
+        make_write(COMMAND_ENTRY(seal_mac), next_random(), token, data);
+        says(data);
+    }
+}
+
+/* The operator's seal and command, with forged seals of the same token before and between them, and with the stranger's
+ * own command. */
+static bool is_heard_between(uint32_t before, uint32_t between)
+{
+    uint8_t data[8], sealing[8], stolen[8];
+    brace_can_pack_set_gravity_request(&(brace_can_set_gravity_request_t){0, 1e-3f * (float)between, 0.0f}, data);
+    seal(data, sealing);
+    make_command(COMMANDS - 1, stolen);
+    stolen[1] = data[1];
+    send_forged_seals(before, data[1]);
+    operator_says(sealing);
+    send_forged_seals(between, data[1]);
+    says(stolen);
+    operator_says(data);
+    bool is_found = false;
+    for (int i = 0; i < PATIENCE_TICKS && !is_found; i++) {
+        pass(1);
+        is_found = is_let_in(data);
+    }
+    return is_found;
+}
+
+/* A stranger who knows the next token repeats it before and between the operator's frames, and sends a command of its
+ * own under it. The operator is let in each time. Eight seals between the two push its own out: then it is let in when it
+ * tries again. */
+static void test_who_repeats_the_owner_s_token_does_not_shut_it_out(void)
+{
+    begin(WITH_SESSION);
+    for (uint32_t i = 0; i < 300u; i++) {
+        TEST_ASSERT_TRUE(is_heard_between(next_random() % 10u, i % (uint32_t)BRACE_SEALS_MOST));
+        attacks++;
+    }
+    TEST_ASSERT_FALSE(is_heard_between(0, BRACE_SEALS_MOST));
+    TEST_ASSERT_TRUE(is_heard_between(BRACE_SEALS_MOST, BRACE_SEALS_MOST - 1));
 }
 
 /* What comes between seal and command takes the seal away from nobody: a flood of it would. It gets nothing by it. */
@@ -462,15 +529,6 @@ static void test_two_masters_with_the_key_take_turns(void)
 }
 
 /* ---------------------------------------------------------------------------------------- floods -- */
-
-static uint32_t next_random(void)
-{
-    static uint32_t state = 1;
-    state ^= state << 13;
-    state ^= state >> 17;
-    state ^= state << 5;
-    return state;
-}
 
 /* Random requests and checks, as fast as the node takes them. */
 static void test_a_flood_of_guesses_moves_nothing(void)
@@ -625,6 +683,7 @@ int main(void)
     RUN_TEST(test_a_broadcast_moves_nothing);
     RUN_TEST(test_a_recorded_block_does_not_replay);
     RUN_TEST(test_a_command_does_not_count_twice_or_under_a_stolen_seal);
+    RUN_TEST(test_who_repeats_the_owner_s_token_does_not_shut_it_out);
     RUN_TEST(test_what_comes_between_seal_and_command_changes_nothing);
     RUN_TEST(test_a_dead_operator_is_not_kept_alive);
     RUN_TEST(test_a_session_is_not_taken_over_after_its_time);

@@ -382,10 +382,10 @@ int main(void)
     const can_answers_t *answers = &port.answers;
     const uint32_t at = any_u32();
     ASSUME(*(const uint8_t *)&upload->is_open <= 1u);
-    for (uint32_t i = 0; i < CAN_SEALS; i++) {
+    for (uint32_t i = 0; i < BRACE_SEALS_MOST; i++) {
         ASSUME(*(const uint8_t *)&port.seal[i].is_there <= 1u);
     }
-    ASSUME(port.oldest_seal < CAN_SEALS);
+    ASSUME(port.oldest_seal < BRACE_SEALS_MOST);
     ASSUME(answers->first < CAN_ANSWERS_ROOM && answers->count + BRACE_CAN_ANSWER_PARTS_MOST <= CAN_ANSWERS_ROOM);
     ASSUME(upload->next <= BRACE_BLOCK_BYTES / 4 && download->next <= BRACE_BLOCK_BYTES / 4);
     open_for_writing = any_bool();

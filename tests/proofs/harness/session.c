@@ -128,7 +128,8 @@ static void live(ownership_t *o, const ownership_t *before)
 static void command(ownership_t *o, const ownership_t *before)
 {
     const brace_who_t who = {(brace_asker_t)any_u8(), any_u32()};
-    const brace_seal_t seal = {any_bool(), any_u32(), any_u32(), any_u32()};
+    const brace_seal_t last = {any_bool(), any_u32(), any_u32(), any_u32(), NULL};
+    const brace_seal_t seal = {any_bool(), any_u32(), any_u32(), any_u32(), any_bool() ? &last : NULL};
     const brace_seal_t *const given = any_bool() ? &seal : NULL;
     const uint8_t bytes[8] = {0};
     ASSUME(seal.counter_bits >= 8u && seal.counter_bits <= 32u);
@@ -143,7 +144,9 @@ static void command(ownership_t *o, const ownership_t *before)
         return;
     }
     if (is_guarded(s)) {
-        PROVE(given != NULL && seal.is_there && seal.mac == (uint32_t)mac, "only with the right check");
+        PROVE(given != NULL && seal.is_there &&
+                  (seal.mac == (uint32_t)mac || (seal.next != NULL && last.mac == (uint32_t)mac)),
+              "only with the right check");
         PROVE(hashed_count == 2u && hashed[0] == was->challenge, "made over this session's challenge");
         PROVE(hashed[1] == ((uint64_t)SESSION_COMMAND << 32 | s->counter), "over the kind and the whole counter");
         PROVE(was->is_open && s->counter > was->counter, "a counter comes once, in a session that is open");

@@ -92,7 +92,8 @@ static inline uint32_t session_number(const session_t *session)
 int32_t session_life(session_t *session, brace_who_t who, const brace_sign_t *sign);
 
 /* May somebody command? On a bench it becomes the owner if there is none.
- *   seal: null on a bench, or where none has come
+ *   seal: null on a bench, or where none has come; those that follow it have the same counter, and one of them has to
+ *     fit
  *   bytes: of the command, `count` of them
  * returns BRACE_OK, BRACE_REFUSED_NO_KEY, BRACE_REFUSED_STRANGER, BRACE_REFUSED_REPLAY, BRACE_REFUSED_OWNED. At most 600
  *   instructions, and 20 for each byte beyond eight. */

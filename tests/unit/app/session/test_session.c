@@ -44,7 +44,7 @@ static brace_sign_t sign_of(uint32_t number)
 
 static brace_seal_t seal_of(uint32_t counter)
 {
-    return (brace_seal_t){true, counter, 32, mac(key, session.challenge, counter, SESSION_COMMAND, order, 8)};
+    return (brace_seal_t){true, counter, 32, mac(key, session.challenge, counter, SESSION_COMMAND, order, 8), NULL};
 }
 
 static int32_t life_with(brace_who_t who, uint32_t number)
@@ -367,7 +367,7 @@ static void test_the_check_is_over_counter_kind_and_command(void)
 {
     TEST_ASSERT_EQUAL(BRACE_OK, life(we));
     const brace_seal_t seal = seal_of(1);
-    const brace_seal_t lifes = {true, 1, 32, mac(key, session.challenge, 1, SESSION_LIFE, NULL, 0)};
+    const brace_seal_t lifes = {true, 1, 32, mac(key, session.challenge, 1, SESSION_LIFE, NULL, 0), NULL};
     for (uint32_t bit = 0; bit < 64u; bit++) {
         uint8_t changed[8];
         memcpy(changed, order, sizeof changed);
@@ -384,6 +384,27 @@ static void test_the_check_is_over_counter_kind_and_command(void)
     later.counter = 2;
     TEST_ASSERT_EQUAL(BRACE_REFUSED_STRANGER, session_command(&session, we, &later, order, 8));
     TEST_ASSERT_EQUAL(BRACE_OK, session_command(&session, we, &seal, order, 8));
+}
+
+/* Of several seals with the command's counter one has to fit, wherever it stands; of more than there may be, the rest
+ * is not looked at. */
+static void test_one_of_several_seals_has_to_fit(void)
+{
+    enum { SEALS = BRACE_SEALS_MOST + 1 };
+    uint32_t counter = 0;
+    TEST_ASSERT_EQUAL(BRACE_OK, life(we));
+    for (int right = 0; right <= SEALS; right++) {
+        brace_seal_t seal[SEALS];
+        counter++;
+        for (int i = 0; i < SEALS; i++) {
+            seal[i] = seal_of(counter);
+            seal[i].mac ^= i == right ? 0u : 1u << i;
+            seal[i].next = i + 1 < SEALS ? &seal[i + 1] : NULL;
+        }
+        TEST_ASSERT_EQUAL(right < BRACE_SEALS_MOST ? BRACE_OK : BRACE_REFUSED_STRANGER,
+                          session_command(&session, we, &seal[0], order, 8));
+        counter = session.counter;
+    }
 }
 
 static void test_there_is_one_owner_at_a_time(void)
@@ -561,6 +582,7 @@ int main(void)
     RUN_TEST(test_a_session_that_ends_takes_its_counters_along);
     RUN_TEST(test_low_bits_stand_for_the_next_number_that_has_them);
     RUN_TEST(test_the_check_is_over_counter_kind_and_command);
+    RUN_TEST(test_one_of_several_seals_has_to_fit);
     RUN_TEST(test_there_is_one_owner_at_a_time);
     RUN_TEST(test_silence_ends_a_session_and_its_seals);
     RUN_TEST(test_refused_signs_do_not_keep_a_session);

@@ -51,7 +51,8 @@ typedef struct {
     const brace_measured_t *measured; /* of the newest snapshot */
     brace_asker_t asker;    /* the port that it came through */
     brace_who_t who;        /* the master of that port */
-    brace_seal_t *seal;     /* that came before it from that master; null: none can come */
+    const brace_seal_t *seal; /* that came before it from that master, and further ones; null: none has come */
+    brace_seal_t *brings;   /* (out) the seal that this request is, for the next one; null: none can come so */
     uint32_t token;         /* of CAN: the low bits of the counter of a seal */
     const uint8_t *bytes;   /* of the request as it came, over which its seal was made */
     uint32_t count;
@@ -79,7 +80,8 @@ typedef enum {
 /* asked: looked at where the code alone does not say it. 30 instructions. */
 answer_rank_t answer_rank(uint32_t code, const brace_request_t *asked);
 
-/* May what a request does be done? Uses its seal up.
+/* May what a request does be done? Its seal stays: a command that is refused may be a stranger's, and one that is let
+ * in has used the seal's counter up.
  * returns BRACE_OK, or why not: brace/refusals.h */
 int32_t answer_admit(request_t *request, brace_command_t command);
 

@@ -35,8 +35,8 @@ static int32_t write_command(request_t *request, const brace_write_entry_request
     case COMMAND(stop): status = brace_app_stop(request->app); break;
     case COMMAND(end_test): status = brace_app_loading_stop(request->app); break;
     case COMMAND(seal_mac):
-        if (request->seal != NULL) {
-            *request->seal = seal;
+        if (request->brings != NULL) {
+            *request->brings = seal;
         }
         break;
     default: return BRACE_E_RANGE;

@@ -19,30 +19,33 @@ static void tell(can_answers_t *answers, const wire_tick_t *tick, uint32_t code,
     }
 }
 
-/* The seal that has come for the command with this token; what else has come between the two takes nothing away. null:
- * none has come */
-static brace_seal_t *seal_for(can_requests_t *requests, uint32_t token)
+/* The seals that have come for the command with this token, each with the next one. Who repeats the owner's token sends
+ * seals that do not fit; they take the owner's own away from nobody. null: none has come */
+static const brace_seal_t *seals_for(can_requests_t *requests, uint32_t token)
 {
-    for (uint32_t i = 0; i < (uint32_t)CAN_SEALS; i++) {
-        if (requests->seal[i].is_there && requests->seal[i].counter == token) {
-            return &requests->seal[i];
+    brace_seal_t *first = NULL;
+    for (uint32_t i = 0; i < (uint32_t)BRACE_SEALS_MOST; i++) {
+        brace_seal_t *seal = &requests->seal[i];
+        if (seal->is_there && seal->counter == token) {
+            seal->next = first;
+            first = seal;
         }
     }
-    return NULL;
+    return first;
 }
 
 /* Another seal has come: the oldest one gives its place. */
 static void keep_seal(can_requests_t *requests, const brace_seal_t *seal)
 {
     requests->seal[requests->oldest_seal] = *seal;
-    requests->oldest_seal = (uint8_t)((requests->oldest_seal + 1u) % (uint32_t)CAN_SEALS);
+    requests->oldest_seal = (uint8_t)((requests->oldest_seal + 1u) % (uint32_t)BRACE_SEALS_MOST);
 }
 
 bool can_requests_answer(can_requests_t *requests, const wire_tick_t *tick, brace_asker_t asker, uint32_t node_id,
                          const uint8_t *data)
 {
     const uint32_t master = can_master_of(data[1]);
-    brace_seal_t *seal = seal_for(requests, data[1]), new_seal = {.is_there = false};
+    brace_seal_t new_seal = {.is_there = false};
     request_t request = {.app = tick->app,
                          .measured = tick->measured,
                          .asker = asker,
@@ -50,7 +53,8 @@ bool can_requests_answer(can_requests_t *requests, const wire_tick_t *tick, brac
                          .upload = &requests->upload,
                          .download = &requests->download[master],
                          .who = {asker, master},
-                         .seal = seal != NULL ? seal : &new_seal,
+                         .seal = seals_for(requests, data[1]),
+                         .brings = &new_seal,
                          .token = data[1],
                          .bytes = data,
                          .count = CAN_REQUEST_BYTES,

@@ -8,8 +8,6 @@
 #include "wire/can/queue.h"
 #include "wire/wire.h"
 
-enum { CAN_SEALS = 4 };
-
 typedef struct {
     can_queue_t queue;      /* that have come and wait */
     can_answers_t answers;  /* on their way out */
@@ -18,7 +16,7 @@ typedef struct {
     asked_force_t asked_force[CAN_MASTERS];
     uint8_t storing;        /* code of the commit or roll-back that is answered once the store has ended; 0: none */
     uint8_t storing_token;
-    brace_seal_t seal[CAN_SEALS]; /* that have come, each for the command with its token */
+    brace_seal_t seal[BRACE_SEALS_MOST]; /* that have come, each for the command with its token */
     uint8_t refusals_left;  /* of questions too many, in this tick */
     uint8_t oldest_seal;    /* the next one to be given up */
     bool waits;             /* the queue's question is being worked out: it is asked again in each tick */
