@@ -166,7 +166,8 @@ static void judge(fault_t *fault, uint32_t number)
         app = settled_app;
         fake = settled_fake;
     }
-    for (int32_t tick = fault->from; tick < SETTLED + WATCHED; tick++) {
+    /* From where the limb had settled on: the controller has to see the ticks before the fault, too. */
+    for (int32_t tick = from_start ? 0 : SETTLED; tick < SETTLED + WATCHED; tick++) {
         const told_t told = tick_once(tick, fault);
         const bool is_watched = clean[tick].is_usable;
         const double off = is_watched && told.is_usable ? off_by(&told, tick) : 0.0;
