@@ -2,6 +2,7 @@
 // constant, and a share of what the spring carries, because gears rub harder under load. The share may fade as the load
 // grows, to the two-thirds power of the load at last: the true area of an elastic contact grows so (Hertz). Seen as
 // energy, each change costs friction times its size.
+// Reads joint.*.coulomb_*; depends on the load, on its sign and on what came before.
 #pragma once
 
 #include <algorithm>
@@ -11,27 +12,33 @@
 
 namespace brace::effects::coulomb_friction {
 
-struct Friction {
-    double coulomb_n_mm, per_load_ratio, load_fade_per_n_mm;
-};
-
-// The load that friction grows with, at a load of at least 0, and how fast it grows with it: between 0 and 1.
-inline double felt_n_mm(double load_n_mm, double load_fade_per_n_mm)
+inline bool acts(const Joint &joint)
 {
-    return load_fade_per_n_mm > 0.0 ? load_n_mm / std::cbrt(1.0 + load_fade_per_n_mm * load_n_mm) : load_n_mm;
+    return joint.coulomb_n_mm > 0.0 || joint.coulomb_per_load_ratio > 0.0;
 }
 
-inline double felt_slope(double load_n_mm, double load_fade_per_n_mm)
+// The load that friction grows with, at a load of at least 0, and how fast it grows with it: between 0 and 1.
+inline double felt_n_mm(const Joint &joint, double load_n_mm)
 {
-    const double faded = load_fade_per_n_mm * load_n_mm, root = std::cbrt(1.0 + faded);
+    const double fade = joint.coulomb_load_fade_per_n_mm;
+    return fade > 0.0 ? load_n_mm / std::cbrt(1.0 + fade * load_n_mm) : load_n_mm;
+}
+
+inline double felt_slope(const Joint &joint, double load_n_mm)
+{
+    const double faded = joint.coulomb_load_fade_per_n_mm * load_n_mm, root = std::cbrt(1.0 + faded);
     return (1.0 + 2.0 / 3.0 * faded) / (root * (1.0 + faded));
 }
 
-// The largest torque that friction holds while the spring carries this torque.
-inline double most_n_mm(const Friction &friction, double spring_n_mm)
+// The largest torque that friction holds while the spring carries this torque, and how fast it grows with its size.
+inline double most_n_mm(const Joint &joint, double spring_n_mm)
 {
-    return friction.coulomb_n_mm
-           + friction.per_load_ratio * felt_n_mm(std::fabs(spring_n_mm), friction.load_fade_per_n_mm);
+    return joint.coulomb_n_mm + joint.coulomb_per_load_ratio * felt_n_mm(joint, std::fabs(spring_n_mm));
+}
+
+inline double slope(const Joint &joint, double spring_n_mm)
+{
+    return joint.coulomb_per_load_ratio * felt_slope(joint, std::fabs(spring_n_mm));
 }
 
 // Under an imposed deflection friction holds this share [-1, 1] of its largest torque. It works fully against the
@@ -49,16 +56,15 @@ inline double turned_share(double share, double change_rad, double reversal_rad)
 
 // The spring's torque while the joint moves towards `sense` under a given torque, which friction lessens or adds to.
 // Friction grows with the very torque that this function seeks, so the torque is divided; where the share fades,
-// Newton's method falls on the answer from there, always from the same side. Needs per_load_ratio < 1.
-inline double spring_while_moving_n_mm(const Friction &friction, double torque_n_mm, double sense)
+// Newton's method falls on the answer from there, always from the same side. Needs coulomb_per_load_ratio < 1.
+inline double spring_while_moving_n_mm(const Joint &joint, double torque_n_mm, double sense)
 {
-    const double constant = torque_n_mm - sense * friction.coulomb_n_mm, size = std::fabs(constant);
-    const double ratio = (constant > 0.0 ? sense : -sense) * friction.per_load_ratio;
-    const double fade = friction.load_fade_per_n_mm;
+    const double constant = torque_n_mm - sense * joint.coulomb_n_mm, size = std::fabs(constant);
+    const double ratio = (constant > 0.0 ? sense : -sense) * joint.coulomb_per_load_ratio;
     double spring = size / (1.0 + ratio);
-    for (int i = 0; fade > 0.0 && i < 100; ++i) {
+    for (int i = 0; joint.coulomb_load_fade_per_n_mm > 0.0 && i < 100; ++i) {
         const double step =
-            (spring + ratio * felt_n_mm(spring, fade) - size) / (1.0 + ratio * felt_slope(spring, fade));
+            (spring + ratio * felt_n_mm(joint, spring) - size) / (1.0 + ratio * felt_slope(joint, spring));
         spring -= step;
         if (std::fabs(step) <= 1e-15 * spring) {
             break;

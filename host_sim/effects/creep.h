@@ -1,5 +1,6 @@
 // A joint deflects further with delay: the delayed deflection approaches ratio * elastic with one time constant. The
 // elastic deflection stands still between readings, so the step is exact.
+// Reads creep.*; depends on time and on what came before.
 #pragma once
 
 #include <cmath>
@@ -8,15 +9,20 @@
 
 namespace brace::effects::creep {
 
-// In dt the delayed deflection goes this share of the way to its target.
-inline double approach(double time_constant_s, double dt_s)
+inline bool acts(const Model &model)
 {
-    return -std::expm1(-dt_s / time_constant_s);
+    return model.creep.ratio != 0.0;
 }
 
-inline double delayed_rad(double before_rad, double ratio, double elastic_rad, double approach)
+// In dt the delayed deflection goes this share of the way to its target.
+inline double approach(const Model &model, double dt_s)
 {
-    return before_rad + approach * (ratio * elastic_rad - before_rad);
+    return -std::expm1(-dt_s / model.creep.time_constant_s);
+}
+
+inline double delayed_rad(const Model &model, double before_rad, double elastic_rad, double approach)
+{
+    return before_rad + approach * (model.creep.ratio * elastic_rad - before_rad);
 }
 
 } // namespace brace::effects::creep

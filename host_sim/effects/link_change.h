@@ -1,19 +1,20 @@
 // A link changes during the record: from at_s on its bending compliance is multiplied.
+// Reads change.*; depends on time.
 #pragma once
 
 #include "effects/effect.h"
 
 namespace brace::effects::link_change {
 
-inline bool has_come(const Model &model, double t_s)
-{
-    return t_s >= model.change.at_s;
-}
+struct Change : NoChange {
+    static bool acts(const Model &model) { return model.change.bending_factor != 1.0; }
 
-inline double bending_mm_per_n(const Model &model, int link, double t_s)
-{
-    const bool changed = has_come(model, t_s) && link == static_cast<int>(model.change.link_index);
-    return model.link[link].bending_mm_per_n * (changed ? model.change.bending_factor : 1.0);
-}
+    static void of_link(const Model &model, const Conditions &conditions, int link, Link &now)
+    {
+        if (conditions.t_s >= model.change.at_s && link == static_cast<int>(model.change.link_index)) {
+            now.bending_mm_per_n *= model.change.bending_factor;
+        }
+    }
+};
 
 } // namespace brace::effects::link_change

@@ -22,7 +22,8 @@ inline double contact_yields_mm_per_n(double hold_n_per_mm)
 // +1 or -1: the flank that carries the load; 0: the gap is open, or there is no load.
 inline int flank_that_carries(const plant::JointLaw &law, double load_n_mm)
 {
-    const bool carries = law.gap_rad == 0.0 || std::fabs(load_n_mm) > law.coulomb_n_mm + kOpen_n_mm;
+    const double held_n_mm = effects::coulomb_friction::most_n_mm(law, 0.0);
+    const bool carries = !effects::backlash::acts(law) || std::fabs(load_n_mm) > held_n_mm + kOpen_n_mm;
     return carries ? (load_n_mm > 0.0) - (load_n_mm < 0.0) : 0;
 }
 

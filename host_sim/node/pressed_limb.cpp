@@ -5,7 +5,6 @@
 
 #include "effects/joint_zero_offset.h"
 #include "node/contact.h"
-#include "plant/joint_law.h"
 
 namespace brace::node
 {
@@ -96,7 +95,7 @@ void PressedLimb::take_hold(const Vector3d &motor_rad, double hold_n_per_mm, con
     std::visit(
         [&](auto &state) {
             // Creep goes on until now.
-            (void)state.move_to(motor_rad[kFemur], motor_rad[kTibia], t_s, temp_degc);
+            (void)state.move_to(motor_rad[kFemur], motor_rad[kTibia], {t_s, temp_degc});
             state.start_run(false, contact_yields_mm_per_n(hold_n_per_mm));
         },
         state_);
@@ -110,7 +109,7 @@ bool PressedLimb::settle(const Vector3d &motor_rad, double t_s, double temp_degc
     const auto settle_in = [&](auto &state, auto world) {
         using World = decltype(world);
         constexpr int kJoints = World::kAxes;
-        if (!state.move_to(motor_rad[kFemur], motor_rad[kTibia], t_s, temp_degc)) {
+        if (!state.move_to(motor_rad[kFemur], motor_rad[kTibia], {t_s, temp_degc})) {
             return false;
         }
         const plant::LimbRest<kJoints> rest = state.hold_tip(on_axes_of<World>(held_mm));
@@ -120,10 +119,9 @@ bool PressedLimb::settle(const Vector3d &motor_rad, double t_s, double temp_degc
         for (int k = 0; k < kJoints; ++k) {
             const int joint = World::kFirstJoint + k;
             const auto i = static_cast<std::size_t>(k);
-            const plant::JointLaw law = plant::joint_law(model_, joint, temp_degc);
             pressed.load_n_mm[joint] = -kSense[joint] * rest.joint_torque_n_mm[i];
             pressed.link_rad[joint] += kSense[joint] * rest.joint_deflection_rad[i];
-            pressed.flank[static_cast<std::size_t>(joint)] = flank_that_carries(law, pressed.load_n_mm[joint]);
+            pressed.flank[static_cast<std::size_t>(joint)] = flank_that_carries(state.law(i), pressed.load_n_mm[joint]);
         }
         const plant::Vector<kJoints> sense = kSense.tail<kJoints>();
         pressed.stiffness_n_mm_per_rad.bottomRightCorner<kJoints, kJoints>() =

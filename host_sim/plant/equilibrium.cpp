@@ -137,7 +137,7 @@ Each<N> direction_of(const RestProblem<N> &problem, const Each<N> &deflection, c
         const Each<N> direction = newton_direction<N>(slope.curvature, problem.by_loads_n_mm_per_rad, torque, moving);
         int held = -1;
         for (int i = 0; i < problem.joint_count && held < 0; ++i) {
-            const bool rests = problem.joint[i].law.rubs() && deflection[i] == problem.joint[i].before_rad;
+            const bool rests = rubs(problem.joint[i].law) && deflection[i] == problem.joint[i].before_rad;
             held = rests && direction[i] * moving[i] < 0.0 ? i : -1;
         }
         if (held < 0) {
@@ -156,7 +156,7 @@ public:
     {
         for (int i = 0; i < problem.joint_count; ++i) {
             const double moved = from[i] - problem.joint[i].before_rad;
-            if (problem.joint[i].law.rubs() && moved * direction[i] < 0.0
+            if (rubs(problem.joint[i].law) && moved * direction[i] < 0.0
                 && -moved / direction[i] < end_) {
                 end_ = -moved / direction[i];
                 turning_ = i;

@@ -4,6 +4,8 @@
 
 #include "effects/coulomb_friction.h"
 #include "effects/creep.h"
+#include "effects/joint_zero_offset.h"
+#include "effects/limb_now.h"
 #include "plant/joint_law.h"
 
 namespace brace::plant {
@@ -25,8 +27,7 @@ double torque_at(const JointLaw &law, double deflection_rad, double reversal_rad
         effects::coulomb_friction::turned_share(state.friction_share, state.instant_rad - before, reversal_rad);
     const double spring = spring_torque_n_mm(law, state.instant_rad);
     return spring
-           + state.friction_share
-                 * effects::coulomb_friction::most_n_mm(law.friction(), spring);
+           + state.friction_share * effects::coulomb_friction::most_n_mm(law, spring);
 }
 
 // How far friction is strained where a test starts at this torque: friction carries what the spring does not carry.
@@ -40,14 +41,12 @@ double start_share(const JointLaw &law, double deflection_rad, double torque_n_m
 // The smallest and the largest deflection, backlash included, at which the spring carries this torque.
 double least_deflection(const JointLaw &law, double torque_n_mm)
 {
-    const double side = torque_n_mm > 0.0 ? 0.5 : -0.5;
-    return elastic_under_torque_rad(law, torque_n_mm) + side * law.gap_rad;
+    return effects::backlash::least_rad(law, elastic_under_torque_rad(law, torque_n_mm), torque_n_mm);
 }
 
 double most_deflection(const JointLaw &law, double torque_n_mm)
 {
-    const double side = torque_n_mm < 0.0 ? -0.5 : 0.5;
-    return elastic_under_torque_rad(law, torque_n_mm) + side * law.gap_rad;
+    return effects::backlash::most_rad(law, elastic_under_torque_rad(law, torque_n_mm), torque_n_mm);
 }
 
 // Friction lets the deflection stay anywhere between those that the torque minus friction and the torque plus friction
@@ -55,7 +54,7 @@ double most_deflection(const JointLaw &law, double torque_n_mm)
 double deflection_under(const JointLaw &law, double torque_n_mm, JointState &state)
 {
     const auto spring_n_mm = [&](double sense) {
-        return effects::coulomb_friction::spring_while_moving_n_mm(law.friction(), torque_n_mm, sense);
+        return effects::coulomb_friction::spring_while_moving_n_mm(law, torque_n_mm, sense);
     };
     state.instant_rad = std::clamp(state.instant_rad, least_deflection(law, spring_n_mm(1.0)),
                                    most_deflection(law, spring_n_mm(-1.0)));
@@ -66,23 +65,23 @@ double deflection_under(const JointLaw &law, double torque_n_mm, JointState &sta
 
 void play_joint(const Model &model, const brace_joint_rows_t &rows, const JointReading &reading, double *out)
 {
-    const double offset = model.joint[rows.joint_index].zero_offset_rad;
-    const bool creeps = model.creep.ratio != 0.0; // or the delayed part stays 0
-    const bool tempered = rows.temp_degc != nullptr;
+    const double offset = effects::joint_zero_offset::true_angle_rad(model, rows.joint_index, 0.0);
+    const bool creeps = effects::creep::acts(model); // or the delayed part stays 0
+    const bool changes = effects::Changes::act(model);
     JointState state;
-    JointLaw law = joint_law(model, rows.joint_index, model.thermal.reference_degc);
+    JointLaw law{};
     for (std::size_t i = 0; i < rows.count; ++i) {
         const bool starts = i == 0 || (rows.test != nullptr && rows.test[i] != rows.test[i - 1]);
         if (starts) {
             state = {};
         } else if (creeps) {
-            const double approach =
-                effects::creep::approach(model.creep.time_constant_s, rows.t_s[i] - rows.t_s[i - 1]);
-            state.delayed_rad = effects::creep::delayed_rad(state.delayed_rad, model.creep.ratio,
+            const double approach = effects::creep::approach(model, rows.t_s[i] - rows.t_s[i - 1]);
+            state.delayed_rad = effects::creep::delayed_rad(model, state.delayed_rad,
                                                             elastic_rad(law, state.instant_rad), approach);
         }
-        if (tempered) {
-            law = joint_law(model, rows.joint_index, rows.temp_degc[i]);
+        if (i == 0 || changes) {
+            const double temp_degc = rows.temp_degc != nullptr ? rows.temp_degc[i] : model.thermal.reference_degc;
+            law = effects::joint_now(model, {rows.t_s[i], temp_degc}, rows.joint_index);
         }
         if (rows.torque_imposed != 0) {
             out[i] = deflection_under(law, rows.input[i], state) - offset;

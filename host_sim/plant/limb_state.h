@@ -5,14 +5,20 @@
 // moves there. Small displacements are the first of these steps, from the unloaded limb. Limbs that seek their rest
 // take their steps alone, or side by side (limbs_abreast.h).
 //
+// What the limb is at a time and a temperature, and what it remembers, effects/limb_now.h and effects/memory.h say: a
+// rest state depends on those numbers, on the posture, on where the tip is held, and on what is remembered.
+//
 // In the limb's plane, and in space: a world says which axes and joints there are, and how the limb is linearised.
 #pragma once
 
 #include <Eigen/Core>
 #include <array>
 
+#include "effects/limb_now.h"
 #include "plant/condensed.h"
 #include "plant/equilibrium.h"
+#include "plant/known_rests.h"
+#include "plant/search.h"
 #include "plant/space_condensed.h"
 #include "plant/structure.h"
 
@@ -50,10 +56,13 @@ class LimbState {
     using Mat = Matrix<N>;
 
 public:
-    LimbState(const Model &model, Displacements displacements) : model_(model), displacements_(displacements) {}
+    LimbState(const Model &model, Displacements displacements)
+        : model_(model), displacements_(displacements), search_(displacements == Displacements::small)
+    {
+    }
 
     // Sets posture, time and temperature. False when nothing yields in some direction.
-    bool move_to(double theta1_rad, double theta2_rad, double t_s, double temp_degc);
+    bool move_to(double theta1_rad, double theta2_rad, const effects::Conditions &conditions);
 
     // Centres the backlash and relaxes friction; removes creep too when asked. Displacements count from the limb's
     // weightless place. From the next posture on the contact that holds the tip yields by so much.
@@ -68,7 +77,7 @@ public:
     // The same in pieces. begin_hold() says where the tip goes. While seeks() is true, the limb needs another step:
     // seek() takes all of them, or the caller takes them one by one, as below. end_hold() tells the rest state.
     void begin_hold(const Vec &displacement_mm, int free_axis = 0);
-    bool seeks() const { return search_.seeks; }
+    bool seeks() const { return search_.seeks(); }
     void seek();
     LimbRest<N> end_hold();
 
@@ -79,29 +88,42 @@ public:
     Change<N> take_change(const Tangent<N> &tangent);
     void went_to(const typename World::Condensed::Followed &followed);
     const typename World::Structure &structure() const { return structure_; }
+    const JointLaw &law(std::size_t joint) const { return law_[joint]; } // from the world's first joint on
     unsigned structures_found() const { return structures_found_; } // it grows as the structure becomes another
 
     // How the torques on the joints follow the angles of their motors while the contact holds the tip, gaps closed.
     Mat torque_per_motor_turn() const;
 
 private:
-    void let_creep(double t_s);
+    // A rest state.
+    struct Rest {
+        typename World::Condensed::Shape shape;
+        std::array<double, N> instant_rad{}; // joints' deflections without creep
+        std::array<double, N> torque_n_mm{};
+        Vec tip_mm = Vec::Zero(); // from its weightless place
+    };
+
+    void let_creep(double dt_s);
     void find_unloaded();
     bool prepare();
     bool foresee(const Vec &target_mm);
     void begin_search(const Vec &target_mm, int free_axis);
-    void begin_part();
-    void end_part(bool settled);
-    Vec on_the_way_mm(double share) const;
-    void end_search(const Vec &reached_mm, bool solved);
-    enum class Outcome { goes_on, settled, lost };
-    Outcome outcome(double moved_n);
+    void begin_linear();
+    bool balance_joints(const Tangent<N> &tangent, const Mat &compliance, const Mat &stiffness, const Vec &lacks_mm,
+                        Change<N> &change);
+    double turn_of(std::size_t joint) const
+    {
+        return rest_.shape.turn_rad[static_cast<std::size_t>(structure_.joint_body[joint])];
+    }
+    bool has_unknowns() const;
+    bool remembers() const;
 
     const Model &model_;
     const Displacements displacements_;
+    Model now_{}; // the limb at t_s_ and its temperature
     bool placed_ = false, prepared_ = false;
     double contact_mm_per_n_ = 0.0;
-    double theta1_rad_ = 0.0, theta2_rad_ = 0.0, t_s_ = 0.0, temp_degc_ = 0.0;
+    double theta1_rad_ = 0.0, theta2_rad_ = 0.0, t_s_ = 0.0;
     typename World::Structure structure_{};
     unsigned structures_found_ = 0;
     Vec weight_n_ = Vec::Zero(); // of all its bodies
@@ -112,62 +134,22 @@ private:
     std::array<JointLaw, N> law_{}; // the compliance of a rigid joint with backlash is its stop's
     std::array<bool, N> is_unknown_{}; // joints that are more than springs; they are the unknowns of a RestProblem
 
-    // The present rest state, and where it was sought.
-    struct Rest {
-        typename World::Condensed::Shape shape;
-        std::array<double, N> instant_rad{}; // joints' deflections without creep
-        std::array<double, N> torque_n_mm{};
-        Vec tip_mm = Vec::Zero(); // from its weightless place
-    };
-    Rest rest_;
-    // The tip is led to its target: in one part, or, where no rest is found so far away, in shorter ones.
-    struct Search {
-        bool seeks = false;
-        bool solved = false;
-        Vec target_mm = Vec::Zero();
-        int free_axis = 0;
-        // Shares of the way from reached_mm_ to the target: where rest was found, how long a part is, where it ends.
-        double reached_share = 0.0, part_share = 1.0, end_share = 1.0;
-        Vec part_target_mm = Vec::Zero();
-        Rest part_began;       // rest where the part began
-        bool foreseen = false; // it began where rest was foreseen
-        int steps = 0;         // in this part
-        double last_moved_n = 0.0;
-        // The present step of Newton's method. The forces are such as would move the limb along its softest direction
-        // so far.
-        bool stable = false; // it goes to a minimum of the energy
-        double change_n = 0.0;
-        double rounding_n = 0.0; // what rounding may move
-    };
-    Search search_;
-    // Without friction and creep a rest state depends on where the tip is held and on nothing before. A run leads the
-    // tip to few places, and to most of them twice.
-    struct Known {
-        Vec target_mm;
-        int free_axis;
-        Rest rest;
-    };
-    double turn_of(std::size_t joint) const
-    {
-        return rest_.shape.turn_rad[static_cast<std::size_t>(structure_.joint_body[joint])];
-    }
-    bool has_unknowns() const;
-    bool forgets() const;
-    const Known *known_at(const Vec &target_mm, int free_axis) const;
-    static constexpr int kMostKnown = 20; // places of 9 steps to each side
-    std::array<Known, kMostKnown> known_;
-    int known_count_ = 0;
-    Known earlier_;            // where the tip was held before it came to where rest_ holds it
-    bool has_earlier_ = false; // at this posture, in this run
-    bool leads_on_ = false;    // the hold leads the tip to another place
-    bool is_new_ = false;      // nothing known was at its target
+    Rest rest_; // where the limb is
+    Search<N, Rest> search_;
+    Step step_{}; // that is being taken
+    KnownRests<N, Rest> known_; // at this posture and with these joints
+    bool is_new_ = false;       // nothing known was at the target
+    // Where the tip was held before it came to where rest_ holds it, at this posture and in this run.
+    Vec earlier_mm_ = Vec::Zero();
+    Rest earlier_;
+    bool has_earlier_ = false;
+    bool leads_on_ = false; // the hold leads the tip to another place
     typename World::Condensed condensed_;
-    bool is_condensed_ = false;                            // condensed_ is that of the unloaded limb
-    Vec origin_mm_ = Vec::Zero();  // from where displacements count
-    Vec reached_mm_ = Vec::Zero(); // where rest_ holds the tip
-    Vec tip_mm_ = Vec::Zero();     // where the contact has dragged the tip
-    std::array<double, N> before_rad_{};                   // rest_.instant_rad at the last reading
-    std::array<double, N> delayed_rad_{};                  // creep
+    bool is_condensed_ = false;            // condensed_ is that of the unloaded limb
+    Vec origin_mm_ = Vec::Zero();          // from where displacements count
+    Vec tip_mm_ = Vec::Zero();             // where the contact has dragged the tip
+    std::array<double, N> before_rad_{};   // rest_.instant_rad at the last reading
+    std::array<double, N> delayed_rad_{};  // creep
     double creep_dt_s_ = -1.0, creep_approach_ = 0.0;
 };
 

@@ -3,9 +3,8 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
-#include <cstring>
 
-#include "effects/link_change.h"
+#include "effects/memory.h"
 #include "plant/limbs_abreast.h"
 #include "plant/sensor.h"
 
@@ -69,8 +68,10 @@ Pressed pressed(const LimbState<InPlane> &limb, const Vector2d &force_n)
 
 } // namespace
 
-Loading::Loading(const brace_loading_rows_t &rows) : rows_(rows), rests_(rows.count), last_{}
+Loading::Loading(const brace_loading_rows_t &rows) : rows_(rows), rests_(rows.count)
 {
+    now_.of_row.resize(rows.count);
+    last_.of_row.resize(rows.count);
     for (std::size_t i = 0; i < rows.count; ++i) {
         if (i > 0 && rows.run[i] == rows.run[i - 1]) {
             ++runs_.back().end;
@@ -105,41 +106,73 @@ bool Loading::goes_like(const Run &run, std::size_t earlier) const
            && same(rows_.free_axis) && same(rows_.preload_x_n) && same(rows_.preload_z_n);
 }
 
-bool Loading::rests_like_earlier(const Run &run, const effects::Model &model) const
+// Rows that share one need no look at its numbers.
+bool Loading::is_same_limb(const Limbs &a, std::size_t row_a, const Limbs &b, std::size_t row_b)
 {
-    return run.earlier != run.first
-           && (rows_.temp_degc == nullptr || model.thermal.joint_compliance_per_degc == 0.0)
-           && (model.creep.ratio == 0.0 || (rows_.creep_runs_on == 0 && run.same_pace))
-           && effects::link_change::has_come(model, rows_.t_s[run.earlier])
-                  == effects::link_change::has_come(model, rows_.t_s[run.end - 1]);
+    const effects::Model &one = a.limb[a.of_row[row_a]], &other = b.limb[b.of_row[row_b]];
+    return &one == &other || effects::is_same(one, other);
 }
 
-// Where a link changes at another time only, the runs that are over before and those that begin after it stay as they
-// are: a search for the time plays them once.
-bool Loading::rests_like_last(const Run &run, const effects::Model &model) const
+bool Loading::rests_like_earlier(const Run &run) const
 {
-    const auto has_come = [&](const effects::Model &limb, std::size_t row) {
-        return effects::link_change::has_come(limb, rows_.t_s[row]);
-    };
-    const bool changed = has_come(model, run.first);
-    return changed == has_come(model, run.end - 1) && changed == has_come(last_, run.first)
-           && changed == has_come(last_, run.end - 1) && (rows_.creep_runs_on == 0 || model.creep.ratio == 0.0);
+    if (run.earlier == run.first || (remembers_pace_ && !(run.same_pace && rows_.creep_runs_on == 0))) {
+        return false;
+    }
+    for (std::size_t i = run.first; i < run.end && now_.limb.size() > 1; ++i) {
+        if (!is_same_limb(now_, i, now_, run.earlier + (i - run.first))) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// A search for the time at which a link changes plays the runs before and after it once.
+bool Loading::rests_like_last(const Run &run) const
+{
+    if (!known_ || (remembers_pace_ && rows_.creep_runs_on != 0)) {
+        return false;
+    }
+    for (std::size_t i = run.first; i < run.end; ++i) {
+        if (!is_same_limb(now_, i, last_, i)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+effects::Conditions Loading::conditions(const effects::Model &model, std::size_t row) const
+{
+    return {rows_.t_s[row], rows_.temp_degc != nullptr ? rows_.temp_degc[row] : model.thermal.reference_degc};
+}
+
+void Loading::find_limbs(const effects::Model &model)
+{
+    std::swap(last_, now_);
+    now_.limb.clear();
+    std::fill(now_.of_row.begin(), now_.of_row.end(), 0);
+    const std::size_t may_differ = effects::Changes::act(model) ? rows_.count : std::min<std::size_t>(rows_.count, 1);
+    now_.limb.reserve(may_differ);
+    for (std::size_t i = 0; i < may_differ; ++i) {
+        const effects::Model limb = effects::limb_now(model, conditions(model, i));
+        if (now_.limb.empty() || !effects::is_same(limb, now_.limb.back())) {
+            now_.limb.push_back(limb);
+        }
+        now_.of_row[i] = now_.limb.size() - 1;
+    }
 }
 
 bool Loading::find_rests(const effects::Model &model)
 {
-    effects::Model other = last_;
-    other.sensor = model.sensor;
-    other.change.at_s = model.change.at_s;
-    const bool alike = known_ && std::memcmp(&other, &model, sizeof model) == 0;
-    known_ = false;
+    find_limbs(model);
+    remembers_pace_ = rows_.count > 0 && effects::remembers_pace(now_.limb.front());
     std::vector<const Run *> played, copied;
     for (const Run &run : runs_) {
-        if (!(alike && rests_like_last(run, model))) {
-            (rests_like_earlier(run, model) ? copied : played).push_back(&run);
+        if (!rests_like_last(run)) {
+            (rests_like_earlier(run) ? copied : played).push_back(&run);
         }
     }
-    const bool remembers_runs = rows_.creep_runs_on != 0 && model.creep.ratio != 0.0;
+    known_ = false;
+    const bool remembers_runs = rows_.creep_runs_on != 0 && remembers_pace_;
     const bool in_turn = rows_.small_displacements != 0 || remembers_runs || played.size() < 2;
     if (!(in_turn ? play_in_turn(model, played) : play_abreast(model, played))) {
         return false;
@@ -149,7 +182,6 @@ bool Loading::find_rests(const effects::Model &model)
             rests_[i] = rests_[run->earlier + (i - run->first)];
         }
     }
-    last_ = model;
     known_ = true;
     return true;
 }
@@ -157,8 +189,7 @@ bool Loading::find_rests(const effects::Model &model)
 bool Loading::begin_row(Player &player, const effects::Model &model, LimbState<InPlane> &limb) const
 {
     const std::size_t i = player.row;
-    const double temp = rows_.temp_degc != nullptr ? rows_.temp_degc[i] : model.thermal.reference_degc;
-    if (!limb.move_to(rows_.theta1_rad[i], rows_.theta2_rad[i], rows_.t_s[i], temp)) {
+    if (!limb.move_to(rows_.theta1_rad[i], rows_.theta2_rad[i], conditions(model, i))) {
         return false;
     }
     const Vector2d displacement_mm(rows_.dx_mm[i], rows_.dz_mm[i]);

@@ -48,15 +48,26 @@ private:
     bool begin_row(Player &player, const effects::Model &model, LimbState<InPlane> &limb) const;
     void end_row(Player &player, LimbState<InPlane> &limb);
 
+    // The limb as it is in each row.
+    struct Limbs {
+        std::vector<effects::Model> limb; // as many as differ from the one before
+        std::vector<std::size_t> of_row;
+    };
+
+    effects::Conditions conditions(const effects::Model &model, std::size_t row) const;
+    void find_limbs(const effects::Model &model);
+    static bool is_same_limb(const Limbs &a, std::size_t row_a, const Limbs &b, std::size_t row_b);
     bool goes_like(const Run &run, std::size_t earlier) const;
-    bool rests_like_earlier(const Run &run, const effects::Model &model) const;
-    bool rests_like_last(const Run &run, const effects::Model &model) const;
+    bool rests_like_earlier(const Run &run) const;
+    bool rests_like_last(const Run &run) const;
 
     const brace_loading_rows_t &rows_;
     std::vector<Run> runs_;
     std::vector<LimbRest<2>> rests_;
-    effects::Model last_; // whose rests they are, if known_
+    Limbs now_;
+    Limbs last_;         // whose rests they are, if known_
     bool known_ = false;
+    bool remembers_pace_ = false;
 };
 
 } // namespace brace::plant

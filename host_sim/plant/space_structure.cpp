@@ -6,7 +6,6 @@
 #include "effects/base_compliance.h"
 #include "effects/gravity.h"
 #include "effects/joint_zero_offset.h"
-#include "effects/link_change.h"
 #include "effects/moment_transfer.h"
 
 namespace brace::plant {
@@ -99,10 +98,10 @@ struct Line {
 
 // The link behind a joint. Weights, sideways bending and twist keep to its line; a tilt turns the line of its bending
 // in the plane about the link's end.
-void add_link(const Model &model, int index, const Line &line, double weight_n, double t_s, Builder &builder)
+void add_link(const Model &model, int index, const Line &line, double weight_n, Builder &builder)
 {
     const auto &link = model.link[index];
-    const double bending = effects::link_change::bending_mm_per_n(model, index, t_s);
+    const double bending = link.bending_mm_per_n;
     const Vector3d along = in_plane(line.angle_rad), up = along.cross(kLeft);
     const Vector3d elastic_along = in_plane(line.angle_rad + link.tilt_rad), elastic_up = elastic_along.cross(kLeft);
     const Vector3d end_mm = line.root_mm + line.length_mm * along;
@@ -165,7 +164,7 @@ double total_weight_n(const SpaceStructure &structure)
     return sum;
 }
 
-void find_structure(const Model &model, double theta1_rad, double theta2_rad, double t_s, SpaceStructure &structure)
+void find_structure(const Model &model, double theta1_rad, double theta2_rad, SpaceStructure &structure)
 {
     const double theta1 = effects::joint_zero_offset::true_angle_rad(model, kFemur, theta1_rad);
     const double theta2 = effects::joint_zero_offset::true_angle_rad(model, kTibia, theta2_rad);
@@ -182,12 +181,12 @@ void find_structure(const Model &model, double theta1_rad, double theta2_rad, do
     Builder builder(structure, origin);
     builder.hinge(kCounterClockwise, origin, effects::base_compliance::turning_rad_per_n_mm(model));
     builder.joint(kCoxa, Vector3d::UnitZ(), yaw_axis_mm);
-    add_link(model, kCoxa, {yaw_axis_mm, 0.0, length.coxa_mm}, 0.0, t_s, builder);
+    add_link(model, kCoxa, {yaw_axis_mm, 0.0, length.coxa_mm}, 0.0, builder);
     builder.joint(kFemur, kCounterClockwise, origin);
-    add_link(model, kFemur, {origin, theta1, length.femur_mm}, weight.femur_n, t_s, builder);
+    add_link(model, kFemur, {origin, theta1, length.femur_mm}, weight.femur_n, builder);
     builder.weight(knee_mm, weight.knee_n);
     builder.joint(kTibia, kCounterClockwise, knee_mm);
-    add_link(model, kTibia, {knee_mm, theta1 - theta2, length.tibia_mm}, weight.tibia_n, t_s, builder);
+    add_link(model, kTibia, {knee_mm, theta1 - theta2, length.tibia_mm}, weight.tibia_n, builder);
     builder.end(tip_mm);
 }
 

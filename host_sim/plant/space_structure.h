@@ -40,8 +40,8 @@ struct SpaceStructure {
 
 double total_weight_n(const SpaceStructure &structure);
 
-// At commanded angles; zero offsets are added. t_s decides whether a link has changed.
-void find_structure(const Model &model, double theta1_rad, double theta2_rad, double t_s, SpaceStructure &structure);
+// Of the limb as it is now, at commanded angles; zero offsets are added.
+void find_structure(const Model &model, double theta1_rad, double theta2_rad, SpaceStructure &structure);
 
 SpaceStructure without_loads(SpaceStructure structure);
 

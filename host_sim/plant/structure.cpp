@@ -5,7 +5,6 @@
 #include "effects/base_compliance.h"
 #include "effects/gravity.h"
 #include "effects/joint_zero_offset.h"
-#include "effects/link_change.h"
 #include "effects/link_compliance_error.h"
 #include "effects/moment_transfer.h"
 
@@ -44,11 +43,11 @@ void let_yield(Body &body, Yields where, const Matrix2d &compliance)
 
 // A joint and the link behind it. Weights lie on the line of the link; a tilt turns the beam's elastic line about the
 // link's end.
-void add_link(const Model &model, int index, const Vector2d &axis, double length_mm, double weight_n, double t_s,
-              int parts, Structure &structure)
+void add_link(const Model &model, int index, const Vector2d &axis, double length_mm, double weight_n, int parts,
+              Structure &structure)
 {
     const auto &link = model.link[index];
-    const double bending = effects::link_change::bending_mm_per_n(model, index, t_s);
+    const double bending = link.bending_mm_per_n;
     const Matrix2d axes = effects::link_compliance_error::axes(axis, link.tilt_rad);
     const double beam = link.moment_transfer_ratio;
     const int hinges = beam > 0.0 ? 2 * parts : 0;
@@ -100,7 +99,7 @@ double total_weight_n(const Structure &structure)
     return sum;
 }
 
-void find_structure(const Model &model, Displacements displacements, double theta1_rad, double theta2_rad, double t_s,
+void find_structure(const Model &model, Displacements displacements, double theta1_rad, double theta2_rad,
                     Structure &structure)
 {
     const bool small = displacements == Displacements::small;
@@ -123,9 +122,9 @@ void find_structure(const Model &model, Displacements displacements, double thet
     if (base_turning > 0.0) {
         add(structure, kElastic, base_turning);
     }
-    add_link(model, kFemur, femur_axis, length.femur_mm, small ? 0.0 : weight.femur_n, t_s, parts, structure);
+    add_link(model, kFemur, femur_axis, length.femur_mm, small ? 0.0 : weight.femur_n, parts, structure);
     structure.body[static_cast<std::size_t>(structure.body_count - 1)].end_weight_n = small ? 0.0 : weight.knee_n;
-    add_link(model, kTibia, tibia_axis, length.tibia_mm, small ? 0.0 : weight.tibia_n, t_s, parts, structure);
+    add_link(model, kTibia, tibia_axis, length.tibia_mm, small ? 0.0 : weight.tibia_n, parts, structure);
 }
 
 Structure without_loads(Structure structure)

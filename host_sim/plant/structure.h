@@ -65,8 +65,8 @@ using Structure = StructureOf<double>;
 
 double total_weight_n(const Structure &structure);
 
-// At commanded angles; zero offsets are added. t_s decides whether a link has changed.
-void find_structure(const Model &model, Displacements displacements, double theta1_rad, double theta2_rad, double t_s,
+// Of the limb as it is now, at commanded angles; zero offsets are added.
+void find_structure(const Model &model, Displacements displacements, double theta1_rad, double theta2_rad,
                     Structure &structure);
 
 Structure without_loads(Structure structure);

@@ -74,33 +74,32 @@ def dictionary(text: str) -> str:
 
 def joint_law(text: str) -> str:
     """The simulated joint's spring asks the law."""
-    text = swapped(
-        text, '#include "effects/thermal_softening.h"\n',
-        '#include "effects/one_sided_spring.h"\n#include "effects/thermal_softening.h"\n',
-    )  # fmt: skip
-    text = swapped(text, "law.hardening_n_mm_per_rad3 == 0.0;", "law.hardening_n_mm_per_rad3 == 0.0\n"
-                   "           && law.one_sided_ratio == 0.0;")  # fmt: skip
+    text = swapped(text, '#include "effects/joint_hardening.h"\n',
+                   '#include "effects/joint_hardening.h"\n#include "effects/one_sided_spring.h"\n')  # fmt: skip
+    text = swapped(text, "!effects::joint_hardening::acts(law);",
+                   "!effects::joint_hardening::acts(law)\n           && law.one_sided_ratio == 0.0;")  # fmt: skip
     text = swapped(
         text,
-        "    return effects::joint_compliance::torque_n_mm(law.compliance_rad_per_n_mm, elastic)\n"
-        "           + effects::joint_hardening::torque_n_mm(law.hardening_n_mm_per_rad3, elastic);\n",
+        "    return effects::joint_compliance::torque_n_mm(law, elastic) + "
+        "effects::joint_hardening::torque_n_mm(law, elastic);\n",
         "    return effects::one_sided_spring::factor(law.one_sided_ratio, elastic)\n"
-        "           * (effects::joint_compliance::torque_n_mm(law.compliance_rad_per_n_mm, elastic)\n"
-        "              + effects::joint_hardening::torque_n_mm(law.hardening_n_mm_per_rad3, elastic));\n",
+        "           * (effects::joint_compliance::torque_n_mm(law, elastic)\n"
+        "              + effects::joint_hardening::torque_n_mm(law, elastic));\n",
     )
     text = swapped(
         text,
-        "    return 1.0 / law.compliance_rad_per_n_mm\n"
-        "           + effects::joint_hardening::stiffness_n_mm_per_rad(law.hardening_n_mm_per_rad3, elastic);\n",
+        "    return effects::joint_compliance::stiffness_n_mm_per_rad(law)\n"
+        "           + effects::joint_hardening::stiffness_n_mm_per_rad(law, elastic_rad(law, deflection_rad));\n",
+        "    const double elastic = elastic_rad(law, deflection_rad);\n"
         "    return effects::one_sided_spring::factor(law.one_sided_ratio, elastic)\n"
-        "           * (1.0 / law.compliance_rad_per_n_mm\n"
-        "              + effects::joint_hardening::stiffness_n_mm_per_rad(law.hardening_n_mm_per_rad3, elastic));\n",
+        "           * (effects::joint_compliance::stiffness_n_mm_per_rad(law)\n"
+        "              + effects::joint_hardening::stiffness_n_mm_per_rad(law, elastic));\n",
     )
     return swapped(
         text,
-        "    const double s = law.compliance_rad_per_n_mm;\n",
+        "    return effects::joint_hardening::deflection_rad(law, torque_n_mm);\n",
         "    torque_n_mm /= effects::one_sided_spring::factor(law.one_sided_ratio, torque_n_mm);\n"
-        "    const double s = law.compliance_rad_per_n_mm;\n",
+        "    return effects::joint_hardening::deflection_rad(law, torque_n_mm);\n",
     )
 
 
