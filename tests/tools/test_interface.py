@@ -32,8 +32,8 @@ def test_what_is_checked_in_is_what_the_generator_writes() -> None:
 
 def test_a_changed_dictionary_changes_what_is_generated(tmp_path: Path) -> None:
     changed = tmp_path / "dictionary.toml"
-    coxa = 'name = "coxa_mm"\nregister = 0\nunit = "{}"'
-    changed.write_text(DICTIONARY.read_text().replace(coxa.format("mm"), coxa.format("m")))
+    coxa = 'name = "coxa_{}"\nregister = 0\nunit = "{}"'
+    changed.write_text(DICTIONARY.read_text().replace(coxa.format("mm", "mm"), coxa.format("rad", "rad")))
     before, after = load(DICTIONARY), load(changed)
     assert before.schema_hash == SCHEMA_HASH != after.schema_hash
     codes = load_codes(DICTIONARY)
@@ -117,6 +117,12 @@ def test_defaults_are_those_of_the_format(key: str) -> None:
         ('type = "u32"', 'type = "u16"'),
         ("default = inf", "default = nan"),
         ("format = 1", "format = 2"),
+        ('name = "gap_rad"', 'name = "gap_mm"'),
+        ('unit = "rad/(N mm)"', 'unit = "rad"'),
+        ('unit = "degC"\nrange', 'unit = ""\nrange'),
+        ('unit = "mm"\nrange', 'unit = "inch"\nrange'),
+        ('unit = "mm"\nrange', "range"),
+        ("range = [0.0, 1e4]\n", ""),
         ("required = true\nsafe = 185.0", "required = true"),
     ],
 )

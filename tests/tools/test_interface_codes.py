@@ -24,7 +24,7 @@ from interface.c_snapshot import snapshot_source  # noqa: E402
 from interface.codes import load_codes  # noqa: E402
 from interface.dictionary import DictionaryError, load  # noqa: E402
 from interface.measured import load_values  # noqa: E402
-from interface.messages import load_wire  # noqa: E402
+from interface.messages import check_rates, load_wire  # noqa: E402
 from interface.outputs import DICTIONARY, MESSAGES  # noqa: E402
 
 GENERATED = PROJECT / "firmware" / "interface" / "generated"
@@ -132,6 +132,12 @@ def test_a_code_that_is_not_there_is_refused(tmp_path: Path) -> None:
         ("id = 0x200", "id = 0x180", "that of stiffness_a; free identifiers: 0x100, 0x200, 0x400, 0x680, 0x780"),
         ("id = 0x200", "id = 0x201", "no multiple of 0x80"),
         ('rate = "controller.stiffness_hz"', 'rate = "motor.stiffness_hz"', "rate"),
+        ("by_hand = true", "", "heartbeat: what goes out at a rate has the signal 'sequence'"),
+        ('name = "sequence"', 'name = "number"', "stiffness_a: what goes out at a rate has the signal 'sequence'"),
+        ('unit = "N/mm"', 'unit = "N/m"', "no unit 'N/m'; units are"),
+        ('rate = "controller.stiffness_hz"', 'rates = "controller.stiffness_hz"', "message stiffness_a: unknown rates"),
+        ("coxa = true", "cox = true", "group .*: unknown cox; it has .* and may have rate, by_hand, coxa"),
+        ("code = 2\n", "", "request write_entry: it lacks code"),
         ('name = "drift_cause"\nbits = 4', 'name = "drift_cause"\nbits = 2', "do not hold"),
         ('answers_as = "commit"', 'answers_as = "comit"', "rollback.*answers_as"),
         ('answers_as = "commit"', "", "rollback.*answers_as"),
@@ -152,7 +158,6 @@ def test_bad_messages_are_refused(before: str, after: str, why: str, tmp_path: P
         ('from = "space_k_xx"', 'from = "space_k_ww"', "space_0.k_xx: no measured value is named 'space_k_ww'"),
         ('from = "space_k_xx"', 'from = "theta0"', "space_0.k_xx: theta0 is f32 in 'rad'"),
         ('from = "space_flags"', 'from = "force_x"', "space_4.flags: force_x is f32"),
-        ("by_hand = true", "", "heartbeat.state: no measured value"),
         ('saturated_by = ["stiffness_a"', 'saturated_by = ["emergency"', "stiffness_b.flags.*emergency"),
         ('bit_names = "flag"\nsaturated_by', "saturated_by", "stiffness_b.flags.*SATURATED"),
     ],
@@ -165,6 +170,15 @@ def test_process_data_that_is_not_measured_is_refused(before: str, after: str, w
     wire = load_wire(path, load_codes(DICTIONARY))
     with pytest.raises(DictionaryError, match=why):
         snapshot_source(wire, load_values(DICTIONARY, load_codes(DICTIONARY)))
+
+
+def test_a_rate_that_no_parameter_is_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "messages.toml"
+    path.write_text(MESSAGES.read_text().replace("controller.stiffness_hz", "controller.tick_us", 1))
+    keys = {entry.key: entry.unit for entry in load(DICTIONARY).parameters}
+    check_rates(load_wire(MESSAGES, load_codes(DICTIONARY)), keys)
+    with pytest.raises(DictionaryError, match="stiffness_a: controller.tick_us is no parameter in Hz; rates are"):
+        check_rates(load_wire(path, load_codes(DICTIONARY)), keys)
 
 
 @pytest.mark.parametrize(

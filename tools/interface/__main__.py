@@ -16,7 +16,8 @@ def main(arguments: list[str]) -> int:
     try:
         changed = drifted() if arguments else write()
     except (DictionaryError, KeyError, ValueError) as error:
-        print(f"interface: {error!r}\n  try: the comments at the heads of {DICTIONARY.name} and messages.toml, and "
+        why = error if isinstance(error, DictionaryError) else repr(error)
+        print(f"interface: {why}\n  try: the comments at the heads of {DICTIONARY.name} and messages.toml, and "
               "docs/adding.md", file=sys.stderr)
         return 3
     for name in changed:

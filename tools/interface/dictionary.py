@@ -10,15 +10,19 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from interface.units import name_fault, unit_fault
+
 LINKS = ("coxa", "femur", "tibia")
 ANGLES = ("theta0", "theta1", "theta2")
 AREAS = ("parameters", "measured", "answered", "commands")
-_RESERVED_KEYS = {"area", "register", "values", "description"}
-_GROUP_KEYS = {"table", "member", "struct", "says", "persistence", "entry"}
-_ENTRY_KEYS = {
-    *("name", "register", "table", "field", "type", "unit", "range", "open_low", "infinite", "choices", "default"),
-    *("required", "safe", "ratio", "description"),
-}
+_RESERVED_KEYS = ("area", "register", "values", "description")
+_GROUP_KEYS = ("table", "persistence", "entry")
+_GROUP_MAY_HAVE = ("member", "struct", "says")
+_ENTRY_KEYS = ("name", "unit", "description")
+_ENTRY_MAY_HAVE = (
+    *("register", "table", "field", "type", "range", "open_low", "infinite", "choices", "default", "required", "safe"),
+    "ratio",
+)
 
 
 class DictionaryError(Exception):
@@ -108,7 +112,7 @@ def load(path: Path) -> Dictionary:
         raise DictionaryError("format must be 1")
     entries: list[Entry] = []
     for group in content["group"]:
-        _refuse_unknown(group, _GROUP_KEYS, str(group.get("table")))
+        check_keys(group, _GROUP_KEYS, _GROUP_MAY_HAVE, f"group {group.get('table')}")
         for part in range(_parts(group)):
             for raw in group["entry"]:
                 alike = [entry for entry in entries if entry.persistence == group["persistence"]]
@@ -143,7 +147,7 @@ def check_area(area: str, registers: Sequence[int], first: int, content: Mapping
     """Every two registers from `first` on hold one value, or are reserved: none twice, and no gap."""
     taken = list(registers)
     for raw in content.get("reserved", []):
-        _refuse_unknown(raw, _RESERVED_KEYS, "reserved")
+        check_keys(raw, _RESERVED_KEYS, (), "reserved")
         if raw["area"] not in AREAS:
             raise DictionaryError(f"reserved: no area {raw['area']!r}; there are {', '.join(AREAS)}")
         if raw["area"] == area:
@@ -155,8 +159,12 @@ def check_area(area: str, registers: Sequence[int], first: int, content: Mapping
 
 
 def _entry(group: Mapping[str, Any], raw: Mapping[str, Any], part: int, index: int) -> Entry:
-    key = (raw.get("table", group["table"]) + "." + raw["name"]).replace("*", LINKS[part])
-    _refuse_unknown(raw, _ENTRY_KEYS, key)
+    key = f"{raw.get('table', group['table'])}.{raw.get('name')}".replace("*", LINKS[part])
+    is_kept = group["persistence"] == "parameter"
+    stands_for_default = "required" if raw.get("required") else "default"
+    range_or_choices = "choices" if "choices" in raw else "range"
+    check_keys(raw, (*_ENTRY_KEYS, stands_for_default, range_or_choices, *(["register"] if is_kept else [])),
+               _ENTRY_MAY_HAVE, key)
     kind = raw.get("type", "f32")
     choices = tuple(raw.get("choices", ()))
     texts = choices if choices and isinstance(choices[0], str) else ()
@@ -171,7 +179,6 @@ def _entry(group: Mapping[str, Any], raw: Mapping[str, Any], part: int, index: i
         low, high = min(numbers), max(numbers)
     else:
         low, high = raw["range"]
-    is_kept = group["persistence"] == "parameter"
     if not is_kept and (group["persistence"] != "model" or {"register", "field", "safe"} & set(raw)):
         why = 'what no controller keeps has persistence "model", and no register, field, safe'
         raise DictionaryError(f"{key}: {why}")
@@ -207,6 +214,10 @@ def _check(entry: Entry) -> None:
 
     if entry.type not in ("f32", "u32"):
         raise refuse(f"type {entry.type}")
+    # A whole number may count what its own name says.
+    leaf = entry.key.rpartition(".")[2]
+    if fault := unit_fault(entry.unit) or (name_fault(leaf, entry.unit) if entry.type == "f32" else ""):
+        raise refuse(fault)
     if entry.type == "f32" and (entry.texts or entry.numbers):
         raise refuse("choices are for u32")
     if entry.type == "u32" and not all(isinstance(bound, int) and 0 <= bound < 1 << 32
@@ -227,10 +238,15 @@ def _check(entry: Entry) -> None:
         raise refuse("a required entry needs a safe value")
 
 
-def _refuse_unknown(table: Mapping[str, Any], known: set[str], where: str) -> None:
-    unknown = set(table) - known
+def check_keys(table: Mapping[str, Any], needed: Sequence[str], may_have: Sequence[str], where: str) -> None:
+    """Every key that a table must have is there, and no other than it may have."""
+    unknown = set(table) - {*needed, *may_have}
     if unknown:
-        raise DictionaryError(f"{where}: unknown {', '.join(sorted(unknown))}")
+        raise DictionaryError(f"{where}: unknown {', '.join(sorted(unknown))}; "
+                              f"it has {', '.join(needed)} and may have {', '.join(may_have) or 'nothing else'}")
+    lacking = [key for key in needed if key not in table]
+    if lacking:
+        raise DictionaryError(f"{where}: it lacks {', '.join(lacking)}")
 
 
 def _refuse_twice(names: Iterable[str]) -> None:

@@ -9,12 +9,12 @@ from pathlib import Path
 from typing import Any
 
 from interface.codes import Codes, Table
-from interface.dictionary import DictionaryError, check_area
-from interface.units import UNIT_SUFFIX
+from interface.dictionary import DictionaryError, check_area, check_keys
+from interface.units import UNIT_SUFFIX, unit_fault
 
 MEASURED_REGISTER, ANSWERED_REGISTER, COMMAND_REGISTER = 0, 0x1000, 0x4000  # the first of each
 QUESTION = "asked_"  # the names of a question's values begin with it
-_KEYS = {"name", "register", "type", "unit", "names", "bit_names", "numeric", "description"}
+_KEYS, _MAY_HAVE = ("name", "register", "unit", "description"), ("type", "names", "bit_names", "numeric")
 
 
 @dataclass(frozen=True)
@@ -66,17 +66,19 @@ def load_values(path: Path, codes: Codes) -> Values:
 
 
 def _values(content: Mapping[str, Any], kind: str, area: str, first: int, codes: Codes) -> tuple[Measured, ...]:
+    for raw in content[kind]:
+        check_keys(raw, _KEYS, _MAY_HAVE, f"{kind} {raw.get('name')}")
     raws = sorted(content[kind], key=lambda raw: raw["register"])
     check_area(area, [raw["register"] for raw in raws], first, content)
     return tuple(_value(raw, (raw["register"] - first) // 2, codes) for raw in raws)
 
 
 def _value(raw: Mapping[str, Any], index: int, codes: Codes) -> Measured:
-    if set(raw) - _KEYS:
-        raise DictionaryError(f"{raw['name']}: unknown {', '.join(sorted(set(raw) - _KEYS))}")
     kind = raw.get("type", "f32")
-    if kind not in ("f32", "u32") or raw["unit"] not in UNIT_SUFFIX:
-        raise DictionaryError(f"{raw['name']}: type {kind}, unit {raw['unit']!r}")
+    if kind not in ("f32", "u32"):
+        raise DictionaryError(f"{raw['name']}: type {kind}; there are f32 and u32")
+    if fault := unit_fault(raw["unit"]):
+        raise DictionaryError(f"{raw['name']}: {fault}")
     return Measured(
         index, raw["register"], raw["name"], kind, raw["unit"], _table(raw, codes), raw.get("numeric", False),
         raw["description"],

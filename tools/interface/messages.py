@@ -10,18 +10,30 @@ from pathlib import Path
 from typing import Any
 
 from interface.codes import Codes, Table
-from interface.dictionary import DictionaryError
-from interface.units import UNIT_SUFFIX
+from interface.dictionary import DictionaryError, check_keys
+from interface.units import UNIT_SUFFIX, unit_fault
 
 FRAME_BITS = 64
 _PAYLOAD_START = 16  # of requests and answers: behind code or number, and token
 CODES = 256  # of requests, and numbers of answers
 REFUSED = CODES - 1  # the number of an answer that is a refusal
-_SIGNAL_KEYS = {"name", "bits", "signed", "kind", "step", "unit", "names", "bit_names", "description", "from", "wraps",
-                "saturated_by", "unknown_beyond"}
+# What each table must have, and what it may have.
+_KEYS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
+    "signal": (("name", "bits", "description"),
+               ("signed", "kind", "step", "unit", "names", "bit_names", "from", "wraps", "saturated_by",
+                "unknown_beyond")),
+    "message": (("name", "id", "description", "signal"), ("rate", "by_hand")),
+    "fd_message": (("name", "id", "bytes", "description", "signal"), ("rate", "by_hand")),
+    "multiplexed": (("name", "id", "description", "signal", "group"), ("bytes",)),
+    "group": (("name", "description", "part"), ("rate", "by_hand", "coxa")),
+    "part": (("number", "signal"), ()),
+    "request": (("code", "name", "description"), ("field", "answer", "answers_as", "answer_numbers")),
+    "answer": (("number", "field"), ()),
+}  # fmt: skip
 NODES = 0x80  # identifiers of one message: one for each node, and 0
 BASIC_IDS = 0x800  # of 11 bits
 _SATURATED = "SATURATED"  # the bit of flags: a value was limited
+SEQUENCE = "sequence"  # the signal of a frame of measured values that is the same in all frames of one snapshot
 PART = "part"  # the common signal of a multiplexed message that says which part a frame carries
 
 
@@ -235,6 +247,7 @@ def dictionary_hash(wire: Wire, value_schema: str) -> int:
 def load_wire(path: Path, codes: Codes) -> Wire:
     """Reads and checks the file."""
     content = tomllib.loads(path.read_text())
+    _check_tables(content)
     messages = tuple(
         Frame(
             raw["name"], raw["id"], raw.get("rate", ""), _signals(raw["signal"], 0, raw["name"], codes),
@@ -277,11 +290,44 @@ def load_wire(path: Path, codes: Codes) -> Wire:
         _refuse_numbers(f"numbers of the parts of {message.name}",
                         [(frame.part or 0, frame.name) for frame in message.parts], 0, 1 << message.selector.bits)
         _refuse_twice_in_dbc(message)
-    rates = [frame.rate for frame in wire.process_frames if frame.rate]
-    if not all(rate.startswith("controller.") for rate in rates):
-        raise DictionaryError("a message's rate is a key of limb.toml's table [controller]")
+    for frame in wire.process_frames:
+        _refuse_process(frame)
     _refuse_identifiers(wire)
     return wire
+
+
+def _check_tables(content: Mapping[str, Any]) -> None:
+    """No table lacks a key, and none has one that nobody reads."""
+    def check(kind: str, raw: Mapping[str, Any], where: str) -> None:
+        check_keys(raw, *_KEYS[kind], where)
+
+    for kind in ("message", "fd_message", "multiplexed", "request"):
+        for raw in content.get(kind, []):
+            where = f"{kind} {raw.get('name')}"
+            check(kind, raw, where)
+            for group in raw.get("group", []):
+                check("group", group, f"{where}, group {group.get('name')}")
+                for part in group["part"]:
+                    check("part", part, f"{where}, group {group['name']}, part {part.get('number')}")
+            for answer in raw.get("answer", []):
+                check("answer", answer, f"{where}, answer {answer.get('number')}")
+
+
+def _refuse_process(frame: Frame) -> None:
+    """What goes out at a rate: the rate is the controller's, and receivers put frames of one snapshot together."""
+    if frame.rate and not frame.rate.startswith("controller."):
+        raise DictionaryError(f"{frame.name}: its rate is a key of limb.toml's table [controller], not {frame.rate!r}")
+    if frame.is_measured and not any(signal.name == SEQUENCE for signal in frame.signals):
+        raise DictionaryError(f"{frame.name}: what goes out at a rate has the signal {SEQUENCE!r}, by which receivers "
+                              "put the frames of one snapshot together")
+
+
+def check_rates(wire: Wire, keys: Mapping[str, str]) -> None:
+    """Each rate is a parameter in Hz. keys: the unit of each parameter."""
+    rates = sorted(key for key, unit in keys.items() if unit == "Hz")
+    for frame in wire.process_frames:
+        if frame.rate and frame.rate not in rates:
+            raise DictionaryError(f"{frame.name}: {frame.rate} is no parameter in Hz; rates are {', '.join(rates)}")
 
 
 def _refuse_numbers(what: str, numbered: Sequence[tuple[int, str]], least: int, below: int) -> None:
@@ -383,10 +429,8 @@ def _signals(
 ) -> tuple[Signal, ...]:
     signals: list[Signal] = []
     for raw in raws:
-        at = f"{where}.{raw['name']}"
-        unknown = set(raw) - _SIGNAL_KEYS
-        if unknown:
-            raise DictionaryError(f"{at}: unknown {', '.join(sorted(unknown))}")
+        at = f"{where}.{raw.get('name')}"
+        check_keys(raw, *_KEYS["signal"], at)
         kind = raw.get("kind", "number")
         table = (
             codes.enum(raw["names"], at) if "names" in raw
@@ -401,11 +445,10 @@ def _signals(
         )
         if kind not in ("value", "number", "f32") or (kind == "f32" and signal.bits != 32):
             raise DictionaryError(f"{at}: kind {kind} of {signal.bits} bits")
-        if (kind == "value") != ("step" in raw) or signal.unit not in UNIT_SUFFIX:
-            raise DictionaryError(
-                f"{at}: a value has a step, nothing else has one, and its unit is one of "
-                f"{', '.join(unit or 'none' for unit in UNIT_SUFFIX)}"
-            )
+        if (kind == "value") != ("step" in raw):
+            raise DictionaryError(f"{at}: a value has a step, and nothing else has one")
+        if fault := unit_fault(signal.unit):
+            raise DictionaryError(f"{at}: {fault}")
         if table is not None and max(signal.names, default=len(signal.bit_names) - 1) > (
             signal.greatest if signal.names else signal.bits - 1
         ):

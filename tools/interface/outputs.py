@@ -18,7 +18,7 @@ from interface.dbc import dbc, dbc_fd
 from interface.dictionary import Dictionary, load
 from interface.keys_page import keys_page
 from interface.measured import Values, load_values
-from interface.messages import Wire, dictionary_hash, load_wire
+from interface.messages import Wire, check_rates, dictionary_hash, load_wire
 from interface.plant_model import key_table, model_header
 from interface.protocol_page import protocol_page
 from interface.python_codes import codes_module
@@ -36,6 +36,7 @@ def outputs(
     dictionary: Dictionary, codes: Codes, wire: Wire, values: Values, questions: Sequence[Question]
 ) -> dict[str, str]:
     """Path below the project -> text."""
+    check_rates(wire, {entry.key: entry.unit for entry in dictionary.parameters})
     language = dictionary_hash(wire, dictionary.schema + dictionary.numbers + codes.schema + values.schema)
     rows = registers(dictionary, values)
     return {
