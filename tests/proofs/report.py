@@ -10,24 +10,29 @@ HEAD = f"{'proof':22} {'properties':>10} {'seconds':>8}  {'verdict':10} broken o
 
 INTRODUCTION = """# What is proven
 
-`./dev proofs` writes this page. Each claim below holds for **every** input within its bound, not for samples of it:
-[CBMC](https://github.com/diffblue/cbmc) {version} turns the firmware's own C, as a Cortex-M4F's compiler reads it (32-bit
-integers and pointers), into one formula and finds no input that breaks it. Beside each claim it checks every array index,
-pointer, shift, division and signed overflow on the way, and that no loop goes further than the bound says.
+    ./dev proofs [--only NAME ...]
 
-`fixed_lengths` and `loaded_turns` are no formulas: there the firmware's text runs through all inputs, one after the
-other. Nor is `loaded_softened`: there it runs with ranges (`tests/proofs/harness/ranged.h`).
+writes this page. Each claim holds for **every** input within its bound, not for samples of it:
+[CBMC](https://github.com/diffblue/cbmc) {version} turns the firmware's own C, with a Cortex-M4's integers and pointers,
+into a formula and finds no input that breaks it. It also checks each array index, pointer, shift, division and signed
+overflow on the way, and that no loop goes further than its bound. Three claims (`fixed_lengths`, `loaded_turns`,
+`loaded_softened`) are no formulas: there the firmware's text runs through all inputs, or with ranges of numbers.
 
-A proof that cannot fail proves nothing: every one is run again on code with a mistake put in, and has to find it. The
-mistakes stand at the end. What a proof takes from elsewhere stands under *stands on*: a function that has its own proof is
-replaced by what that proof promises, and the outside (memory, ports, drives) by something that may answer anything.
+A proof has to fail where the code is wrong: each one is run again on code with a mistake put in, and has to find it.
+[proofs.toml](../tests/proofs/proofs.toml) has the mistakes, and each claim in full with what it takes from elsewhere;
+`build/proofs/NAME.txt` has the record of the run.
 
-CBMC's own checks know where an object ends, not where an array inside a struct does: there the claims name the bounds
-themselves, and what none of them names is not noticed before it leaves the struct (the sanitized tests and fuzzers look
-there too).
+Not proven: what floating-point results are worth (property tests and the reference judge that), time (the bench counts
+instructions), interrupts, what compilers make of the C. CBMC knows where an object ends, not where an array inside a
+struct does: there the claims name the bounds.
 
-Not proven here: what the floating-point results are worth (property tests and the reference judge that), time (the bench
-counts instructions), interrupts, and what compilers make of the C.
+| claim | holds for | verdict | mistakes found | commit |
+|---|---|---|---|---|
+"""
+
+LAST_LINE = """
+*Commit*: of the text that was run last. "Text changed since": a file that the proof reads is another one now; it is to
+be run again.
 """
 
 
@@ -89,57 +94,52 @@ def trouble(outcome: Outcome) -> str:
     return "\n".join(lines)
 
 
-def _code(text: str) -> str:
-    fence = "``" if "`" in text else "`"
-    return f"{fence}{' '.join(text.split())}{fence}".replace("|", "\\|")
-
-
-def _start(text: str) -> str:
-    """The first lines of what a harness says, in one: what there is, and where it begins."""
-    return "; ".join(text.splitlines()[:3]).replace("|", "\\|")
-
-
-COLUMNS = "| claim | functions | for | stands on | properties | seconds | verdict | run at |"
-
-
-def kept_rows(earlier: str, name: str) -> list[str]:
-    """The row of a proof in an earlier page, and those of its mistakes."""
-    return [line for line in earlier.splitlines() if line.startswith((f"| **{name}**:", f"| {name} |"))]
-
-
-def page(
-    order: list[str], outcomes: dict[str, Outcome], version: str, commit: str, earlier: str, earlier_commit: str
-) -> str:
-    """docs/proofs.md. order: names of all proofs; commit: of the text that the outcomes are of; earlier: the page as it
-    was at its own commit, from which the rows of proofs come that have not been run since."""
-    lines = [INTRODUCTION.format(version=version)]
-    lines += [COLUMNS, "|---|---|---|---|---|---|---|---|"]
-    has_commits = COLUMNS in earlier
-    for name in order:
-        outcome = outcomes.get(name)
-        if outcome is None:
-            row = next((line for line in kept_rows(earlier, name) if line.startswith("| **")), "")
-            lines += [row if has_commits or not row else f"{row} {earlier_commit} |"] if row else []
-            continue
-        functions = ", ".join(_code(name) for name in outcome.functions)
-        lines.append(
-            f"| **{outcome.name}**: {outcome.claim} | {functions} | {outcome.bound} | "
-            f"{'; '.join(outcome.stands_on) or '-'} | {outcome.verdict.properties} | "
-            f"{outcome.verdict.seconds:.0f} | {word(outcome.verdict)} | {commit} |"
-        )
-    lines += [
-        "",
-        f"{len(order)} claims. *Run at* names the commit of the text that a claim was proven of; a claim whose text "
-        "has changed since then is to be run again. Seconds are by the clock, on a machine that had other work.",
-        "",
+def record(outcome: Outcome) -> str:
+    """All that a run has shown, to read beside the page."""
+    lines = [
+        f"{outcome.name}: {word(outcome.verdict)}, {outcome.verdict.properties} properties, {outcome.seconds:.0f} s",
+        f"claim: {outcome.claim}",
+        f"for: {outcome.bound}",
+        f"functions: {', '.join(outcome.functions)}",
+        *(f"stands on: {item}" for item in outcome.stands_on),
     ]
-    lines += ["| proof | mistake put in | found as |", "|---|---|---|"]
-    for name in order:
-        outcome = outcomes.get(name)
-        if outcome is None:
-            lines += [line for line in kept_rows(earlier, name) if not line.startswith("| **")]
-            continue
-        for change, twin in outcome.twins:
-            said = _start(twin.failures[0]) if twin.failures else f"**not found** {twin.trouble}"
-            lines.append(f"| {outcome.name} | {_code(change)} | {said} |")
-    return "\n".join(lines) + "\n"
+    for change, twin in outcome.twins:
+        lines.append(f"mistake: {' '.join(change.split())}\n    {(twin.failures or ('NOT FOUND ' + twin.trouble,))[0]}")
+    said = trouble(outcome)
+    return "\n".join([*lines, *([said] if said else [])]) + "\n"
+
+
+@dataclass(frozen=True)
+class Row:
+    """What the page keeps of a run."""
+
+    name: str
+    verdict: str
+    mistakes: str
+    commit: str
+
+    @staticmethod
+    def of(outcome: Outcome, commit: str) -> Row:
+        refuted = sum(found(twin) for _, twin in outcome.twins)
+        return Row(outcome.name, word(outcome.verdict), f"{refuted} of {len(outcome.twins)}", commit)
+
+
+def line_of_page(row: Row, brief: str, bound: str, text_has_changed: bool) -> str:
+    """A claim's line of the page."""
+    of = f"{row.commit}, text changed since" if text_has_changed else row.commit
+    return f"| `{row.name}`: {brief} | {bound} | {row.verdict} | {row.mistakes} | {of} |"
+
+
+def rows_of(page: str) -> dict[str, Row]:
+    """What a page says of each claim."""
+    rows = {}
+    for line in page.splitlines():
+        if line.startswith("| `"):
+            name, (verdict, mistakes, of) = line.split("`")[1], [cell.strip() for cell in line.split("|")[-4:-1]]
+            rows[name] = Row(name, verdict, mistakes, of.split(",")[0])
+    return rows
+
+
+def page(lines: list[str], version: str) -> str:
+    """docs/proofs.md."""
+    return INTRODUCTION.format(version=version) + "\n".join(lines) + "\n" + LAST_LINE

@@ -1,6 +1,6 @@
 """Prove the claims of proofs.toml, show that each proof can fail, and write docs/proofs.md.
 
-usage: run.py [--only NAME ...] [--jobs N] [--seconds-most S] [--afresh] [--known] [--list]
+usage: run.py [--only NAME ...] [--jobs N] [--seconds-most S] [--afresh] [--list]
 
 What was proven of the same text with the same bounds is kept in build/proofs and not proven again.
 """
@@ -18,7 +18,7 @@ import shutil
 import subprocess
 import sys
 import tomllib
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import cbmc
 import counted
@@ -44,6 +44,8 @@ class Proof:
 
     name: str
     claim: str
+    brief: str = field(repr=False)  # claim and bound for the page, in a few words; no part of what is kept
+    brief_bound: str = field(repr=False)
     functions: tuple[str, ...]
     bound: str
     stands_on: tuple[str, ...]  # what is replaced by a stand-in, and the proof that allows it
@@ -70,6 +72,8 @@ def read_proofs() -> list[Proof]:
             Proof(
                 item["name"],
                 " ".join(item["claim"].split()),
+                item["brief"][0],
+                item["brief"][1],
                 tuple(item["functions"]),
                 " ".join(item["bound"].split()),
                 tuple(item.get("stands_on", ())),
@@ -188,13 +192,30 @@ def git(*arguments: str) -> str:
     return done.stdout.strip()
 
 
+def text_has_changed(proof: Proof, commit: str) -> bool:
+    """Is a file that this proof reads another one than at the commit?"""
+    marks = "".join(file.read_text() for file in program(proof, BUILD / proof.name / "whole").files)
+    read = set(re.findall(r'^# \d+ "((?:firmware|hal|tests)/[^"]+)"', marks, re.MULTILINE))
+    differs = ["git", "diff", "--quiet", commit, "--", *sorted(read)]
+    return subprocess.run(differs, cwd=cbmc.ROOT, capture_output=True, check=False).returncode != 0
+
+
 def write_page(proofs: list[Proof], outcomes: dict[str, report.Outcome], version: str) -> None:
-    """docs/proofs.md: what was proven now, and the rows of the others as they were."""
+    """The record of each run, and docs/proofs.md: what was run now; the others as they were, if of an earlier text."""
     path = cbmc.ROOT / "docs" / "proofs.md"
-    earlier = path.read_text() if path.is_file() else ""
-    commit, earlier_commit = git("rev-parse", "--short", "HEAD"), git("log", "-1", "--format=%h", "--", str(path))
-    names = [proof.name for proof in proofs]
-    path.write_text(report.page(names, outcomes, version, commit, earlier, earlier_commit))
+    kept = report.rows_of(path.read_text() if path.is_file() else "")
+    rows = []
+    for proof in proofs:
+        outcome, row = outcomes.get(proof.name), kept.get(proof.name)
+        if outcome is not None:
+            (BUILD / f"{proof.name}.txt").write_text(report.record(outcome))
+            row = report.Row.of(outcome, git("rev-parse", "--short=8", "HEAD"))
+        if row is not None:
+            changed = outcome is None and text_has_changed(proof, row.commit)
+            rows.append(report.line_of_page(row, proof.brief, proof.brief_bound, changed))
+    whole = BUILD / path.name
+    whole.write_text(report.page(rows, version))
+    whole.replace(path)
 
 
 def main() -> int:
@@ -202,7 +223,7 @@ def main() -> int:
         description="prove the claims of tests/proofs/proofs.toml; writes docs/proofs.md"
     )
     parser.add_argument(
-        "--only", nargs="+", metavar="NAME", help="these proofs; docs/proofs.md stays as it is"
+        "--only", nargs="+", metavar="NAME", help="these proofs; the other rows of docs/proofs.md stay as they are"
     )
     parser.add_argument(
         "--jobs", type=int, default=os.cpu_count() or 1, help="at a time (default: one a core)"
@@ -211,9 +232,6 @@ def main() -> int:
         "--seconds-most", type=float, default=900.0, help="for one run of CBMC (default: %(default)s)"
     )
     parser.add_argument("--afresh", action="store_true", help="prove again what was proven of the same text")
-    parser.add_argument(
-        "--known", action="store_true", help="write what earlier runs proved into docs/proofs.md and prove nothing"
-    )
     parser.add_argument("--list", action="store_true", help="name the claims and prove nothing")
     asked = parser.parse_args()
     proofs = read_proofs()
@@ -227,12 +245,6 @@ def main() -> int:
             print(f"{proof.name:22} {proof.claim}")
         return 0
     tool, version = find_cbmc()
-    if asked.known:
-        found = {proof.name: known(proof, version) for proof in proofs}
-        write_page(proofs, {name: outcome for name, outcome in found.items() if outcome is not None}, version)
-        absent = [name for name, outcome in found.items() if outcome is None]
-        print(f"rows kept as they were, of an earlier text: {', '.join(absent) or 'none'}")
-        return 0
     chosen = [proof for proof in proofs if not asked.only or proof.name in asked.only]
     outcomes = {}
     print(report.HEAD)
@@ -248,8 +260,7 @@ def main() -> int:
     for text in filter(None, map(report.trouble, told)):
         print(text)
     good = sum(outcome.good for outcome in told)
-    if not asked.only:
-        write_page(proofs, outcomes, version)
+    write_page(proofs, outcomes, version)
     print(f"{good} passed, {len(told) - good} failed")
     return 0 if good == len(told) else 1
 
