@@ -8,7 +8,7 @@ from brace.wire.code import Code, CodeTable
 MODE = CodeTable("mode", False, (
     Code(0, "START", "The controller has started and waits for sound samples of its joints."),
     Code(1, "MONITOR", "The controller computes K in every tick; others move the limb."),
-    Code(2, "CONFIGURATION", "Parameters may be written; nothing moves the limb, and K is not told."),
+    Code(2, "CONFIGURATION", "Parameters may be written; nothing moves the limb, and K is not reported."),
     Code(3, "TAKING_UP", "The controller takes up the play of joints, holds it, or lets it go."),
     Code(4, "LOADING_TEST", "The controller runs a loading test."),
     Code(5, "FAULT", "A fault makes every K invalid; the mode ends by itself when the fault is over."),
@@ -133,13 +133,13 @@ CONTACT = CodeTable("contact", False, (
 FAULT = CodeTable("fault", True, (
     Code(0, "SENSOR_FEMUR", "The femur joint's drive gives no sound sample."),
     Code(1, "SENSOR_TIBIA", "The tibia joint's drive gives no sound sample."),
-    Code(2, "ENCODER_STUCK", "A motor's torque works and its angle does not follow, or a joint's sensor tells the same whatever the limb does."),
+    Code(2, "ENCODER_STUCK", "A motor's torque works and its angle does not follow, or a joint's sensor reports the same whatever the limb does."),
     Code(3, "TICK_LATE", "A tick came more than two periods late."),
     Code(4, "PARAMETERS", "Neither slot holds a valid parameter set: the controller uses safe defaults, and K is UNCALIBRATED."),
     Code(5, "STORE", "The non-volatile memory does not keep what is written to it."),
     Code(6, "CAN_BUS_OFF", "The CAN controller has left the bus after too many errors, or does not come onto it."),
-    Code(7, "MODEL_DRIFT", "Measurement and model have drifted apart; drift_cause tells the likeliest cause."),
-    Code(8, "CRASHED", "The last start came after a crash; the record tells more."),
+    Code(7, "MODEL_DRIFT", "Measurement and model have drifted apart; drift_cause names the likeliest cause."),
+    Code(8, "CRASHED", "The last start came after a crash; the record says more."),
     Code(9, "SENSOR_COXA", "The coxa joint's drive gives no sound sample."),
     Code(10, "DRIVE_REFUSES", "A drive has refused its commands for 50 ms; what moved the limb was ended."),
     Code(11, "MEMORY", "Parameters or constants in RAM have changed by themselves; they are taken from the store again."),
@@ -149,7 +149,7 @@ FAULT = CodeTable("fault", True, (
     Code(15, "JUMP_TIBIA", "An encoder of the tibia joint says what cannot be: it has jumped further than the joint can turn, or contradicts the other one."),
 ))
 
-# Quality of a K that is told all the same.
+# Quality of a K that is reported all the same.
 FLAG = CodeTable("flag", True, (
     Code(0, "UNCALIBRATED", "The parameters are defaults, not this limb's."),
     Code(1, "NEAR_SINGULAR", "The stated accuracy is not promised for this limb at this posture."),

@@ -11,7 +11,7 @@ typedef enum {
     BRACE_MODE_START = 0,
     /* The controller computes K in every tick; others move the limb. */
     BRACE_MODE_MONITOR = 1,
-    /* Parameters may be written; nothing moves the limb, and K is not told. */
+    /* Parameters may be written; nothing moves the limb, and K is not reported. */
     BRACE_MODE_CONFIGURATION = 2,
     /* The controller takes up the play of joints, holds it, or lets it go. */
     BRACE_MODE_TAKING_UP = 3,
@@ -87,7 +87,7 @@ enum {
     BRACE_FAULT_SENSOR_FEMUR = 1u << 0,
     /* The tibia joint's drive gives no sound sample. */
     BRACE_FAULT_SENSOR_TIBIA = 1u << 1,
-    /* A motor's torque works and its angle does not follow, or a joint's sensor tells the same whatever the limb
+    /* A motor's torque works and its angle does not follow, or a joint's sensor reports the same whatever the limb
      * does. */
     BRACE_FAULT_ENCODER_STUCK = 1u << 2,
     /* A tick came more than two periods late. */
@@ -98,9 +98,9 @@ enum {
     BRACE_FAULT_STORE = 1u << 5,
     /* The CAN controller has left the bus after too many errors, or does not come onto it. */
     BRACE_FAULT_CAN_BUS_OFF = 1u << 6,
-    /* Measurement and model have drifted apart; drift_cause tells the likeliest cause. */
+    /* Measurement and model have drifted apart; drift_cause names the likeliest cause. */
     BRACE_FAULT_MODEL_DRIFT = 1u << 7,
-    /* The last start came after a crash; the record tells more. */
+    /* The last start came after a crash; the record says more. */
     BRACE_FAULT_CRASHED = 1u << 8,
     /* The coxa joint's drive gives no sound sample. */
     BRACE_FAULT_SENSOR_COXA = 1u << 9,

@@ -110,7 +110,7 @@ typedef struct {
     uint32_t parameter_origin;
     /* the sequence number of the parameter set in force */
     uint32_t parameter_sequence;
-    /* how the last loading test went; a negative number is told as 256 plus it */
+    /* how the last loading test went; a negative number is sent as 256 plus it */
     uint32_t loading_outcome;
     /* how many rows of the last loading test the recorder holds */
     uint32_t loading_rows;
@@ -217,11 +217,11 @@ typedef struct {
     uint32_t drift_readings;
     /* what to do next about a drift */
     uint32_t drift_next_step;
-    /* how the last take-up of the coxa joint went; a negative number is told as 256 plus it */
+    /* how the last take-up of the coxa joint went; a negative number is sent as 256 plus it */
     uint32_t take_up_coxa;
-    /* how the last take-up of the femur joint went; a negative number is told as 256 plus it */
+    /* how the last take-up of the femur joint went; a negative number is sent as 256 plus it */
     uint32_t take_up_femur;
-    /* how the last take-up of the tibia joint went; a negative number is told as 256 plus it */
+    /* how the last take-up of the tibia joint went; a negative number is sent as 256 plus it */
     uint32_t take_up_tibia;
     /* k_xx with neither the force on the tip nor the weight counted, every gap closed */
     float unloaded_k_xx_n_per_mm;
@@ -505,7 +505,7 @@ typedef struct {
     /* the order to hold every set-point where it is: write any value; anybody may */
     uint32_t stop;
     /* the order to store the holding registers' parameters if this is the CRC of the whole set, as parameter_crc
-     * tells it once they are in force */
+     * shows it once they are in force */
     uint32_t commit_crc;
     /* the life sign of the owner, with life_mac in one request, at least every 100 ms while the limb moves:
      * life_number as it has just been read, or begin_number */
