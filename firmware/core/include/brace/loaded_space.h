@@ -30,9 +30,10 @@ void brace_loaded_space_collapse(const brace_limb_t *limb, const brace_gravity_t
  * load: the force is checked; direction and compliances are not.
  * rest: room to work in, and the equilibrium after BRACE_OK.
  * returns BRACE_OK, BRACE_E_RANGE, BRACE_E_NOT_FINITE, or BRACE_E_SINGULAR: four steps do not come near an equilibrium
- *         (they leave more than some 0.025 rad), or come to one far from the commanded posture. The third and the
- *         fourth are taken where two steps leave more than 0.0025 rad.
- * Cost on a Cortex-M4F: 3,100 instructions where two steps are enough, at most 6,300; stack at most 900 bytes. */
+ *         (they leave more than some 0.025 rad), or come to one far from the commanded posture. The third is taken
+ *         where two steps leave more than 0.0025 rad, and the fourth where the third leaves more than that.
+ * Cost on a Cortex-M4F: 3,100 instructions where two steps are enough, 4,900 after three, at most 6,300; stack at most
+ *         900 bytes. */
 brace_status_t brace_loaded_space_settle(const brace_loaded_space_t *loaded, float theta1_rad, float theta2_rad,
                                          const brace_space_load_t *load, brace_space_rest_t *rest);
 
@@ -57,7 +58,7 @@ brace_status_t brace_loaded_space_stiffness(const brace_loaded_space_t *loaded, 
 
 /* Both together in steps, for a controller that cannot spend so much at once. Begin; after BRACE_OK step with the same
  * loaded and work until a step, the ninth at the latest, returns true: the sixth where two steps towards the
- * equilibrium are enough. The same bits come out.
+ * equilibrium are enough, the eighth after three. The same bits come out.
  * No pointer may be null. status (out): as the two calls above. result: written by the last step, on BRACE_OK only.
  * brace_loaded_space_begin returns as brace_loaded_space_settle.
  * Cost on a Cortex-M4F: to begin 140 instructions, a step at most 1,150; stack at most 600 bytes. */

@@ -198,6 +198,7 @@ typedef struct {
     brace_space_curls_t curls; /* of the shape that the limb is bent to */
     brace_space_pose_t drives; /* what it is still driven by there */
     brace_space_pose_t first;  /* the first step of a round */
+    float shrinks_ratio2;      /* square of a round's second step over its first and second */
     float left_rad2;           /* square of what a round of steps leaves */
 } brace_space_settling_t;
 

@@ -123,11 +123,12 @@ static void first_step(brace_space_rest_t *rest, settling_t *settling)
     const commanded_t commanded = {settling->hip, settling->knee};
     brace_space_pose_t step;
     solve_straight(&settling->factors, &settling->drives, &rest->pose, &commanded, &step);
-    const float scale = step_scale(dot_of_poses(&step, &step));
+    const float first2 = dot_of_poses(&step, &step), scale = step_scale(first2);
     static const brace_space_pose_t none;
     settling->first = none;
     add_to_pose(&settling->first, &step, scale);
     add_to_pose(&rest->pose, &settling->first, 1.0f);
+    settling->left_rad2 = first2 * settling->shrinks_ratio2;
 }
 
 /* Prolonged. What both steps leave is about the third of such a series, second^2/first, or the second itself where that
@@ -140,7 +141,15 @@ static void second_step(brace_space_rest_t *rest, settling_t *settling)
     const float first2 = dot_of_poses(&settling->first, &settling->first), second2 = dot_of_poses(&step, &step);
     const float prolonged = over_second_step(dot_of_poses(&step, &settling->first), first2);
     add_to_pose(&rest->pose, &step, prolonged * step_scale(prolonged * prolonged * second2));
-    settling->left_rad2 = second2 * second2 / (first2 + second2 + FLT_MIN);
+    settling->shrinks_ratio2 = second2 / (first2 + second2 + FLT_MIN);
+    settling->left_rad2 = second2 * settling->shrinks_ratio2;
+}
+
+/* A later round's matrix is nearer to the limb's own, so its steps shrink at least as fast as those of the round
+ * before. Where that leaves nothing to go for, its first step is enough. */
+static bool first_is_enough(const settling_t *settling, bool is_first)
+{
+    return !is_first && settling->left_rad2 <= LEFT_SURE_RAD2;
 }
 
 static bool is_within(const brace_space_pose_t *pose)
@@ -198,9 +207,12 @@ static void take_round(const brace_loaded_space_t *loaded, brace_space_rest_t *r
         begin_round_bent(loaded, rest, settling);
     }
     first_step(rest, settling);
-    bend_to(loaded, rest, true, settling);
-    second_step(rest, settling);
-    bend_to(loaded, rest, settling->left_rad2 > LEFT_SURE_RAD2, settling);
+    const bool is_there = first_is_enough(settling, is_first);
+    bend_to(loaded, rest, !is_there, settling);
+    if (!is_there) {
+        second_step(rest, settling);
+        bend_to(loaded, rest, settling->left_rad2 > LEFT_SURE_RAD2, settling);
+    }
 }
 
 static brace_status_t rest_found(const brace_space_rest_t *rest, const settling_t *settling)
@@ -225,7 +237,7 @@ brace_status_t brace_loaded_space_settle(const brace_loaded_space_t *loaded, flo
 
 brace_status_t brace_loaded_space_settle_on(const brace_loaded_space_t *loaded, brace_space_rest_t *rest)
 {
-    settling_t settling;
+    settling_t settling = {.shrinks_ratio2 = 1.0f};
     settling.curls = (curls_t){curl_of(&rest->coxa, rest->pose.coxa), curl_of(&rest->femur, rest->pose.femur)};
     bend_to(loaded, rest, true, &settling);
     int rounds = 0;
@@ -339,7 +351,17 @@ static void work_first_step(const brace_loaded_space_t *loaded, brace_space_work
     work->rounds++;
 }
 
-/* returns whether the work goes on: with another round, or because the limb rests */
+/* returns as work_second_step */
+static bool work_first_bend(const brace_loaded_space_t *loaded, brace_space_work_t *work)
+{
+    settling_t *settling = &work->of.settling;
+    const bool is_there = first_is_enough(settling, work->rounds == 1u);
+    bend_to(loaded, &work->rest, !is_there, settling);
+    work->step = is_there ? ELIMINATE : STEP_SECOND;
+    return !is_there || rest_found(&work->rest, settling) == BRACE_OK;
+}
+
+/* returns whether the work goes on: with another step or round, or because the limb rests */
 static bool work_second_step(const brace_loaded_space_t *loaded, brace_space_work_t *work)
 {
     settling_t *settling = &work->of.settling;
@@ -360,7 +382,7 @@ bool brace_loaded_space_step(const brace_loaded_space_t *loaded, brace_space_wor
     bool goes_on = true;
     switch (work->step++) {
     case STEP_FIRST: work_first_step(loaded, work); break;
-    case BEND_FIRST: bend_to(loaded, rest, true, &work->of.settling); break;
+    case BEND_FIRST: goes_on = work_first_bend(loaded, work); break;
     case STEP_SECOND: goes_on = work_second_step(loaded, work); break;
     case ELIMINATE: goes_on = eliminate_rest(loaded, rest, free); break;
     case SUM_FIRST: sum_first(loaded, rest, free, coxa, sum); break;
