@@ -69,17 +69,6 @@ typedef struct {
 BRACE_REQUESTS(ANSWER_FUNCTION)
 #undef ANSWER_FUNCTION
 
-/* How urgent a request is. */
-typedef enum {
-    ANSWER_STOPS,      /* the limb: obeyed as soon as it is seen, before anything else */
-    ANSWER_OF_SESSION, /* a sign of life, a seal, a command: each in its order, before all questions */
-    ANSWER_QUESTION,
-    ANSWER_UNKNOWN     /* the dictionary has no such request: refused where it is seen */
-} answer_rank_t;
-
-/* asked: looked at where the code alone does not say it. 30 instructions. */
-answer_rank_t answer_rank(uint32_t code, const brace_request_t *asked);
-
 /* May what a request does be done? Its seal stays: a command that is refused may be a stranger's, and one that is let
  * in has used the seal's counter up.
  * returns BRACE_OK, or why not: brace/refusals.h */

@@ -82,8 +82,3 @@ bool can_bus_send(can_bus_t *bus, const wire_tick_t *tick, const brace_can_frame
     }
     return status == BRACE_HAL_OK;
 }
-
-bool can_bus_receive(const can_bus_t *bus, const brace_hal_t *hal, brace_can_frame_t *frame)
-{
-    return bus->is_there && hal->can_receive(hal->context, frame) == 1;
-}

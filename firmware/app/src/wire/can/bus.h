@@ -35,7 +35,10 @@ void can_bus_watch(can_bus_t *bus, const brace_hal_t *hal, uint32_t tick_us);
 /* returns whether the frame has been taken; if not, it may be tried again at the next tick. About 30 instructions. */
 bool can_bus_send(can_bus_t *bus, const wire_tick_t *tick, const brace_can_frame_t *frame);
 
-/* returns whether a frame has come, whoever it is for. About 20 instructions. */
-bool can_bus_receive(const can_bus_t *bus, const brace_hal_t *hal, brace_can_frame_t *frame);
+/* returns whether a frame has come, whoever it is for. Inline, because a burst has 72 of them. */
+static inline bool can_bus_receive(const can_bus_t *bus, const brace_hal_t *hal, brace_can_frame_t *frame)
+{
+    return bus->is_there && hal->can_receive(hal->context, frame) == 1;
+}
 
 #endif

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "brace/can_frames.h"
+#include "wire/answers/rank.h"
 
 #define FRAMES_PER_TICK 72u /* looked at: a ring of 64, and what comes while it is emptied */
 #define LINES_PER_TICK 512u /* the same as text: a board's line carries fewer, a host's TCP connection more */
@@ -128,7 +129,6 @@ static bool sort_frame(can_t *can, way_t way, const wire_tick_t *tick, const bra
 {
     can_requests_t *requests = &port_of(can, way)->requests;
     brace_request_t asked;
-    can->sorted++;
     if (frame->id == can->bus.setup.urgent_id) {
         (void)brace_app_stop(tick->app);
         return true;
@@ -166,9 +166,11 @@ static bool hear_bus(can_t *can, const wire_tick_t *tick)
 {
     brace_can_frame_t frame;
     bool stops = false;
-    for (uint32_t i = 0; i < FRAMES_PER_TICK && can_bus_receive(&can->bus, tick->hal, &frame); i++) {
+    uint32_t count = 0;
+    for (; count < FRAMES_PER_TICK && can_bus_receive(&can->bus, tick->hal, &frame); count++) {
         stops = sort_frame(can, ON_BUS, tick, &frame) || stops;
     }
+    can->sorted = (uint16_t)count;
     return stops;
 }
 
@@ -187,11 +189,13 @@ static bool hear_text(can_t *can, const wire_tick_t *tick)
             break;
         }
         stops = sort_frame(can, AS_TEXT, tick, &frame) || stops;
+        can->sorted++;
     }
     return stops;
 }
 
-/* What belongs to a session is obeyed in its order. What came before a stop begins nothing any more.
+/* What belongs to a session is obeyed in its order. What came before a stop begins nothing any more: the last of it is
+ * stopped again, and so is the last that has its turn in this tick.
  * returns how much it has done (wire.h) */
 static uint32_t obey_session(can_t *can, way_t way, const wire_tick_t *tick, uint32_t most)
 {
@@ -203,7 +207,7 @@ static uint32_t obey_session(can_t *can, way_t way, const wire_tick_t *tick, uin
             return i;
         }
         answer(can, way, tick, data);
-        if (came_before_stop) {
+        if (came_before_stop && (queue->before_stop == 0u || i + 1u == most)) {
             (void)brace_app_stop(tick->app);
         }
     }
@@ -323,7 +327,6 @@ static uint32_t speak(can_t *can, way_t way, const wire_tick_t *tick, uint32_t m
 bool can_hear(can_t *can, const wire_tick_t *tick)
 {
     can->bus_port.requests.refusals_left = can->text_port.requests.refusals_left = REFUSALS_PER_TICK;
-    can->sorted = 0;
     const bool stops_on_bus = hear_bus(can, tick);
     return hear_text(can, tick) || stops_on_bus;
 }

@@ -54,7 +54,7 @@ typedef struct {
 void can_start(can_t *can, const brace_hal_t *hal, const brace_parameters_t *parameters);
 
 /* Before anything else in a tick: looks at all that has come over both ports. A stop is obeyed at once, every other
- * request waits in its queue. At most 72 frames and 512 lines: 100 instructions a frame, 350 a line.
+ * request waits in its queue. At most 72 frames and 512 lines: 75 instructions a frame, 400 a line.
  * returns whether there was a stop */
 bool can_hear(can_t *can, const wire_tick_t *tick);
 

@@ -9,29 +9,6 @@ void can_queue_clear(can_queue_t *queue)
     memset(queue->count, 0, sizeof queue->count);
 }
 
-bool can_queue_put_session(can_queue_t *queue, const uint8_t data[CAN_REQUEST_BYTES])
-{
-    if (queue->session_count == (uint32_t)CAN_SESSION_ROOM) {
-        return false;
-    }
-    const uint32_t place = ((uint32_t)queue->session_first + queue->session_count) % (uint32_t)CAN_SESSION_ROOM;
-    memcpy(queue->session[place], data, CAN_REQUEST_BYTES);
-    queue->session_count++;
-    return true;
-}
-
-bool can_queue_put_question(can_queue_t *queue, const uint8_t data[CAN_REQUEST_BYTES])
-{
-    const uint32_t master = can_master_of(data[1]);
-    if (queue->count[master] == (uint32_t)CAN_QUESTIONS_EACH) {
-        return false;
-    }
-    const uint32_t place = ((uint32_t)queue->first[master] + queue->count[master]) % (uint32_t)CAN_QUESTIONS_EACH;
-    memcpy(queue->question[master][place], data, CAN_REQUEST_BYTES);
-    queue->count[master]++;
-    return true;
-}
-
 const uint8_t *can_queue_take_session(can_queue_t *queue, bool *came_before_stop)
 {
     if (queue->session_count == 0u) {

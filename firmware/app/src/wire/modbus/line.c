@@ -110,19 +110,35 @@ static bool begins_with_stop(const modbus_server_t *server, const uint8_t *bytes
            modbus_crc(MODBUS_CRC_START, bytes, whole) == 0u;
 }
 
+/* Has one of these four bytes the value? It is zero after the exclusive or, and a subtraction borrows at the lowest
+ * zero byte first: so none is missed, and none is found where there is none. */
+static bool has_byte(const uint8_t *bytes, uint8_t value)
+{
+    uint32_t word;
+    memcpy(&word, bytes, sizeof word);
+    word ^= 0x01010101u * value;
+    return ((word - 0x01010101u) & ~word & 0x80808080u) != 0u;
+}
+
 /* Looks for a stop in bytes that have come, from the first one on that may still begin one. Up to 260 bytes come at
- * once, so one byte of a request's register decides whether more is looked at: 5 instructions for each byte.
+ * once, so one byte of a request's register decides whether more is looked at, and for four places together:
+ * 10 instructions.
  *   looked (in, out): bytes that can begin none any more
  * returns whether there is one: it is obeyed */
 static bool obey_stop(const modbus_server_t *server, const wire_tick_t *tick, const uint8_t *bytes, uint32_t count,
                       uint16_t *looked)
 {
-    const uint8_t *end = bytes + count - (count < (uint32_t)STOP_LEAST ? count : (uint32_t)STOP_LEAST - 1u);
-    for (const uint8_t *at = bytes + *looked; at < end; at++) { /* at most 253 times */
-        if (at[REGISTER_AT] == STOP_REGISTER_HIGH && begins_with_stop(server, at, count - (uint32_t)(at - bytes))) {
-            (void)brace_app_stop(tick->app);
-            *looked = (uint16_t)(at - bytes + 1);
-            return true;
+    const uint32_t end = count < (uint32_t)STOP_LEAST ? 0u : count - (uint32_t)STOP_LEAST + 1u;
+    for (uint32_t from = *looked; from < end; from += 4u) { /* at most 64 times */
+        const uint32_t to = !has_byte(bytes + from + REGISTER_AT, STOP_REGISTER_HIGH) ? from
+                            : end - from < 4u                                         ? end
+                                                                                      : from + 4u;
+        for (uint32_t at = from; at < to; at++) { /* at most 4 times */
+            if (bytes[at + REGISTER_AT] == STOP_REGISTER_HIGH && begins_with_stop(server, bytes + at, count - at)) {
+                (void)brace_app_stop(tick->app);
+                *looked = (uint16_t)(at + 1u);
+                return true;
+            }
         }
     }
     const uint32_t past = count > (uint32_t)STOP_MOST - 1u ? count - ((uint32_t)STOP_MOST - 1u) : 0u;

@@ -4,6 +4,7 @@
 #define BRACE_WIRE_MODBUS_PDU_H
 
 #include "wire/answers/answer.h"
+#include "wire/answers/rank.h"
 #include "wire/modbus/protocol.h"
 #include "wire/modbus/server.h"
 #include "wire/wire.h"
