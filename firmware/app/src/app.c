@@ -498,13 +498,16 @@ static bool work(brace_app_t *app, const brace_snapshot_t *now, uint32_t told)
     return softens;
 }
 
-/* Watches sensors and memory. A tick in which a job has worked skips the sensors and looks over less memory. That
- * delays little, because the proof of a stuck sensor takes a quarter of a second anyway. Where masters ask in every
- * tick of a limb in space, a job has work in every tick; after UNWATCHED_MOST of them none works. */
-static void step_watches(controller_t *controller, bool has_worked)
+/* Watches sensors and memory. A tick in which a job has worked, or which is full, skips the sensors; where a job has
+ * worked less memory is looked over, too. That delays little, because the proof of a stuck sensor takes a quarter of a
+ * second anyway. After UNWATCHED_MOST such ticks in a row none is full, and of a limb in space no job works, which has
+ * work in every tick where masters ask. */
+static void step_watches(controller_t *controller, bool has_worked, uint32_t told)
 {
-    controller->ticks_unwatched += has_worked;
-    if (!has_worked) {
+    const bool is_full = told > TOLD_FULL && controller->ticks_unwatched < UNWATCHED_MOST;
+    const bool waits = has_worked || is_full;
+    controller->ticks_unwatched += waits;
+    if (!waits) {
         controller->ticks_unwatched = 0;
         watch_sensors(controller);
     }
@@ -625,7 +628,7 @@ void brace_app_tick(brace_app_t *app, uint32_t now_us)
     part_is_done(controller, PART_TOLD);
     const bool has_worked = work(app, snapshot, told);
     part_is_done(controller, PART_WORKED);
-    step_watches(controller, has_worked);
+    step_watches(controller, has_worked, told);
     part_is_done(controller, PART_GUARDED);
 
     /* A tick that left a part out, or did one twice, feeds no watchdog. */

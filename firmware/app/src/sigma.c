@@ -33,18 +33,19 @@ static bool load_counts(const controller_t *controller, const brace_snapshot_t *
 }
 
 /* K's inputs if one joint's load were larger, and smaller: by as much as it may be off now, or as it may soon be. The
- * deflections that the model keeps between ticks are left unchanged. */
-static void take_other_load(controller_t *controller, const brace_snapshot_t *now, int index, sigma_load_t *other)
+ * deflection that the model keeps between ticks is left unchanged.
+ *   springs: at the loads of now */
+static void take_other_load(const controller_t *controller, const brace_snapshot_t *now, int index,
+                            const brace_loaded_joint_t springs[BRACE_LINK_COUNT], sigma_load_t *other)
 {
     const brace_parameters_t *parameters = &controller->parameters.in_force;
+    const model_t *model = &controller->model;
     const brace_vec3_t tip_n = {now->load.force_x_n, now->load.force_y_n, now->load.force_z_n};
     const float off_n_mm = __builtin_fabsf(load_off_n_mm(controller, index));
     const float least_n_mm = LEAST_LOAD_RATIO * parameters->drive[index].torque_range_n_mm;
-    float load_n_mm[BRACE_LINK_COUNT], temp_degc[BRACE_LINK_COUNT], deflection_rad[BRACE_LINK_COUNT];
-    model_t *model = &controller->model;
+    float load_n_mm[BRACE_LINK_COUNT], temp_degc[BRACE_LINK_COUNT];
     for (int i = 0; i < BRACE_LINK_COUNT; i++) {
         load_n_mm[i] = controller->flank.joint[i].out.load_n_mm;
-        deflection_rad[i] = model->deflection_rad[i];
     }
     const float told_n_mm = load_n_mm[index];
     const brace_vec3_t before = tip_load_n(controller, load_n_mm);
@@ -55,11 +56,13 @@ static void take_other_load(controller_t *controller, const brace_snapshot_t *no
         const brace_vec3_t after = tip_load_n(controller, load_n_mm);
         other->tip_n[side] = (brace_vec3_t){tip_n.x + (after.x - before.x), tip_n.y + (after.y - before.y),
                                             tip_n.z + (after.z - before.z)};
-        model_springs(model, parameters, load_n_mm, temp_degc, other->spring[side]);
-        stiffness_hold_measured_joints(&controller->posture, other->spring[side]);
         for (int i = 0; i < BRACE_LINK_COUNT; i++) {
-            model->deflection_rad[i] = deflection_rad[i];
+            other->spring[side][i] = springs[i];
         }
+        float deflection_rad = model->deflection_rad[index];
+        other->spring[side][index] =
+            model_spring(model, parameters, index, load_n_mm[index], temp_degc[index], &deflection_rad);
+        stiffness_hold_measured_joints(&controller->posture, other->spring[side]);
     }
 }
 
@@ -94,7 +97,7 @@ static void take_inputs(controller_t *controller, const brace_snapshot_t *now, s
         k->angle_sigma_rad[i] = angle_sigma_rad(controller, i);
         inputs->load[i].counts = load_counts(controller, now, i);
         if (inputs->load[i].counts) {
-            take_other_load(controller, now, i, &inputs->load[i]);
+            take_other_load(controller, now, i, k->spring, &inputs->load[i]);
         }
     }
 }

@@ -119,16 +119,20 @@ void model_springs_at_rest(const brace_parameters_t *parameters, const float tem
     }
 }
 
+brace_loaded_joint_t model_spring(const model_t *model, const brace_parameters_t *parameters, int index,
+                                  float load_n_mm, float temp_degc, float *deflection_rad)
+{
+    return model->springs_change
+               ? hardened_spring(deflection_rad, parameters->drive[index].hardening_n_mm_per_rad3, load_n_mm,
+                                 spring_at_rest(parameters, index, temp_degc))
+               : linear(parameters->limb.joint[index].compliance_rad_per_n_mm);
+}
+
 void model_springs(model_t *model, const brace_parameters_t *parameters, const float load_n_mm[BRACE_LINK_COUNT],
                    const float temp_degc[BRACE_LINK_COUNT], brace_loaded_joint_t springs[BRACE_LINK_COUNT])
 {
     for (int i = 0; i < BRACE_LINK_COUNT; i++) {
-        springs[i] = linear(parameters->limb.joint[i].compliance_rad_per_n_mm);
-        if (model->springs_change) {
-            springs[i] =
-                hardened_spring(&model->deflection_rad[i], parameters->drive[i].hardening_n_mm_per_rad3, load_n_mm[i],
-                                spring_at_rest(parameters, i, temp_degc[i]));
-        }
+        springs[i] = model_spring(model, parameters, i, load_n_mm[i], temp_degc[i], &model->deflection_rad[i]);
     }
 }
 

@@ -55,6 +55,11 @@ void model_configure_loaded(model_t *model, const brace_limb_t *limb, const brac
 void model_springs(model_t *model, const brace_parameters_t *parameters, const float load_n_mm[BRACE_LINK_COUNT],
                    const float temp_degc[BRACE_LINK_COUNT], brace_loaded_joint_t springs[BRACE_LINK_COUNT]);
 
+/* The same of one joint.
+ *   deflection_rad (in, out): the spring's, from which it is followed to this load */
+brace_loaded_joint_t model_spring(const model_t *model, const brace_parameters_t *parameters, int index,
+                                  float load_n_mm, float temp_degc, float *deflection_rad);
+
 /* The same at no load. */
 void model_springs_at_rest(const brace_parameters_t *parameters, const float temp_degc[BRACE_LINK_COUNT],
                            brace_loaded_joint_t springs[BRACE_LINK_COUNT]);
