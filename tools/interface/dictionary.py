@@ -214,9 +214,9 @@ def _check(entry: Entry) -> None:
 
     if entry.type not in ("f32", "u32"):
         raise refuse(f"type {entry.type}")
-    # A whole number may count what its own name says.
+    # A whole number without a unit may count what its own name says.
     leaf = entry.key.rpartition(".")[2]
-    if fault := unit_fault(entry.unit) or (name_fault(leaf, entry.unit) if entry.type == "f32" else ""):
+    if fault := unit_fault(entry.unit) or (name_fault(leaf, entry.unit) if entry.type == "f32" or entry.unit else ""):
         raise refuse(fault)
     if entry.type == "f32" and (entry.texts or entry.numbers):
         raise refuse("choices are for u32")
