@@ -49,7 +49,7 @@ def diagnose(case: Path, out: Path, seed: int = 0, report: bool = True) -> dict[
     from brace.diagnose.one import diagnosed, load
     from brace.diagnose.options import Options
     from brace.diagnose.write import write
-    from brace.errors import BraceError
+    from brace.ground.errors import BraceError
 
     out.mkdir(parents=True, exist_ok=True)
     note: dict[str, Any] = {"report": report}

@@ -16,7 +16,7 @@ from brace.bus.modbus_controller import ModbusController
 from brace.bus.ownership import entry_of
 from brace.bus.session import Session
 from brace.bus.url import parse
-from brace.errors import DeviceFaultError
+from brace.ground.errors import DeviceFaultError
 from brace.wire.codes import SETTING
 from brace.wire.frames import ANSWERS, REQUESTS
 
@@ -203,7 +203,7 @@ class Scripted:
 
 
 def test_the_answer_to_a_seal_is_not_the_answer_to_its_command() -> None:
-    from brace.errors import NoDeviceError
+    from brace.ground.errors import NoDeviceError
 
     bus = Scripted()
     session = Session(bus, 1, KEY)  # type: ignore[arg-type]

@@ -17,7 +17,7 @@ from test_commanding import DONE, RUNNING, SPEED, UP, acts, with_play  # noqa: F
 from brace.bus.modbus_controller import ModbusController
 from brace.bus.ownership import register_of
 from brace.bus.url import parse
-from brace.errors import NoDeviceError
+from brace.ground.errors import NoDeviceError
 from brace.wire.registers import REGISTERS
 
 SILENT, BIT_RATE, WRITE = 7, 8, 16

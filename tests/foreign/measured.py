@@ -83,7 +83,7 @@ class LeftOut:
 def _predicted(part: dict[str, Array], limb: Path, work: Path) -> Array:
     """`brace predict` of some rows, averaged as the points are. Nothing where it refuses."""
     from brace.dataset import load_dataset
-    from brace.errors import BraceError
+    from brace.ground.errors import BraceError
     from brace.model import load_limb
     from brace.predict import predict
 

@@ -131,17 +131,16 @@ def test_the_debian_package_has_the_pages_that_messages_name(tmp_path: Path, mon
     pytest.importorskip("argparse_manpage")
     from release.debian import _documents
 
-    from brace import pages
-    from brace.errors import UsageError
+    from brace.ground import errors
 
     folder = tmp_path / "share" / "doc" / "brace"
     _documents(HERE, folder)
     named = {name for path in (PROJECT / "tools" / "brace").rglob("*.py")
              for name in re.findall(r"docs/([a-z-]+\.md)", path.read_text())}  # fmt: skip
     assert "errors.md" in named and named <= {path.name for path in (folder / "docs").iterdir()}
-    error = UsageError("what", next_step="docs/errors.md and docs/security.md say why")
+    error = errors.UsageError("what", next_step="docs/errors.md and docs/security.md say why")
     assert error.render().endswith("try: docs/errors.md and docs/security.md say why")  # in the project
-    monkeypatch.setattr(pages, "_INSTALLED", folder / "docs")
+    monkeypatch.setattr(errors, "_INSTALLED", folder / "docs")
     assert error.render().endswith(f"try: {folder}/docs/errors.md and {folder}/docs/security.md say why")
 
 

@@ -11,7 +11,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from brace import one_thread  # noqa: F401  before numpy is loaded
+from brace.ground import one_thread  # noqa: F401  before numpy is loaded
 import numpy as np
 import pytest
 

@@ -293,7 +293,7 @@ def test_another_dictionary_in_a_log_is_6(brace: Callable[..., Outcome], tmp_pat
 
 def test_a_session_over_a_log_asks_nobody(tmp_path: Path) -> None:
     from brace.bus.log import LogBus
-    from brace.errors import UsageError
+    from brace.ground.errors import UsageError
 
     path = tmp_path / "a.log"
     path.write_text("(1.0) can0 701#05010000DDCCBBAA\n")

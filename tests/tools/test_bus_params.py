@@ -22,7 +22,7 @@ from brace.bus.open import open_bus
 from brace.bus.push import push
 from brace.bus.session import Session
 from brace.bus.url import parse
-from brace.errors import DeviceFaultError, NoDeviceError, NotVerifiedError
+from brace.ground.errors import DeviceFaultError, NoDeviceError, NotVerifiedError
 from brace.model import load_limb
 from brace.params import Block, pack
 

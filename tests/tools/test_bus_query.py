@@ -21,7 +21,7 @@ from test_sim_command import FREE, running
 
 from brace.bus.modbus_controller import ModbusController
 from brace.bus.url import parse
-from brace.errors import NoDeviceError, UsageError
+from brace.ground.errors import NoDeviceError, UsageError
 from brace.model import load_limb
 from brace.native.loaded import under_force
 from brace.wire.frames import ANSWERS, DICTIONARY_HASH, MESSAGES

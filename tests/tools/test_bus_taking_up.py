@@ -19,7 +19,7 @@ from brace.bus import stopping, taking_up
 from brace.bus.open import DEFAULT_BIT_RATE, open_bus
 from brace.bus.taking_up import Flank, let_go, take_up
 from brace.bus.url import parse
-from brace.errors import DeviceFaultError, NoDeviceError
+from brace.ground.errors import DeviceFaultError, NoDeviceError
 from brace.wire.codes import MODE
 
 WIRES = ("can", "modbus_tcp")

@@ -247,7 +247,7 @@ def test_little_is_imported_before_ctrl_c_is_caught() -> None:
     code = "import sys; before = set(sys.modules); import brace.cli; print(sorted(set(sys.modules) - before))"
     loaded = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
     assert not set(re.findall(r"'([\w.]+)'", loaded)) & {"argparse", "re", "numpy", "collections.abc",
-                                                         "brace.errors"}, loaded
+                                                         "brace.ground.errors"}, loaded
 
 
 def test_ctrl_c_while_the_command_is_being_imported(tmp_path: Path) -> None:

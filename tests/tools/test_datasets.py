@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from brace.dataset import Dataset, load_dataset
-from brace.errors import BadFileError
+from brace.ground.errors import BadFileError
 from conftest import LOADING_HEADER, LOADING_META, Outcome, loading_rows, write_loading
 
 

@@ -7,8 +7,8 @@ import re
 
 import pytest
 
-from brace import errors
 from brace.bus import refusal
+from brace.ground import errors
 from conftest import PROJECT
 
 FIRMWARE = PROJECT / "firmware"

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from brace.bus.entries import index_of
-from brace.errors import VersionMismatchError
+from brace.ground.errors import VersionMismatchError
 from brace.model import load_limb
 from brace.params import pack
 from brace.params.block import unpack

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from brace.errors import BadFileError
+from brace.ground.errors import BadFileError
 from brace.model import LIMB_KEYS, load_limb
 from conftest import LIMB, Outcome
 

@@ -16,7 +16,7 @@ from brace.bus.open import open_bus
 from brace.bus.slcan import SlcanBus
 from brace.bus.url import parse
 from brace.bus.watch import RATE_S, Watch
-from brace.errors import NoDeviceError
+from brace.ground.errors import NoDeviceError
 from brace.live.feed import Feed
 from brace.live.server import UPDATES_PER_S
 from brace.live.thinning import thinned

@@ -19,12 +19,12 @@ from test_sim_command import FREE, running
 
 from brace.bus.sigma import sigma_of
 from brace.bus.snapshot import Heartbeat, Snapshot
-from brace.bus.watch import NodeState
 from brace.bus.url import parse
+from brace.bus.watch import NodeState
+from brace.ground.errors import NoDeviceError
 from brace.live.card import Card, card_from, card_of
 from brace.live.feed import Feed
 from brace.live.limb_view import LimbNumbers, LimbWords, limb_numbers, limb_words
-from brace.errors import NoDeviceError
 from brace.model import LimbModel, load_limb
 from brace.stiffness import planar_limb
 

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from brace.dataset import load_dataset
-from brace.errors import BadFileError
+from brace.ground.errors import BadFileError
 from conftest import LIMB, LOADING_HEADER, LOADING_META, Outcome, loading_rows, write_loading
 
 Rows = list[list[str]]

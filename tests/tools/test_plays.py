@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from conftest import DATA
 
-from brace.errors import BraceError
+from brace.ground.errors import BraceError
 from brace.model import load_limb
 from brace.native.plant_batch import LoadingBatchPlayer, model_numbers, number_index
 

@@ -11,7 +11,7 @@ import pytest
 from conftest import DATA, physics_k
 
 from brace.cli.sim_values import fault
-from brace.errors import BadFileError
+from brace.ground.errors import BadFileError
 from brace.model import LimbModel, load_limb
 from brace.native.loaded import under_force
 from brace.sim.node import MODES, LimbSetup, Node

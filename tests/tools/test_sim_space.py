@@ -9,7 +9,7 @@ import pytest
 from conftest import DATA
 
 from brace.cli.sim_values import fault
-from brace.errors import UsageError
+from brace.ground.errors import UsageError
 from brace.model import LimbModel, load_limb
 from brace.native import loaded
 from brace.sim.node import LimbSetup, Node

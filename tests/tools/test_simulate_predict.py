@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from brace.dataset import load_dataset
-from brace.files import OutputSet
+from brace.ground.files import OutputSet
 from conftest import LIMB, LOADING_META, Outcome, loading_rows, physics_k, write_loading
 
 RIG = """format = 1

@@ -11,10 +11,10 @@ from pathlib import Path
 
 import numpy as np
 
-from brace.errors import BadFileError, did_you_mean
-from brace.files import DATA_LIMIT_BYTES, read_bytes
-from brace.limits import FORCE_MOST_N
-from brace.slips import slip
+from brace.ground.errors import BadFileError, did_you_mean
+from brace.ground.files import DATA_LIMIT_BYTES, read_bytes
+from brace.ground.slips import slip
+from brace.ground.units import FORCE_MOST_N
 
 WHAT = "table of postures"
 _SLACK_RAD = 1e-5

@@ -9,7 +9,7 @@ import numpy as np
 
 from brace.dataset import DataFault, Dataset
 from brace.dataset.zeroing import zeroed
-from brace.errors import UsageError
+from brace.ground.errors import UsageError
 from brace.model import LimbModel
 from brace.tables import table_poses
 
@@ -119,7 +119,7 @@ def _predict_table(dataset: Dataset, model: LimbModel, knee: str, tip_height_mm:
     try:
         k = limb.stiffness(angles[:, 0], angles[:, 1])
     except PostureError as error:
-        from brace.errors import BadFileError
+        from brace.ground.errors import BadFileError
 
         raise BadFileError(
             "the posture of this row is refused",

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from brace import toml
-from brace.errors import BadFileError
+from brace.ground.errors import BadFileError
 from brace.model import LimbModel
 from brace.toml import Key
 

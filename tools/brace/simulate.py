@@ -10,7 +10,7 @@ import numpy as np
 
 from brace import toml
 from brace.dataset import Dataset
-from brace.errors import UsageError
+from brace.ground.errors import UsageError
 from brace.model import LimbModel
 from brace.native.plant import play_rig
 from brace.rig import Rig

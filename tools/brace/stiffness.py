@@ -8,7 +8,7 @@ from typing import overload
 
 import numpy as np
 
-from brace.errors import BadFileError, UsageError
+from brace.ground.errors import BadFileError, UsageError
 from brace.model import LimbModel
 from brace.native import Library, library
 from brace.native.c_data import CData

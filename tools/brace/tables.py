@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from brace.dataset import Dataset
-from brace.errors import BadFileError
+from brace.ground.errors import BadFileError
 from brace.model import LimbModel
 
 REACH_SLACK_MM = 1e-6

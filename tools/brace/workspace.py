@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from brace.errors import UsageError
+from brace.ground.errors import UsageError
 from brace.model import LimbModel
 from brace.native import library
 from brace.native.limb import firmware_limb, refused_limb

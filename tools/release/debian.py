@@ -80,7 +80,7 @@ def package(source: Source, wheel: Path, work: Path, cache: Path, dist: Path) ->
 
 
 def _documents(source: Source, folder: Path) -> None:
-    """What a person reads. brace/pages.py says in messages where the pages lie."""
+    """What a person reads. brace/ground/errors.py says in messages where the pages lie."""
     _write(folder / "copyright", COPYRIGHT)
     _compressed(_write(folder / "changelog", (source.folder / "CHANGELOG.md").read_text()))
     shutil.copytree(source.folder / "examples", folder / "examples")

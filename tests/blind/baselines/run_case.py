@@ -51,7 +51,7 @@ def job(job: tuple[str, str, str]) -> str:
 def answers(root: Path, keep: Path, name: str) -> dict[str, Any]:
     """`naming`: per method what a diagnosis.json would hold; `after_n`: per method the gap left [N], where there is a
     visible one; `seconds` for all of them. A refused record leaves `refused`."""
-    from brace.errors import BadFileError
+    from brace.ground.errors import BadFileError
 
     begun = time.perf_counter()
     out: dict[str, Any] = {"naming": {}, "after_n": {}}

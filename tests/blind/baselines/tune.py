@@ -60,7 +60,7 @@ def _counts(truth: dict[str, Any]) -> bool:
 def _read(
     root: Path, keep: Path, names: list[str]
 ) -> tuple[list[tuple[dict[str, Any], Signatures]], list[Discrepancy]]:
-    from brace.errors import BadFileError
+    from brace.ground.errors import BadFileError
 
     keep.mkdir(parents=True, exist_ok=True)
     named, gaps = [], []

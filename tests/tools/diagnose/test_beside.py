@@ -18,7 +18,7 @@ from brace.diagnose.loading import outcome
 from brace.diagnose.one import diagnosed, load
 from brace.diagnose.options import Options
 from brace.diagnose.report import pictures
-from brace.errors import UsageError
+from brace.ground.errors import UsageError
 from brace.plots import figure
 
 

@@ -17,7 +17,7 @@ from handmade import FAULT, GAP_KEY, by_hand, loading_record
 
 from brace.diagnose import one
 from brace.diagnose.diagnosis import Diagnosis
-from brace.errors import BadFileError
+from brace.ground.errors import BadFileError
 from brace.model import load_limb
 
 FILES = ("diagnosis.json", "limb.toml", "report.html")

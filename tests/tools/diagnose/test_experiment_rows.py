@@ -9,8 +9,8 @@ import pytest
 
 from brace.dataset import Dataset, load_dataset
 from brace.dataset.write import write_dataset
+from brace.ground.errors import BraceError
 from brace.identify.record import NOT_MEASURED, load_record
-from brace.errors import BraceError
 from brace.model import LimbModel, load_limb
 from brace.native.plant_batch import model_numbers, number_index
 from brace.rig import load_rig

@@ -21,7 +21,7 @@ from brace.diagnose.joint_test.terms import effects_of
 from brace.diagnose.options import Options
 from brace.diagnose.run import diagnose
 from brace.effects import JointTestBench
-from brace.errors import BadFileError
+from brace.ground.errors import BadFileError
 from brace.identify.swing import ramps
 from brace.model import load_limb
 

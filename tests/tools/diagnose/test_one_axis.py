@@ -17,7 +17,7 @@ from brace.dataset import load_dataset
 from brace.diagnose.diagnosis import Diagnosis
 from brace.diagnose.options import Options
 from brace.diagnose.run import diagnose
-from brace.errors import BadFileError
+from brace.ground.errors import BadFileError
 from brace.model import load_limb
 
 Row = dict[str, str]

@@ -12,7 +12,7 @@ from brace.dataset import load_dataset
 from brace.diagnose.diagnosis import Diagnosis
 from brace.diagnose.options import Options
 from brace.diagnose.run import diagnose
-from brace.errors import BadFileError
+from brace.ground.errors import BadFileError
 from brace.model import LimbModel, load_limb
 from brace.native.plant import reference_planar
 

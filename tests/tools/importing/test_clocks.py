@@ -11,8 +11,8 @@ from conftest import Outcome
 from foreign_files import POSES_DEG, Record, shown, text
 
 from brace.dataset import load_dataset
+from brace.ground.units import unit_of
 from brace.importing import numerals
-from brace.units import unit_of
 
 Brace = Callable[..., Outcome]
 

@@ -6,9 +6,9 @@ import math
 
 import pytest
 
+from brace.ground.units import unit_of
 from brace.importing import names, numerals
 from brace.importing.meaning import target_of
-from brace.units import unit_of
 
 
 @pytest.mark.parametrize(

@@ -26,7 +26,7 @@ from brace.bus.session import Session
 from brace.bus.sigma import SIGMA_ENTRIES, SPACE_ENTRIES, Sigma, sigma_of
 from brace.bus.snapshot import Snapshot
 from brace.bus.space import SpaceAnswer, space_answer
-from brace.errors import DeviceFaultError, NoDeviceError, NotVerifiedError, VersionMismatchError
+from brace.ground.errors import DeviceFaultError, NoDeviceError, NotVerifiedError, VersionMismatchError
 from brace.wire.codes import FAULT, FLAG, MODE, PARAMETER_ORIGIN
 from brace.wire.layout import Value
 

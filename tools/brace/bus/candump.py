@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import BinaryIO
 
 from brace.bus.frame import Frame
-from brace.errors import BadFileError
+from brace.ground.errors import BadFileError
 
 _LINE = re.compile(
     r"\((\d+\.\d+)\)\s+(\S+)\s+([0-9A-Fa-f]{3})"

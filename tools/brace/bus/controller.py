@@ -12,7 +12,7 @@ from brace.bus.load import Load
 from brace.bus.sigma import Sigma
 from brace.bus.snapshot import Snapshot
 from brace.bus.space import SpaceAnswer
-from brace.errors import VersionMismatchError
+from brace.ground.errors import VersionMismatchError
 from brace.wire.frames import DICTIONARY_HASH
 from brace.wire.layout import Value
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import struct
 
-from brace.errors import UsageError, did_you_mean
+from brace.ground.errors import UsageError, did_you_mean
 from brace.wire.measured import MEASURED
 from brace.wire.names import PARAMETERS
 

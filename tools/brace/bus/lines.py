@@ -9,7 +9,7 @@ from typing import Any
 
 from brace.bus.slcan import CONNECT_S, SEND_S
 from brace.bus.url import BusUrl
-from brace.errors import NoDeviceError
+from brace.ground.errors import NoDeviceError
 
 _CHUNK = 65536
 

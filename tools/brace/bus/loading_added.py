@@ -8,8 +8,8 @@ from pathlib import Path
 from brace.bus.loading_rows import PRELOADS
 from brace.bus.loading_test import COLUMNS
 from brace.dataset.columns import LOADING
-from brace.errors import UsageError
-from brace.files import DATA_LIMIT_BYTES, read_text
+from brace.ground.errors import UsageError
+from brace.ground.files import DATA_LIMIT_BYTES, read_text
 
 TOLD = (*(column.name for column in LOADING[: len(COLUMNS)]), *PRELOADS)
 _NEWEST = ("step_mm", "dwell_s")  # of [rig]: the newest test's

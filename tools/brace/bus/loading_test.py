@@ -12,7 +12,7 @@ from brace.bus.entries import number_of
 from brace.bus.ownership import entry_of
 from brace.bus.session import Session
 from brace.dataset.columns import LOADING
-from brace.errors import DeviceFaultError, NoDeviceError
+from brace.ground.errors import DeviceFaultError, NoDeviceError
 from brace.wire.codes import LOADING_OUTCOME, MODE
 
 POLL_S = 0.2

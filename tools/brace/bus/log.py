@@ -9,7 +9,7 @@ from typing import BinaryIO, Protocol
 
 from brace.bus import candump
 from brace.bus.frame import EndOfLog, Frame
-from brace.errors import BadFileError, UsageError
+from brace.ground.errors import BadFileError, UsageError
 
 ENDINGS = (".log", ".mcap")
 _AT_ONCE_MOST = 500

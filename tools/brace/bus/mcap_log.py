@@ -11,7 +11,7 @@ from typing import Any, BinaryIO
 
 from brace.bus.frame import Frame
 from brace.bus.snapshot import Joiner
-from brace.errors import BadFileError, MissingLibraryError
+from brace.ground.errors import BadFileError, MissingLibraryError
 
 TOPIC = "/can"
 _FRAME_SCHEMA = {

@@ -44,7 +44,7 @@ from brace.bus.sigma import Sigma, sigma_of
 from brace.bus.snapshot import Snapshot
 from brace.bus.space import SpaceAnswer, SpaceSnapshot, space_answer, space_snapshot
 from brace.bus.url import BusUrl
-from brace.errors import BraceError, DeviceFaultError, NoDeviceError
+from brace.ground.errors import BraceError, DeviceFaultError, NoDeviceError
 from brace.wire.codes import FLAG
 from brace.wire.layout import Value
 from brace.wire.names import PARAMETERS

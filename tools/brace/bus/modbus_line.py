@@ -11,7 +11,7 @@ from itertools import cycle
 from typing import TYPE_CHECKING
 
 from brace.bus.url import BusUrl
-from brace.errors import MissingLibraryError, NoDeviceError
+from brace.ground.errors import MissingLibraryError, NoDeviceError
 
 if TYPE_CHECKING:
     from pymodbus.client.base import ModbusBaseSyncClient

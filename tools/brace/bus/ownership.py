@@ -8,7 +8,7 @@ import time
 from pathlib import Path
 
 from brace.bus.siphash import KEY_BYTES, siphash
-from brace.errors import DeviceFaultError, UsageError
+from brace.ground.errors import DeviceFaultError, UsageError
 from brace.wire.codes import SETTING
 from brace.wire.registers import REGISTERS
 

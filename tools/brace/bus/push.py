@@ -6,7 +6,7 @@ import contextlib
 from collections.abc import Iterator
 
 from brace.bus.controller import Advance, Controller, Stored
-from brace.errors import BraceError, NotVerifiedError
+from brace.ground.errors import BraceError, NotVerifiedError
 from brace.params import Block, differences
 
 

@@ -10,8 +10,8 @@ from typing import BinaryIO
 
 from brace.bus.frame import Frame
 from brace.bus.log import ENDINGS, Writer, writer
-from brace.errors import UsageError
-from brace.files import checked_destination
+from brace.ground.errors import UsageError
+from brace.ground.files import checked_destination
 
 FLUSH_S = 0.5
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from brace.errors import BraceError, DeviceFaultError, UsageError
+from brace.ground.errors import BraceError, DeviceFaultError, UsageError
 
 _STATUS = {  # brace_status_t: what, and whether the question was at fault
     -2: ("a value that is not finite", True),

@@ -14,7 +14,7 @@ from brace.bus.frame import NODE_MASK, Bus, EndOfLog, Frame
 from brace.bus.ownership import BEGIN_S, COMMANDS, EARLY, LATE, LIFE_S, UNKNOWN, Owner, Reopening, entry_of
 from brace.bus.refusal import BUSY, ORDER, error_of
 from brace.bus.snapshot import Heartbeat, Joiner, Snapshot, heartbeat_of
-from brace.errors import DeviceFaultError, NoDeviceError, UsageError
+from brace.ground.errors import DeviceFaultError, NoDeviceError, UsageError
 from brace.wire.frames import (
     ANSWER_ID,
     ANSWERS,

@@ -16,7 +16,7 @@ from typing import Protocol
 
 from brace.bus.frame import Frame
 from brace.bus.url import BusUrl
-from brace.errors import NoDeviceError, UsageError
+from brace.ground.errors import NoDeviceError, UsageError
 from brace.wire.names import PARAMETERS
 
 BIT_RATES = {10000: 0, 20000: 1, 50000: 2, 100000: 3, 125000: 4, 250000: 5, 500000: 6, 800000: 7, 1000000: 8}

@@ -11,7 +11,7 @@ from typing import Any
 
 from brace.bus.frame import Frame
 from brace.bus.url import BusUrl
-from brace.errors import MissingLibraryError, NoDeviceError
+from brace.ground.errors import MissingLibraryError, NoDeviceError
 
 SEND_S = 1.0
 SKIPPED_MOST = 4096  # frames of other kinds that one call passes over

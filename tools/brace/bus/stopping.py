@@ -10,7 +10,7 @@ from brace.bus.entries import index_of
 from brace.bus.frame import Bus
 from brace.bus.session import Session
 from brace.bus.url import BusUrl
-from brace.errors import DeviceFaultError, NoDeviceError
+from brace.ground.errors import DeviceFaultError, NoDeviceError
 from brace.wire.codes import MODE
 from brace.wire.frames import REQUEST_ID, REQUESTS
 

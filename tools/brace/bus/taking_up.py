@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from brace.bus.controller import Controller
-from brace.errors import DeviceFaultError, NoDeviceError
+from brace.ground.errors import DeviceFaultError, NoDeviceError
 from brace.wire.codes import MODE, TAKE_UP_OUTCOME
 
 POLL_S = 0.05

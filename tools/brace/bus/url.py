@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
-from brace.errors import UsageError
+from brace.ground.errors import UsageError
 
 FORMS = (
     "can0 (SocketCAN), slcan:/dev/ttyACM0[@BAUD], tcp://HOST:PORT (SLCAN over TCP), "

@@ -36,7 +36,7 @@ def _prepared() -> Callable[[list[str] | None], int]:
             signal.signal(signal.SIGINT, leave)
     except ValueError:  # not the main thread: its interruption is somebody else's
         guard = False
-    import brace.one_thread  # noqa: F401  before numpy is loaded
+    import brace.ground.one_thread  # noqa: F401  before numpy is loaded
     from brace.cli.command_line import run_command_line
 
     if guard:

@@ -51,7 +51,7 @@ def add_bus(parser: argparse.ArgumentParser, required: bool = True) -> None:
 def bus_url(arguments: argparse.Namespace, frames_for: str = "", answers: bool = False) -> BusUrl:
     """The URL; refused where frames are needed and it has registers, and where answers are and it is a log."""
     from brace.bus.url import parse
-    from brace.errors import UsageError
+    from brace.ground.errors import UsageError
 
     url = parse(arguments.bus)
     if frames_for and url.is_modbus:

@@ -58,7 +58,7 @@ def _staying(text: str) -> tuple[str, ...]:
 def run(arguments: argparse.Namespace) -> int:
     """Executes the subcommand."""
     from brace.bus.drift import cause_text
-    from brace.errors import DeviceFaultError
+    from brace.ground.errors import DeviceFaultError
 
     with controller(arguments) as device:
         before = _names(device.read_entry("faults"))

@@ -10,11 +10,11 @@ from collections.abc import Sequence
 from importlib import import_module
 
 from brace import __version__
-from brace.cli.options import OptionParser
 from brace.cli.doubts import doubts_said
-from brace.cli.subcommands import SUBCOMMANDS
+from brace.cli.options import OptionParser
 from brace.cli.streams import OutputLost, finish, hush, prepare, say
-from brace.errors import EXIT_CHECK_FAILED, EXIT_OK, EXIT_USAGE, BraceError
+from brace.cli.subcommands import SUBCOMMANDS
+from brace.ground.errors import EXIT_CHECK_FAILED, EXIT_OK, EXIT_USAGE, BraceError
 
 ABOUT_ALL = {"-h", "--help", "--version"}  # options that brace answers without loading a subcommand
 _NEGATIVE_NUMBER = re.compile(r"^-(\d|\.\d|inf|nan)", re.IGNORECASE)

@@ -39,8 +39,8 @@ def _node(text: str) -> int:
 
 def run(arguments: argparse.Namespace) -> int:
     """Executes the subcommand."""
-    from brace.errors import UsageError
-    from brace.files import OutputSet
+    from brace.ground.errors import UsageError
+    from brace.ground.files import OutputSet
     from brace.wire.dbc import CLASSIC, FD, for_nodes
 
     twice = sorted({node for node in arguments.nodes if arguments.nodes.count(node) > 1})

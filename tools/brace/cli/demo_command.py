@@ -34,7 +34,7 @@ def add(commands: Subcommands) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Executes the subcommand."""
     from brace.demo.story import Story, tell
-    from brace.files import OutputSet, check_folder
+    from brace.ground.files import OutputSet, check_folder
 
     check_folder(arguments.out, ["facts.json"])
     story = Story()

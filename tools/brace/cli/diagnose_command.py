@@ -8,7 +8,7 @@ import argparse
 from brace.cli import common
 from brace.cli.options import Subcommands
 from brace.cli.subcommands import SUBCOMMANDS
-from brace.errors import EXIT_CHECK_FAILED
+from brace.ground.errors import EXIT_CHECK_FAILED
 
 _PERCENT = 100
 

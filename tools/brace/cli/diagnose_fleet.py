@@ -19,8 +19,8 @@ def run_fleet(arguments: argparse.Namespace) -> int:
     from brace.diagnose.fleet.job import jobs_of
     from brace.diagnose.options import Options
     from brace.diagnose.write import check_folder
-    from brace.errors import EXIT_INTERRUPTED, EXIT_OK
-    from brace.files import OutputSet
+    from brace.ground.errors import EXIT_INTERRUPTED, EXIT_OK
+    from brace.ground.files import OutputSet
 
     options = Options(seed=arguments.seed, faults=arguments.faults, take=arguments.take)
     jobs = jobs_of(arguments.datasets, arguments.model, options)

@@ -9,8 +9,7 @@ from brace.cli import common
 from brace.cli.bus_options import add_bus
 from brace.cli.options import Subcommands
 from brace.cli.subcommands import SUBCOMMANDS
-from brace.errors import EXIT_CHECK_FAILED, EXIT_OK
-from brace.pages import located
+from brace.ground.errors import EXIT_CHECK_FAILED, EXIT_OK, located
 
 if TYPE_CHECKING:
     from brace.doctor.finding import Finding

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from typing import TextIO
 
 from brace.cli.streams import say
-from brace.errors import ModelDoubt
+from brace.ground.errors import ModelDoubt
 
 
 @contextlib.contextmanager

@@ -30,9 +30,9 @@ def add(commands: Subcommands) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Executes the subcommand."""
-    from brace.errors import UsageError
     from brace.export import mujoco_model, urdf_model
-    from brace.files import OutputSet
+    from brace.ground.errors import UsageError
+    from brace.ground.files import OutputSet
     from brace.model import load_limb
 
     if arguments.mujoco is None and arguments.urdf is None:

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING
 from brace.cli import common
 from brace.cli.options import Subcommands, refused
 from brace.cli.subcommands import SUBCOMMANDS
-from brace.errors import UsageError
 from brace.flash.usb import DFU
+from brace.ground.errors import UsageError
 
 if TYPE_CHECKING:
     from brace.flash.usb import Probe

@@ -85,7 +85,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _check(arguments: argparse.Namespace) -> None:
-    from brace.errors import UsageError
+    from brace.ground.errors import UsageError
 
     if arguments.lean is not None and arguments.direction is None:
         raise UsageError(

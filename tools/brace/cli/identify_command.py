@@ -7,7 +7,7 @@ import argparse
 from brace.cli import common
 from brace.cli.options import Subcommands
 from brace.cli.subcommands import SUBCOMMANDS
-from brace.errors import UsageError
+from brace.ground.errors import UsageError
 
 STEPS = 20
 
@@ -74,7 +74,7 @@ def add(commands: Subcommands) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Executes the subcommand."""
     from brace.dataset import load_dataset
-    from brace.files import check_file, write_file
+    from brace.ground.files import check_file, write_file
     from brace.identify import report
     from brace.identify.run import Options, identify
     from brace.identify.table import Weight

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from brace.cli import common
 from brace.cli.options import Subcommands, refused
 from brace.cli.subcommands import SUBCOMMANDS
-from brace.errors import BadFileError, BraceError, UsageError
+from brace.ground.errors import BadFileError, BraceError, UsageError
 
 if TYPE_CHECKING:
     from brace.dataset import DataFault
@@ -101,7 +101,7 @@ def _own_unit(name: str) -> str:
 
 def run(arguments: argparse.Namespace) -> int:
     """Executes the subcommand."""
-    from brace.files import write_file
+    from brace.ground.files import write_file
     from brace.importing import constants, guess, mapping, words
     from brace.importing.build import build, sources
     from brace.importing.files import read_all
@@ -191,7 +191,7 @@ def _open(table: MappingTable, arguments: argparse.Namespace) -> UsageError:
 
 def _refuse_strange_names(parts: Sequence[Part], table: MappingTable, path: Path) -> None:
     """Names of the mapping that no file has: a mapping of other files, or a slip."""
-    from brace.errors import did_you_mean
+    from brace.ground.errors import did_you_mean
 
     known = {name for part in parts for name in part.names}
     for use in table.columns:
@@ -246,7 +246,7 @@ def _refuse_measured(folder: Path) -> None:
 
 def _write(folder: Path, built: Built, inputs: Sequence[Path]) -> None:
     from brace.dataset.write import write_dataset
-    from brace.files import check_folder
+    from brace.ground.files import check_folder
 
     check_folder(folder, ("meta.toml", "data.csv"), inputs)
     write_dataset(folder, built.meta, built.columns, dict.fromkeys(built.columns, DECIMALS))

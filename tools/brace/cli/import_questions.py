@@ -6,7 +6,7 @@ import sys
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from brace.errors import UsageError, did_you_mean
+from brace.ground.errors import UsageError, did_you_mean
 
 if TYPE_CHECKING:
     from brace.importing.mapping import ColumnUse, Constant, MappingTable
@@ -49,7 +49,7 @@ def _choice(prompt: str, allowed: list[str]) -> str:
 
 
 def _unit(prompt: str, quantity: str) -> str:
-    from brace.units import UNITS, unit_of
+    from brace.ground.units import UNITS, unit_of
 
     while True:
         text = _line(f"{prompt} ({', '.join(unit.text for unit in UNITS.values() if unit.quantity == quantity)}): ")
@@ -78,8 +78,8 @@ def _column(use: ColumnUse, kind: str) -> ColumnUse:
 
 
 def _constant(each: Constant) -> Constant:
+    from brace.ground.units import unit_of
     from brace.importing.mapping import WORDS, checked_constant
-    from brace.units import unit_of
 
     if not each.questions:
         return each

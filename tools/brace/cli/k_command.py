@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from brace.cli import common, k_load
 from brace.cli.options import Subcommands
 from brace.cli.subcommands import SUBCOMMANDS
-from brace.errors import UsageError
+from brace.ground.errors import UsageError
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

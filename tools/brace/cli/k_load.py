@@ -5,8 +5,8 @@ from __future__ import annotations
 import argparse
 
 from brace.cli.options import OptionParser, number, refused
-from brace.errors import UsageError
-from brace.limits import FORCE_MOST_N
+from brace.ground.errors import UsageError
+from brace.ground.units import FORCE_MOST_N
 
 SOFTENED = 3.0  # of the buckling factor: below it a limb is much softer than without load, and a controller flags its K
 

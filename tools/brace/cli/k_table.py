@@ -10,8 +10,8 @@ from brace import stiffness
 from brace.cli import common
 from brace.cli.k_flags import flags_of_postures
 from brace.cli.k_load import refuse_across_the_plane, refuse_in_space, refuse_load_with
-from brace.errors import BadFileError, UsageError
-from brace.files import check_file, write_file
+from brace.ground.errors import BadFileError, UsageError
+from brace.ground.files import check_file, write_file
 from brace.model import LimbModel
 from brace.play_under_load import PlayUnderLoad, put_into
 from brace.posture_table import PostureTable, read_postures

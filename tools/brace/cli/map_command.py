@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, TypedDict
 from brace.cli import common, k_load
 from brace.cli.options import Subcommands
 from brace.cli.subcommands import SUBCOMMANDS
-from brace.errors import UsageError
+from brace.ground.errors import UsageError
 
 if TYPE_CHECKING:
     import numpy as np
@@ -66,7 +66,7 @@ def add(commands: Subcommands) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Executes the subcommand."""
     from brace import workspace
-    from brace.files import OutputSet, check_folder
+    from brace.ground.files import OutputSet, check_folder
     from brace.model import load_limb
     from brace.stiffness_with_gap import gaps_rad
 

@@ -127,7 +127,7 @@ def follow(arguments: argparse.Namespace, bus: Bus, watch: Watch, ended: Ended) 
 
 
 def _silence(arguments: argparse.Namespace, bus: Bus) -> Exception:
-    from brace.errors import NoDeviceError
+    from brace.ground.errors import NoDeviceError
 
     why, way = bus.silence()
     who = "no controller is" if arguments.node is None else f"node {arguments.node} is not"

@@ -8,7 +8,7 @@ import time
 from typing import TYPE_CHECKING
 
 from brace.cli import common
-from brace.pages import located
+from brace.ground.errors import located
 
 if TYPE_CHECKING:
     from rich.columns import Columns
@@ -41,7 +41,7 @@ _FLAG_WORDS = {  # shorter than the dictionary's, for a panel
 
 def end(arguments: argparse.Namespace, watch: Watch) -> int:
     """The last word on each node; 5 when a K that is sent is not valid."""
-    from brace.errors import EXIT_DEVICE_FAULT, EXIT_OK
+    from brace.ground.errors import EXIT_DEVICE_FAULT, EXIT_OK
 
     if not arguments.json:
         for node, state in sorted(watch.nodes.items()):

@@ -14,7 +14,7 @@ from brace.bus.open import open_bus
 from brace.bus.snapshot import Joiner
 from brace.cli import common
 from brace.cli.bus_options import Ended, ended_by_signal
-from brace.errors import EXIT_OK, UsageError
+from brace.ground.errors import EXIT_OK, UsageError
 
 if TYPE_CHECKING:
     from brace.bus.frame import Bus

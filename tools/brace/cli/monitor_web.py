@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from brace.cli import common
 from brace.cli.bus_options import ended_by_signal
-from brace.errors import EXIT_OK, UsageError
+from brace.ground.errors import EXIT_OK, UsageError
 
 if TYPE_CHECKING:
     from brace.bus.url import BusUrl

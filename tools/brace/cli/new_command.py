@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, cast
 from brace.cli import common
 from brace.cli.options import Subcommands
 from brace.cli.subcommands import SUBCOMMANDS
-from brace.errors import UsageError
+from brace.ground.errors import UsageError
 
 if TYPE_CHECKING:
     from brace.newlimb.describe import Known
@@ -67,7 +67,7 @@ def add(commands: Subcommands) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Executes the subcommand."""
     from brace.cli.new_questions import ask, has_terminal
-    from brace.files import check_file, write_file
+    from brace.ground.files import check_file, write_file
     from brace.newlimb import describe
 
     _refuse_existing(arguments.out)

@@ -6,7 +6,7 @@ import argparse
 import sys
 from collections.abc import Callable, Mapping
 
-from brace.errors import UsageError
+from brace.ground.errors import UsageError
 
 
 def has_terminal() -> bool:

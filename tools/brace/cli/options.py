@@ -13,8 +13,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn, TypeAlias, cast
 
 from brace.cli.streams import emit, say
-from brace.errors import UsageError, did_you_mean
-from brace.slips import slip
+from brace.ground.errors import UsageError, did_you_mean
+from brace.ground.slips import slip
 
 _FULL_TURN_RAD = 2 * math.pi
 _WITH_UNIT = re.compile(r"\s*([-+]?[\d.]+(?:e[-+]?\d+)?)\s*(?:(deg|degrees?|\u00b0)|rad)\s*", re.IGNORECASE)

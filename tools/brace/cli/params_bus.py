@@ -112,7 +112,7 @@ def _own_node(device: Controller, block: Block) -> int | None:
 
 
 def _pull(arguments: argparse.Namespace) -> int:
-    from brace.files import write_file
+    from brace.ground.files import write_file
 
     with controller(arguments) as device:
         block = _download(device)

@@ -32,7 +32,7 @@ def add(commands: Subcommands) -> None:
 def _help(parser: argparse.ArgumentParser) -> int:
     import sys
 
-    from brace.errors import EXIT_USAGE
+    from brace.ground.errors import EXIT_USAGE
 
     parser.print_help(sys.stderr)
     return EXIT_USAGE
@@ -84,7 +84,7 @@ def _add_diff(actions: Subcommands) -> None:
 
 
 def _pack(arguments: argparse.Namespace) -> int:
-    from brace.files import write_file
+    from brace.ground.files import write_file
     from brace.model import load_limb
     from brace.params import pack
     from brace.wire.names import SCHEMA_HASH
@@ -116,7 +116,7 @@ def _pack(arguments: argparse.Namespace) -> int:
 
 
 def _unpack(arguments: argparse.Namespace) -> int:
-    from brace.files import write_file
+    from brace.ground.files import write_file
     from brace.params import read_block
 
     block = read_block(arguments.block)
@@ -145,7 +145,7 @@ def _unpack(arguments: argparse.Namespace) -> int:
 
 
 def _diff(arguments: argparse.Namespace) -> int:
-    from brace.errors import EXIT_CHECK_FAILED, UsageError
+    from brace.ground.errors import EXIT_CHECK_FAILED, UsageError
     from brace.params import differences, read_either
 
     if (arguments.second is None) == (arguments.bus is None):

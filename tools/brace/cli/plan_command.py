@@ -12,7 +12,7 @@ from brace.cli import common
 from brace.cli.k_load import SOFTENED
 from brace.cli.options import Subcommands
 from brace.cli.subcommands import SUBCOMMANDS
-from brace.errors import BraceError, UsageError
+from brace.ground.errors import BraceError, UsageError
 
 if TYPE_CHECKING:
     from brace.model import LimbModel

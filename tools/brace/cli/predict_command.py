@@ -41,7 +41,7 @@ def run(arguments: argparse.Namespace) -> int:
     import numpy as np
 
     from brace.dataset import load_dataset
-    from brace.files import check_file, write_file
+    from brace.ground.files import check_file, write_file
     from brace.model import load_limb
     from brace.predict import predict, require_sound_inputs
 

@@ -91,7 +91,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _check(arguments: argparse.Namespace) -> None:
     from brace.bus.entries import index_of
-    from brace.errors import UsageError
+    from brace.ground.errors import UsageError
 
     for one, other in (("theta1", "theta2"), ("x", "z"), ("fx", "fz")):
         if (getattr(arguments, one) is None) != (getattr(arguments, other) is None):
@@ -165,7 +165,7 @@ def _text(value: object) -> str:
 
 def _asked(arguments: argparse.Namespace, device: Controller) -> int:
     from brace.bus.load import factor_words
-    from brace.errors import EXIT_DEVICE_FAULT, EXIT_OK
+    from brace.ground.errors import EXIT_DEVICE_FAULT, EXIT_OK
 
     force = None if arguments.fx is None else (arguments.fx, arguments.fz)
     if arguments.x is not None:
@@ -214,7 +214,7 @@ def _asked(arguments: argparse.Namespace, device: Controller) -> int:
 def _asked_in_space(arguments: argparse.Namespace, device: Controller) -> int:
     from brace.bus.controller import NO_FORCE
     from brace.cli.space_text import space_lines
-    from brace.errors import EXIT_DEVICE_FAULT, EXIT_OK
+    from brace.ground.errors import EXIT_DEVICE_FAULT, EXIT_OK
 
     angles = {name: getattr(arguments, name) for name in ("theta0", "theta1", "theta2")}
     force = NO_FORCE if arguments.fx is None else (arguments.fx, arguments.fy, arguments.fz)
@@ -239,7 +239,7 @@ def _asked_in_space(arguments: argparse.Namespace, device: Controller) -> int:
 
 
 def _yielding(arguments: argparse.Namespace, device: Controller) -> int:
-    from brace.errors import EXIT_DEVICE_FAULT, EXIT_OK
+    from brace.ground.errors import EXIT_DEVICE_FAULT, EXIT_OK
 
     if arguments.load is not None:
         given = dict(zip(("fx_n", "fz_n"), arguments.load))
@@ -267,7 +267,7 @@ def _live(arguments: argparse.Namespace, device: Controller) -> int:
     from brace.bus.drift import take_up_lines
     from brace.bus.open_play import open_play_lines
     from brace.cli.space_text import coxa_lines, space_lines
-    from brace.errors import EXIT_DEVICE_FAULT, EXIT_OK
+    from brace.ground.errors import EXIT_DEVICE_FAULT, EXIT_OK
 
     identity = device.identify()
     snapshot = device.live()
@@ -343,7 +343,7 @@ def _emit_flags(entry: Mapping[str, object]) -> None:
 
 
 def _say_invalid(device: Controller, what: str, why: str) -> None:
-    from brace.errors import DeviceFaultError
+    from brace.ground.errors import DeviceFaultError
 
     common.say(
         DeviceFaultError(

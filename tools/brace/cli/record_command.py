@@ -82,7 +82,7 @@ def _record(arguments: argparse.Namespace) -> int:
     from brace.bus.open import open_bus
     from brace.bus.recording import Recording
     from brace.bus.watch import Watch
-    from brace.errors import EXIT_INTERRUPTED, EXIT_OK, BraceError, NoDeviceError
+    from brace.ground.errors import EXIT_INTERRUPTED, EXIT_OK, BraceError, NoDeviceError
 
     url = bus_url(arguments, "record")
     inputs = [Path(url.place)] if url.kind == "log" else []

@@ -26,8 +26,8 @@ def record_loading(arguments: argparse.Namespace) -> int:
     from brace.bus.loading_rows import PRELOADS, added, counted_from_first, on_one_clock, with_motor_angles
     from brace.bus.loading_test import Plan, fetch, run
     from brace.dataset.write import write_dataset
-    from brace.errors import UsageError
-    from brace.files import check_folder
+    from brace.ground.errors import UsageError
+    from brace.ground.files import check_folder
 
     if arguments.out.suffix in (".log", ".mcap"):
         raise UsageError(
@@ -105,7 +105,7 @@ def _runs(axes: str) -> str:
 
 def _refuse_record(folder: Path) -> None:
     """What was measured is added to, never replaced."""
-    from brace.errors import UsageError
+    from brace.ground.errors import UsageError
 
     for name in _FILES:
         if (folder / name).exists():
@@ -120,7 +120,7 @@ def _refuse_record(folder: Path) -> None:
 def _record_before(folder: Path) -> Dataset:
     """The record to which a posture is added."""
     from brace.dataset import load_dataset
-    from brace.errors import UsageError
+    from brace.ground.errors import UsageError
 
     dataset = load_dataset(folder)
     if dataset.kind != "loading":
@@ -135,7 +135,7 @@ def _record_before(folder: Path) -> Dataset:
 
 def _refuse_other_limb(folder: Path, before: Mapping[str, object], now: Mapping[str, object]) -> None:
     """One record is of one limb with one set of parameters."""
-    from brace.errors import UsageError
+    from brace.ground.errors import UsageError
 
     for name, meaning in (("parameter_crc", "set of parameters"), ("firmware", "firmware")):
         if before.get(name) != now[name]:

@@ -62,7 +62,7 @@ def _send(arguments: argparse.Namespace) -> int:
     from brace.bus.log import read
     from brace.bus.open import open_bus
     from brace.cli.bus_options import bus_url
-    from brace.errors import UsageError
+    from brace.ground.errors import UsageError
 
     url = bus_url(arguments, "replay")
     if url.kind == "log":

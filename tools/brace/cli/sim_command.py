@@ -15,7 +15,7 @@ from brace.cli import common, sim_values
 from brace.cli.bus_options import Ended, ended_by_signal, key_of
 from brace.cli.options import Subcommands, refused
 from brace.cli.subcommands import SUBCOMMANDS
-from brace.errors import EXIT_INTERRUPTED, EXIT_OK, UsageError
+from brace.ground.errors import EXIT_INTERRUPTED, EXIT_OK, UsageError
 from brace.sim import spec
 
 if TYPE_CHECKING:

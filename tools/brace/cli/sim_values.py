@@ -6,7 +6,7 @@ import math
 import re
 
 from brace.cli.options import angle, flexion, number, refused
-from brace.errors import did_you_mean
+from brace.ground.errors import did_you_mean
 from brace.sim.spec import FAULTS, JOINTS, Fault, Posture
 
 _FAULT = re.compile(

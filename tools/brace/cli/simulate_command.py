@@ -8,7 +8,7 @@ from pathlib import Path
 from brace.cli import common
 from brace.cli.options import Subcommands
 from brace.cli.subcommands import SUBCOMMANDS
-from brace.errors import BraceError, UsageError
+from brace.ground.errors import BraceError, UsageError
 
 
 def add(commands: Subcommands) -> None:
@@ -45,7 +45,7 @@ def run(arguments: argparse.Namespace) -> int:
 
     from brace.dataset import load_dataset
     from brace.dataset.write import write_dataset
-    from brace.files import check_folder
+    from brace.ground.files import check_folder
     from brace.model import load_limb
     from brace.rig import load_rig
     from brace.simulate import behind, joined, simulate

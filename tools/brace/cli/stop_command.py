@@ -9,7 +9,7 @@ from brace.cli import common
 from brace.cli.bus_options import add_bus, bus_url
 from brace.cli.options import Subcommands
 from brace.cli.subcommands import SUBCOMMANDS
-from brace.errors import UsageError
+from brace.ground.errors import UsageError
 
 
 def add(commands: Subcommands) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import sys
 
-from brace.errors import BraceError, printable
+from brace.ground.errors import BraceError, printable
 
 
 class OutputLost(BraceError):

@@ -12,7 +12,7 @@ from brace.dataset.columns import ANGLE_LIMIT_RAD, FULL_TURN_RAD
 from brace.dataset.faults import DataFault
 from brace.dataset.meta import Meta
 from brace.dataset.unit_slips import STIFFNESS_UNITS
-from brace.errors import did_you_mean
+from brace.ground.errors import did_you_mean
 
 Columns = Mapping[str, np.ndarray]
 

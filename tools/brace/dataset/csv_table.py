@@ -15,9 +15,9 @@ from brace.dataset.columns import Column
 from brace.dataset.entries import QUOTED_COMMA, beyond_limit, entry_by_entry, entry_limit, entry_text
 from brace.dataset.faults import DataFault
 from brace.dataset.not_read import nothing_read, with_absent, without_blanks
-from brace.errors import BadFileError, did_you_mean
-from brace.files import DATA_LIMIT_BYTES, read_bytes
-from brace.slips import slip
+from brace.ground.errors import BadFileError, did_you_mean
+from brace.ground.files import DATA_LIMIT_BYTES, read_bytes
+from brace.ground.slips import slip
 
 WHAT = "dataset's data.csv"
 MOST_REMARKS = 100  # lines above the column names that are looked through

@@ -10,7 +10,7 @@ import numpy as np
 
 from brace.dataset.columns import MAX_INT, Column
 from brace.dataset.faults import DataFault
-from brace.slips import slip
+from brace.ground.slips import slip
 
 MOST_KEPT = 200  # faults; a file with more is another sort of file
 

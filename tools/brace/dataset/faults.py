@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from brace.errors import BadFileError
+from brace.ground.errors import BadFileError
 
 
 @dataclass(frozen=True)

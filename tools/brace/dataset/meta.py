@@ -10,7 +10,7 @@ from pathlib import Path
 
 from brace import toml
 from brace.dataset.columns import KINDS
-from brace.errors import BadFileError, did_you_mean
+from brace.ground.errors import BadFileError, did_you_mean
 from brace.toml import Key
 
 WHAT = "dataset's meta.toml"

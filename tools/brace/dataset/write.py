@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from brace.files import OutputSet
+from brace.ground.files import OutputSet
 
 _DECIMALS = {"theta1_rad": 6, "theta2_rad": 6, "enc1_rad": 7, "enc2_rad": 7}
 _DEFAULT_DECIMALS = 6

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from brace.demo.postures import curve
-from brace.errors import BraceError
+from brace.ground.errors import BraceError
 from brace.identify.information import Information
 from brace.identify.parameters import TIP_HEIGHT
 from brace.stiffness import PostureError

@@ -17,7 +17,7 @@ from collections.abc import Generator, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from brace.errors import BraceError
+from brace.ground.errors import BraceError
 from brace.model import LimbModel, load_limb
 
 JOINT_KEY = "joint.femur.compliance_rad_per_n_mm"

@@ -9,7 +9,7 @@ from typing import Any, Literal
 import numpy as np
 
 from brace.dataset import DataFault
-from brace.errors import EXIT_BAD_FILE, EXIT_OK
+from brace.ground.errors import EXIT_BAD_FILE, EXIT_OK
 from brace.model import LimbModel
 
 Verdict = Literal["effect", "none", "ambiguous", "unknown", "data_fault"]

@@ -10,7 +10,7 @@ from typing import Any
 
 from brace import toml
 from brace.diagnose.diagnosis import Diagnosis
-from brace.errors import BadFileError
+from brace.ground.errors import BadFileError
 from brace.model import LimbModel
 from brace.model.keys import KEY_BY_NAME
 from brace.model.limb import WHAT, limb_from_document, toml_value

@@ -13,8 +13,8 @@ from brace.diagnose.diagnosis import Diagnosis
 from brace.diagnose.options import Advance, Options, silent
 from brace.diagnose.run import diagnose
 from brace.diagnose.write import Written, contents
-from brace.errors import UsageError
-from brace.files import TOML_LIMIT_BYTES, read_text
+from brace.ground.errors import UsageError
+from brace.ground.files import TOML_LIMIT_BYTES, read_text
 from brace.model import LimbModel, load_limb
 from brace.model.limb import WHAT
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from brace import __version__
 from brace.dataset import Dataset
-from brace.files import DATA_LIMIT_BYTES, TOML_LIMIT_BYTES, read_bytes
+from brace.ground.files import DATA_LIMIT_BYTES, TOML_LIMIT_BYTES, read_bytes
 
 
 @dataclass(frozen=True)

@@ -10,14 +10,15 @@ from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from brace import __version__
 from brace.dataset import Dataset
 from brace.diagnose import plain_words
 from brace.diagnose.already import sentences
 from brace.diagnose.diagnosis import Diagnosis, GapPair, Interval, NamedEffect
 from brace.diagnose.export import export
 from brace.diagnose.provenance import Provenance, provenance
-from brace import __version__, files
-from brace.files import OutputSet
+from brace.ground import files
+from brace.ground.files import OutputSet
 from brace.model import LimbModel
 
 JSON, MODEL, REPORT = "diagnosis.json", "limb.toml", "report.html"

@@ -6,10 +6,10 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from brace.doctor.finding import MISSING, OK, OLD, Finding, Machine
-from brace.errors import BraceError
 from brace.flash.boards import BOARDS
 from brace.flash.checks import SUMS_NAME, check_listed
 from brace.flash.image import read_image
+from brace.ground.errors import BraceError
 
 _FIRMWARE = ("firmware", "hal")
 _LIBRARY_SOURCES = ("firmware/core", "host_sim")

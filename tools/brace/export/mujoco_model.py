@@ -13,7 +13,7 @@ from __future__ import annotations
 import math
 import xml.etree.ElementTree as ET
 
-from brace.errors import UsageError
+from brace.ground.errors import UsageError
 from brace.model import LimbModel
 from brace.model.travel import has_travel, travel_rad
 

@@ -6,10 +6,10 @@ import re
 import struct
 from pathlib import Path
 
-from brace.errors import BadFileError, UsageError, did_you_mean
-from brace.files import read_text
 from brace.flash.boards import BOARDS, Board
 from brace.flash.image import Image
+from brace.ground.errors import BadFileError, UsageError, did_you_mean
+from brace.ground.files import read_text
 
 SUMS_NAME = "SHA256SUMS"
 _SUMS_LIMIT_BYTES = 1 << 20

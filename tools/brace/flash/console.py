@@ -9,8 +9,8 @@ import termios
 import time
 from pathlib import Path
 
-from brace.errors import NoDeviceError, NotVerifiedError
 from brace.flash.image import ImageInfo
+from brace.ground.errors import NoDeviceError, NotVerifiedError
 
 ANSWER_S = 6.0
 AGAIN_S = 2.5  # a console that has heard itself, before the port was set up, listens when it has been quiet for 2 s

@@ -7,8 +7,8 @@ import struct
 from dataclasses import dataclass
 from pathlib import Path
 
-from brace.errors import BadFileError
-from brace.files import read_bytes
+from brace.ground.errors import BadFileError
+from brace.ground.files import read_bytes
 
 IMAGE_LIMIT_BYTES = 16 << 20
 _MAGIC = b"BRACEIMG"

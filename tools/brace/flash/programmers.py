@@ -9,10 +9,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from brace.errors import BadFileError, NoDeviceError
 from brace.flash.boards import Board
 from brace.flash.image import Image, read_image
 from brace.flash.usb import DFU, Probe
+from brace.ground.errors import BadFileError, NoDeviceError
 
 CONNECT_S = 3.0
 PROGRAM_S = 120.0

@@ -11,9 +11,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from brace.ground.errors import BadFileError
 from brace.identify.fit import STEP, Problem, residual_of
 from brace.identify.parameters import BASE_COMPLIANCES, COMPLIANCES, natural_scale
-from brace.errors import BadFileError
 from brace.model import LimbModel
 from brace.model.keys import KEY_BY_NAME
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from brace.errors import BadFileError
+from brace.ground.errors import BadFileError
 from brace.identify.fit import Fit, fit
 from brace.identify.parameters import (
     COMPLIANCES,

@@ -8,7 +8,7 @@ import numpy as np
 
 from brace.dataset import Dataset
 from brace.dataset.faults import DataFault
-from brace.errors import BadFileError
+from brace.ground.errors import BadFileError
 
 POLICIES = ("repair", "drop", "refuse")
 

@@ -8,7 +8,7 @@ from typing import Protocol
 
 import numpy as np
 
-from brace.errors import BadFileError, UsageError
+from brace.ground.errors import BadFileError, UsageError
 from brace.identify.parameters import ParameterSet
 from brace.model import LimbModel
 from brace.native.plant_batch import model_numbers

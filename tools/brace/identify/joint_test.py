@@ -14,9 +14,9 @@ import numpy as np
 
 from brace.dataset import Dataset
 from brace.dataset.grid import step_of, unrounded
-from brace.errors import BadFileError
-from brace.identify.fit import Fit, Nuisances, columns_of, fit
 from brace.effects.catalogue import FADES_SHRINK, FADING_STARTS, FRICTION_TURN, MOST_GAP, USUAL_LOAD_RATIO
+from brace.ground.errors import BadFileError
+from brace.identify.fit import Fit, Nuisances, columns_of, fit
 from brace.identify.gear_positions import POSITION, apart, count
 from brace.identify.parameters import (
     ANGLE_ZERO,

@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy as np
 
 from brace.dataset import Dataset
-from brace.errors import BadFileError
+from brace.ground.errors import BadFileError
 from brace.identify.fit import Nuisances, residual_of
 from brace.identify.noise import FORCES
 from brace.identify.record import Record, load_record, rms_force_n

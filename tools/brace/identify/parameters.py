@@ -10,7 +10,7 @@ from functools import cached_property
 import numpy as np
 
 from brace.effects.catalogue import FRICTION_TURN, NUMBER_BY_KEY
-from brace.errors import UsageError, did_you_mean
+from brace.ground.errors import UsageError, did_you_mean
 from brace.model import LimbModel
 from brace.model.keys import CONTROLLER_KEYS, KEY_BY_NAME
 from brace.native.plant_batch import model_numbers, number_index

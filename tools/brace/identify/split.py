@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from brace.errors import BadFileError
+from brace.ground.errors import BadFileError
 from brace.identify.fit import Fit, Nuisances, Problem, columns_of, fit
 from brace.identify.information import Z90
 from brace.identify.parameters import COMPLIANCES, JOINT_COMPLIANCES, NUISANCES, ParameterSet, free_parameter

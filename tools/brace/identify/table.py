@@ -8,7 +8,7 @@ import numpy as np
 
 from brace.dataset import Dataset
 from brace.dataset.check_table import stiffness
-from brace.errors import BadFileError
+from brace.ground.errors import BadFileError
 from brace.identify.fit import Nuisances
 from brace.identify.parameters import TIP_HEIGHT, Parameter, natural_scale
 from brace.model import LimbModel

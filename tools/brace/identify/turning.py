@@ -27,7 +27,7 @@ import numpy as np
 
 from brace.dataset import Dataset
 from brace.dataset.enough import enough_rows
-from brace.errors import BraceError
+from brace.ground.errors import BraceError
 from brace.identify.fit import Fit, fit
 from brace.identify.loading import LoadingProblem
 from brace.identify.parameters import with_priors

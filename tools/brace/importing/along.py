@@ -7,7 +7,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from brace.errors import BadFileError
+from brace.ground.errors import BadFileError
 from brace.importing.mapping import MappingTable
 from brace.importing.part import Table
 from brace.importing.runs import driven_axis

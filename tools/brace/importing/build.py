@@ -11,14 +11,14 @@ from pathlib import Path
 
 import numpy as np
 
-from brace.errors import BadFileError
+from brace.ground.errors import BadFileError
+from brace.ground.units import OWN, UNITS, unit_of
 from brace.importing import numerals
 from brace.importing.loading import assembled as assembled_loading
 from brace.importing.logs.one_clock import settled
 from brace.importing.mapping import ColumnUse, MappingTable
 from brace.importing.meaning import TARGETS
 from brace.importing.part import Part, Table
-from brace.units import OWN, UNITS, unit_of
 
 MAY_BE_BLANK = {"fx_n", "fz_n", "f_n", "weight_n", "enc1_rad", "enc2_rad", "base_x_mm", "base_z_mm", "temp_degc"}
 MUST_BE_THERE = {

@@ -7,12 +7,12 @@ import re
 from collections.abc import Sequence
 from dataclasses import replace
 
-from brace.errors import BadFileError, UsageError, did_you_mean
+from brace.ground.errors import BadFileError, UsageError, did_you_mean
+from brace.ground.units import unit_of
 from brace.importing import names, numerals
 from brace.importing.mapping import CONSTANTS, Constant, MappingTable
 from brace.importing.meaning import OPEN, OPEN_ANGLES, TARGETS, UNKNOWN_NAME, target_of
 from brace.importing.part import Part
-from brace.units import unit_of
 
 PERHAPS_ANGLE = f"an angle of the posture? {UNKNOWN_NAME}"
 SAME_RAD, SAME_DEGC = 1e-3, 0.05  # two ways to write one angle or temperature

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from brace.errors import UsageError
-from brace.files import DATA_LIMIT_BYTES, read_bytes
+from brace.ground.errors import UsageError
+from brace.ground.files import DATA_LIMIT_BYTES, read_bytes
 from brace.importing import textfile, workbook
 from brace.importing.logs import candump, mcap_file, one_clock
 from brace.importing.part import Part

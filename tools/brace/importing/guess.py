@@ -10,12 +10,12 @@ from dataclasses import replace
 
 import numpy as np
 
+from brace.ground.units import OWN
 from brace.importing import names, numerals
 from brace.importing.constants import AXES, PERHAPS_ANGLE, constants_of
 from brace.importing.mapping import ColumnUse, MappingTable
 from brace.importing.meaning import IGNORE, OPEN, TARGETS, UNKNOWN_NAME, quantity_of, target_of
 from brace.importing.part import Part
-from brace.units import OWN
 
 FULL_TURN = 2 * math.pi
 BENT_BACK = "all its entries are negative, and theta2 is the femur's angle from +x minus the tibia's"

@@ -7,12 +7,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from brace.errors import BadFileError
+from brace.ground.errors import BadFileError
+from brace.ground.units import unit_of
 from brace.importing.along import Columns, axis_of, displacements, forces
 from brace.importing.mapping import MappingTable
 from brace.importing.part import Table
 from brace.importing.runs import ANGLE_JUMP_RAD, boundaries, numbers_of_poses
-from brace.units import unit_of
 
 SAME_RAD = 1e-3
 HELD_RAD = 0.06  # a commanded angle that is read back moves by so much at most while the limb is loaded

@@ -8,9 +8,9 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from brace import toml
-from brace.errors import BadFileError, UsageError, did_you_mean
+from brace.ground.errors import BadFileError, UsageError, did_you_mean
+from brace.ground.units import OWN, UNITS, Unit, unit_of
 from brace.importing.meaning import IGNORE, OPEN, TARGETS
-from brace.units import OWN, UNITS, Unit, unit_of
 
 WHAT = "mapping file"
 CONSTANTS = {

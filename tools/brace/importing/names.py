@@ -6,7 +6,7 @@ import re
 import unicodedata
 from dataclasses import dataclass
 
-from brace.units import Unit, unit_of
+from brace.ground.units import Unit, unit_of
 
 _BRACKETS = re.compile(r"[\[({<]([^\])}>]*)[\])}>]")
 _LAST_BRACKETS = re.compile(r"[\[({<]([^\])}>]*)[\])}>]\s*$")

@@ -8,11 +8,10 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from brace.errors import BadFileError
-from brace.importing import names as names_of
-from brace.importing import numerals
+from brace.ground.errors import BadFileError
+from brace.ground.units import unit_of
+from brace.importing import names as names_of, numerals
 from brace.importing.part import Part
-from brace.units import unit_of
 
 HEADER_MOST = 3  # lines of names and units
 _REMARK = re.compile(r"\s*([^:=\t;]{2,60}?)\s*(?::|=|\t|;)\s*(.{1,200})")

@@ -7,8 +7,8 @@ import re
 from collections.abc import Sequence
 from pathlib import Path
 
-from brace.errors import BadFileError
-from brace.files import DATA_LIMIT_BYTES, read_bytes
+from brace.ground.errors import BadFileError
+from brace.ground.files import DATA_LIMIT_BYTES, read_bytes
 from brace.importing import numerals
 from brace.importing.part import Part
 from brace.importing.table_in_lines import Line, parts, width_of

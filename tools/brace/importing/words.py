@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from brace.ground.units import unit_of
 from brace.importing.mapping import ColumnUse, MappingTable
 from brace.importing.meaning import OPEN
 from brace.importing.part import Part
-from brace.units import unit_of
 
 MEANING = {
     "loading": "a loading test: the tip is displaced, the force is read",

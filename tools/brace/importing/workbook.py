@@ -10,8 +10,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TypeAlias
 
-from brace.errors import BadFileError, UsageError
-from brace.files import DATA_LIMIT_BYTES, read_bytes
+from brace.ground.errors import BadFileError, UsageError
+from brace.ground.files import DATA_LIMIT_BYTES, read_bytes
 from brace.importing import numerals
 from brace.importing.numerals import DAY_S
 from brace.importing.part import Part

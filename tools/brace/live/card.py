@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
-from brace.errors import BraceError
+from brace.ground.errors import BraceError
 from brace.model import LimbModel
 from brace.stiffness import PlanarLimb, planar_limb
 

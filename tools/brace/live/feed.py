@@ -19,7 +19,7 @@ from brace.bus.open import open_bus
 from brace.bus.session import Session
 from brace.bus.url import BusUrl
 from brace.bus.watch import NodeState, Watch
-from brace.errors import BraceError
+from brace.ground.errors import BraceError
 from brace.live.card import Card, card_from, card_of
 from brace.live.limb_view import limb_numbers, limb_words
 from brace.live.thinning import thinned

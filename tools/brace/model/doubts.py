@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Container, Iterator, Mapping
 
 from brace import toml
-from brace.errors import ModelDoubt
+from brace.ground.errors import ModelDoubt
 
 __all__ = ["ModelDoubt", "doubts"]
 

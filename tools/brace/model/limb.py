@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from brace import toml
-from brace.errors import BadFileError
+from brace.ground.errors import BadFileError
 from brace.model.doubts import ModelDoubt, doubts
 from brace.model.keys import KEY_BY_NAME, LIMB_KEYS, PLANAR_COMPLIANCES
 

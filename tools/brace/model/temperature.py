@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from brace.errors import UsageError
+from brace.ground.errors import UsageError
 from brace.model.limb import LimbModel
 
 WARMER_MOST_DEGC = 200.0  # as the controller: it takes a reading that is further off for none

@@ -6,7 +6,7 @@ from functools import cache
 
 import numpy as np
 
-from brace.errors import BadFileError
+from brace.ground.errors import BadFileError
 from brace.model import LIMB_KEYS, LimbModel
 from brace.model.keys import LINKS
 from brace.native.c_data import CData

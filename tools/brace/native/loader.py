@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
-from brace.errors import MissingLibraryError
+from brace.ground.errors import MissingLibraryError
 from brace.native.c_data import CData
 from brace.native.c_types import c_types
 

@@ -160,7 +160,7 @@ def play_rig(model: LimbModel | None, design: Mapping[str, object]) -> dict[str,
     plant = ffi.NULL if model is None else plant_model(native, model)
     status = lib.brace_rig_play(c_design, plant, record)
     if status:
-        from brace.errors import BadFileError
+        from brace.ground.errors import BadFileError
 
         if model is None:
             raise BadFileError(

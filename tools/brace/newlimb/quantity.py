@@ -7,10 +7,10 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from brace.errors import UsageError, did_you_mean
+from brace.ground.errors import UsageError, did_you_mean
+from brace.ground.units import unit_of
 from brace.newlimb import LINK_FORMS
 from brace.newlimb.beams import ALIASES, MATERIALS, Compliances, Material, of_modulus, round_beam
-from brace.units import unit_of
 
 _NUMBER = re.compile(r"\s*([-+]?\d*\.?\d+(?:[eE][-+]?\d+)?)\s*(.*?)\s*")
 _COMMA = re.compile(r"(?<![\d.])(\d+),(\d+)(?![\d.])")

@@ -11,8 +11,8 @@ from pathlib import Path
 
 import numpy as np
 
-from brace.errors import BadFileError, UsageError
-from brace.files import TOML_LIMIT_BYTES, read_text
+from brace.ground.errors import BadFileError, UsageError
+from brace.ground.files import TOML_LIMIT_BYTES, read_text
 
 WHAT = "URDF"
 PARALLEL = 0.9995

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import numpy as np
 
-from brace.errors import BadFileError, VersionMismatchError
-from brace.files import read_bytes
+from brace.ground.errors import BadFileError, VersionMismatchError
+from brace.ground.files import read_bytes
 from brace.model import LimbModel, load_limb
 from brace.native import Library, library
 from brace.native.c_data import CData

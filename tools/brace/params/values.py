@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from brace.errors import BadFileError
+from brace.ground.errors import BadFileError
 from brace.model import LimbModel
 from brace.model.keys import KEY_BY_NAME
 from brace.toml import Value

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import NotRequired, TypedDict
 
-from brace.errors import BadFileError, BraceError, NoDeviceError, UsageError
+from brace.ground.errors import BadFileError, BraceError, NoDeviceError, UsageError
 from brace.model import LimbModel
 from brace.native import node_library
 from brace.native.c_data import CData

@@ -11,7 +11,7 @@ import time
 import tty
 from collections.abc import Sequence
 
-from brace.errors import UsageError
+from brace.ground.errors import UsageError
 from brace.native import servos_library
 from brace.native.c_data import CData
 

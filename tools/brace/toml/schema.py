@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
-from brace.errors import BadFileError, did_you_mean
+from brace.ground.errors import BadFileError, did_you_mean
 from brace.toml.document import Document
 from brace.toml.likely_unit import likely
 

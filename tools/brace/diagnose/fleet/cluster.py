@@ -8,7 +8,7 @@ from typing import Any
 
 from brace.diagnose.fleet.job import Job, Outcome, lost, run_job, unreadable
 from brace.diagnose.provenance import versions
-from brace.errors import BraceError, NoDeviceError, UsageError, VersionMismatchError
+from brace.ground.errors import BraceError, NoDeviceError, UsageError, VersionMismatchError
 
 CONNECT_S = 10.0
 WORKERS_S = 20.0

@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from brace.diagnose.options import Options
-from brace.errors import EXIT_BAD_FILE, EXIT_CHECK_FAILED, BraceError
-from brace.files import DATA_LIMIT_BYTES, TOML_LIMIT_BYTES, read_bytes
+from brace.ground.errors import EXIT_BAD_FILE, EXIT_CHECK_FAILED, BraceError
+from brace.ground.files import DATA_LIMIT_BYTES, TOML_LIMIT_BYTES, read_bytes
 
 _RECORD = ("meta.toml", "data.csv")
 

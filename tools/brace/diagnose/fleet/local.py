@@ -11,8 +11,8 @@ from collections.abc import Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 
-from brace import one_thread
 from brace.diagnose.fleet.job import Job, Outcome, lost, run_job
+from brace.ground import one_thread
 
 
 def run_local(jobs: Sequence[Job], processes: int) -> Iterator[Outcome]:

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from brace.dataset import DataFault, Dataset
-from brace.errors import BadFileError
+from brace.ground.errors import BadFileError
 from brace.model import LIMB_KEYS, LimbModel, load_limb
 
 MIN_ROWS = 20

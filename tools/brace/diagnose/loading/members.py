@@ -15,9 +15,9 @@ from brace.diagnose.diagnosis import Alternative, StiffnessAt, Verdict
 from brace.diagnose.loading import confidence
 from brace.diagnose.loading.choose import LabelSet
 from brace.diagnose.loading.limb_of import limb_of
-from brace.identify.record import Record
 from brace.diagnose.loading.rivals import Contest, Member
-from brace.errors import BadFileError
+from brace.ground.errors import BadFileError
+from brace.identify.record import Record
 from brace.model import LimbModel
 from brace.native.plant import reference_planar
 

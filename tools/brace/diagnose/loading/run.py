@@ -13,24 +13,24 @@ from brace.diagnose.beside import beside
 from brace.diagnose.diagnosis import Diagnosis
 from brace.diagnose.loading import outcome
 from brace.diagnose.loading.choose import LabelSet, posterior_of
+from brace.diagnose.loading.data_faults.gate import gate
 from brace.diagnose.loading.evidence import log_likelihood, score
 from brace.diagnose.loading.extensions import outside
 from brace.diagnose.loading.fit import fit
-from brace.diagnose.loading.data_faults.gate import gate
-from brace.diagnose.loading.troubles.likeliest import likeliest, with_trouble
 from brace.diagnose.loading.noise_after_base import with_growth, with_known_noise, with_less_noise
 from brace.diagnose.loading.parts import locked_rows
-from brace.identify.record import Record, load_record, setting_of
 from brace.diagnose.loading.rivals import with_causes
 from brace.diagnose.loading.rounding import asked_for
-from brace.diagnose.loading.search_pass import Pass
 from brace.diagnose.loading.search import Hypothesis, Search
+from brace.diagnose.loading.search_pass import Pass
 from brace.diagnose.loading.space import Trust, trust_of
 from brace.diagnose.loading.structure import structure_of
+from brace.diagnose.loading.troubles.likeliest import likeliest, with_trouble
 from brace.diagnose.loading.verdict import decide, undecided
 from brace.diagnose.options import Advance, Options, silent
 from brace.effects import Variant, all_variants
-from brace.errors import UsageError
+from brace.ground.errors import UsageError
+from brace.identify.record import Record, load_record, setting_of
 from brace.identify.turning import settled
 from brace.model import LimbModel
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from brace.effects import BY_NAME, EFFECTS
-from brace.errors import BadFileError
+from brace.ground.errors import BadFileError
 from brace.identify.families import scattered_starts
 from brace.identify.fit import Fit, Nuisances, Problem, fit, residual_of
 from brace.identify.parameters import (

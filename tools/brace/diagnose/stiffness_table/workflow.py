@@ -35,7 +35,7 @@ from brace.diagnose.stiffness_table.alternatives import (
 )
 from brace.diagnose.stiffness_table.localise import localise
 from brace.effects import BY_NAME
-from brace.errors import BadFileError, UsageError
+from brace.ground.errors import BadFileError, UsageError
 from brace.identify.faults import settle
 from brace.identify.parameters import LINK_COMPLIANCES, TIP_HEIGHT
 from brace.identify.table import TableProblem, Weight

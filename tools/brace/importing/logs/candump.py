@@ -7,8 +7,8 @@ import re
 from collections.abc import Sequence
 from pathlib import Path
 
-from brace.errors import BadFileError
-from brace.files import DATA_LIMIT_BYTES, read_bytes
+from brace.ground.errors import BadFileError
+from brace.ground.files import DATA_LIMIT_BYTES, read_bytes
 from brace.importing.logs import our_frames
 from brace.importing.logs.collect import Collector
 from brace.importing.logs.dbc import Databases, Frame, decode

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from brace.errors import BadFileError
+from brace.ground.errors import BadFileError
 from brace.importing.signal import Signal
 
 JUMP_BACK_S = 1.0  # within it, entries of several senders may be written out of order

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
-from brace.errors import BadFileError, MissingLibraryError, UsageError
+from brace.ground.errors import BadFileError, MissingLibraryError, UsageError
 from brace.importing.logs import our_frames
 from brace.importing.logs.collect import Collector
 
@@ -183,7 +183,7 @@ def _listed(texts: Sequence[str]) -> str:
 
 
 def _loaded(path: Path) -> list[Message]:
-    from brace.files import DATA_LIMIT_BYTES, read_bytes
+    from brace.ground.files import DATA_LIMIT_BYTES, read_bytes
 
     return _parsed(read_bytes(path, DATA_LIMIT_BYTES, "CAN database").decode("cp1252", "replace"), str(path))
 

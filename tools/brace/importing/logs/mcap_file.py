@@ -9,7 +9,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from brace.errors import BadFileError, MissingLibraryError
+from brace.ground.errors import BadFileError, MissingLibraryError
 from brace.importing.logs import our_frames
 from brace.importing.logs.collect import Collector
 from brace.importing.logs.dbc import Databases, decode

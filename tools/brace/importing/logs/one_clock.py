@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-from brace.errors import BadFileError
+from brace.ground.errors import BadFileError
 from brace.importing import names
 from brace.importing.mapping import MappingTable
 from brace.importing.meaning import quantity_of

@@ -10,11 +10,11 @@ from scipy.special import fdtrc
 from brace.dataset import DataFault, Dataset
 from brace.dataset.faults import what_is_wrong
 from brace.diagnose.diagnosis import Diagnosis
-from brace.identify.noise import FORCES
 from brace.diagnose.loading.data_faults import against_limb
 from brace.diagnose.options import Options
-from brace.errors import BadFileError
+from brace.ground.errors import BadFileError
 from brace.identify.loading import MIN_ROWS
+from brace.identify.noise import FORCES
 from brace.model import LimbModel
 
 MOST_LISTED = 200

@@ -15,7 +15,7 @@ from dataclasses import fields
 import rclpy
 from brace.bus.open import open_bus
 from brace.bus.url import parse
-from brace.errors import BraceError
+from brace.ground.errors import BraceError
 from brace_msgs.msg import LimbLoad as LimbLoadMessage
 from brace_msgs.msg import LimbStiffness as LimbStiffnessMessage
 from brace_msgs.msg import LimbStiffnessInSpace as LimbStiffnessInSpaceMessage

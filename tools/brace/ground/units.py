@@ -9,6 +9,8 @@ from dataclasses import dataclass
 G_M_PER_S2 = 9.80665
 LBF_N = 4.4482216152605
 
+FORCE_MOST_N = 1e4  # the firmware takes no larger component of the force on the tip: firmware/core/src/loaded/loaded.c
+
 
 @dataclass(frozen=True)
 class Unit:

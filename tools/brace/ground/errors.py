@@ -6,10 +6,9 @@ exit code that scripts test for.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from pathlib import Path
-
-from brace.pages import located
 
 EXIT_OK = 0
 EXIT_CHECK_FAILED = 1
@@ -20,6 +19,9 @@ EXIT_DEVICE_FAULT = 5
 EXIT_VERSION = 6
 EXIT_NOT_VERIFIED = 7
 EXIT_INTERRUPTED = 130
+
+_INSTALLED = Path(__file__).resolve().parents[4] / "share" / "doc" / "brace" / "docs"  # the Debian package's
+_PAGE = re.compile(r"(?<![\w/])docs/(?=[a-z-]+\.md\b)")
 
 
 class BraceError(Exception):
@@ -42,6 +44,13 @@ class BraceError(Exception):
         if self.next_step:
             lines.append(f"  try: {self.next_step}")
         return "\n".join(printable(located(line)) for line in lines)
+
+
+def located(text: str) -> str:
+    """The text, with the folder of its pages where they are installed; in the project they are in docs/."""
+    if "docs/" not in text or not _INSTALLED.is_dir():
+        return text
+    return _PAGE.sub(f"{_INSTALLED}/", text)
 
 
 def printable(text: str) -> str:

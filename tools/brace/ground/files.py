@@ -8,7 +8,7 @@ import tempfile
 from collections.abc import Iterable
 from pathlib import Path
 
-from brace.errors import BadFileError, UsageError
+from brace.ground.errors import BadFileError, UsageError
 
 TOML_LIMIT_BYTES = 1 << 20
 DATA_LIMIT_BYTES = 1 << 30
@@ -91,7 +91,7 @@ def read_text(path: Path, limit_bytes: int, what: str) -> str:
 
 def _nearby(path: Path) -> str:
     """A suggestion built from what lies beside a missing file."""
-    from brace.errors import did_you_mean
+    from brace.ground.errors import did_you_mean
 
     if not path.parent.is_dir():
         return f"the folder {path.parent} does not exist either; check the path"

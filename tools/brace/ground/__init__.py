@@ -1,0 +1,1 @@
+"""What every room stands on: errors, files, units, slips of the pen. Nothing here knows a limb."""
