@@ -13,8 +13,8 @@ from matplotlib import pyplot as plt  # noqa: E402
 from matplotlib.patches import Ellipse  # noqa: E402
 
 from brace.model import LimbModel, load_limb  # noqa: E402
-from brace.stiffness import PlanarLimb, planar_limb  # noqa: E402
-from brace.stiffness_under_load import LoadedLimb  # noqa: E402
+from brace.stiffness.at_rest import PlanarLimb, planar_limb  # noqa: E402
+from brace.stiffness.under_load import LoadedLimb  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[2]
 STYLE: dict[Any, Any] = {"svg.hashsalt": "brace", "svg.fonttype": "none", "font.size": 9.0, "axes.spines.top": False,

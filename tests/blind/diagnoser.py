@@ -77,7 +77,7 @@ def diagnose(case: Path, out: Path, seed: int = 0, report: bool = True) -> dict[
 def k_under_load(limb: Path, theta: Array, force_n: Array) -> Array:
     """`brace k --fx --fz`: K (count x 2 x 2) at commanded angles under forces on the tip; NaN where it is refused."""
     from brace.model import load_limb
-    from brace.stiffness_under_load import LoadedLimb
+    from brace.stiffness.under_load import LoadedLimb
 
     model = load_limb(limb)
     offsets = [model.number(f"joint.{joint}.zero_offset_rad") for joint in ("femur", "tibia")]
@@ -90,7 +90,7 @@ def predict(dataset: Path, limb: Path, out: Path) -> None:
     """`brace predict`: forces of a limb for a dataset's rows, as CSV."""
     from brace.dataset import load_dataset
     from brace.model import load_limb
-    from brace.predict import predict as played
+    from brace.rig.predict import predict as played
 
     columns = played(load_dataset(dataset), load_limb(limb)).columns
     lines = ["fx_n,fz_n"] + [f"{x:.6f},{z:.6f}" for x, z in zip(columns["fx_n"], columns["fz_n"], strict=True)]

@@ -15,9 +15,9 @@ from pathlib import Path
 import numpy as np
 from brace.model import LimbModel
 from brace.params import pack
-from brace.play_under_load import JOINTS, PlayUnderLoad, put_into
-from brace.stiffness import PLANAR_K, PostureError
-from brace.stiffness_under_load import LoadedLimb, stiffness_under_load
+from brace.stiffness.at_rest import PLANAR_K, PostureError
+from brace.stiffness.play_under_load import JOINTS, PlayUnderLoad, put_into
+from brace.stiffness.under_load import LoadedLimb, stiffness_under_load
 from cases import Case, limb_model, random_cases
 
 SETTLED = Path(__file__).resolve().parents[2] / "build" / "host" / "tests" / "judges" / "play" / "settled"

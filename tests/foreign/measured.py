@@ -85,7 +85,7 @@ def _predicted(part: dict[str, Array], limb: Path, work: Path) -> Array:
     from brace.dataset import load_dataset
     from brace.ground.errors import BraceError
     from brace.model import load_limb
-    from brace.predict import predict
+    from brace.rig.predict import predict
 
     write(work, "left out", Record(dict(part)))
     try:

@@ -9,7 +9,7 @@ import pytest
 
 from brace.dataset.columns import KINDS
 from brace.dataset.meta import _KNOWN as META_KEYS
-from brace.rig import RIG_KEYS
+from brace.rig.rig import RIG_KEYS
 from conftest import PROJECT
 
 SECTIONS = dict(

@@ -13,8 +13,8 @@ import pytest
 
 from brace.model import LimbModel, load_limb
 from brace.native import loaded
-from brace.stiffness import SPATIAL_C, SPATIAL_K
-from brace.stiffness_in_space_under_load import DISPLACEMENT, LoadedLimbInSpace
+from brace.stiffness.at_rest import SPATIAL_C, SPATIAL_K
+from brace.stiffness.in_space_under_load import DISPLACEMENT, LoadedLimbInSpace
 from conftest import Outcome
 
 WORST_K, WORST_MM = 0.01, 2.0  # what brace/loaded_space.h promises

@@ -13,7 +13,7 @@ import pytest
 from brace.model import LimbModel, load_limb
 from brace.native import loaded
 from brace.native.plant import LoadingPlayer
-from brace.stiffness_under_load import stiffness_under_load
+from brace.stiffness.under_load import stiffness_under_load
 from conftest import Outcome
 
 ADDED = {"tip_dx_mm", "tip_dz_mm", "buckling_factor"}

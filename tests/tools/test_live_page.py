@@ -26,7 +26,7 @@ from brace.live.card import Card, card_from, card_of
 from brace.live.feed import Feed
 from brace.live.limb_view import LimbNumbers, LimbWords, limb_numbers, limb_words
 from brace.model import LimbModel, load_limb
-from brace.stiffness import planar_limb
+from brace.stiffness.at_rest import planar_limb
 
 CHROMIUM = shutil.which("chromium")
 START_S = 30.0  # of a command, on a busy machine

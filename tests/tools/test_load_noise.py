@@ -23,7 +23,7 @@ from brace.bus.snapshot import Joiner
 from brace.bus.url import parse
 from brace.model import LimbModel, load_limb
 from brace.native.loaded import under_force
-from brace.stiffness import planar_limb
+from brace.stiffness.at_rest import planar_limb
 
 NOISE_N = 0.1  # sensor.noise_n's default, which the simulation takes
 SAMPLES = 200

@@ -239,7 +239,7 @@ def test_play_that_nothing_loads_leaves_the_joint_carrying_nothing(paper: LimbMo
 
 
 def one_flag(snapshot: Any, name: str) -> bool:
-    from brace.stiffness import flag_names
+    from brace.stiffness.at_rest import flag_names
 
     return name in flag_names(snapshot.stiffness.now.flags)
 

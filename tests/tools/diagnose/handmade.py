@@ -25,8 +25,8 @@ from brace.diagnose.diagnosis import (
 )
 from brace.model import LimbModel, load_limb
 from brace.native.plant import LoadingPlayer
-from brace.rig import load_rig
-from brace.simulate import simulate
+from brace.rig.rig import load_rig
+from brace.rig.simulate import simulate
 
 GAP_RAD = 0.0061
 GAP_KEY = "joint.tibia.gap_rad"

@@ -10,8 +10,8 @@ import numpy as np
 
 from brace.dataset.write import csv_text, meta_text
 from brace.model import LimbModel, load_limb
-from brace.rig import load_rig
-from brace.simulate import MetaTables, simulate
+from brace.rig.rig import load_rig
+from brace.rig.simulate import MetaTables, simulate
 
 Rng = np.random.Generator
 Columns = dict[str, np.ndarray]

@@ -16,12 +16,10 @@ from brace.dataset import load_dataset
 from brace.dataset.write import write_dataset
 from brace.diagnose.diagnosis import NextExperiment
 from brace.diagnose.loading.choose import LabelSet
+from brace.diagnose.loading.fit import fit
 from brace.diagnose.loading.next_experiment.confusability import confusability, in_words
 from brace.diagnose.loading.next_experiment.experiment import next_experiment
-from brace.diagnose.loading.fit import fit
 from brace.diagnose.loading.next_experiment.menu import CHANNELS, GROUPS, as_record, conditions
-from brace.identify.record import Record, load_record
-from brace.diagnose.loading.search import Hypothesis
 from brace.diagnose.loading.next_experiment.separation import (
     Contender,
     chance_to_win,
@@ -31,13 +29,15 @@ from brace.diagnose.loading.next_experiment.separation import (
     play,
     told,
 )
+from brace.diagnose.loading.search import Hypothesis
 from brace.diagnose.loading.space import space_of, trust_of
 from brace.diagnose.options import Options
 from brace.effects import Freedom, Variant
+from brace.identify.record import Record, load_record
 from brace.model import LimbModel, load_limb
 from brace.native.plant import LoadingPlayer
-from brace.rig import load_rig
-from brace.simulate import simulate
+from brace.rig.rig import load_rig
+from brace.rig.simulate import simulate
 
 POSTURES = ((0.2, 0.7), (0.6, 1.2), (1.0, 1.6), (0.4, 2.0), (0.8, 0.9), (1.2, 1.4))
 KNEE, TIBIA = "joint.tibia.compliance_rad_per_n_mm", "link.tibia.bending_mm_per_n"

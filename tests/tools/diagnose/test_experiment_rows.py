@@ -13,8 +13,8 @@ from brace.ground.errors import BraceError
 from brace.identify.record import NOT_MEASURED, load_record
 from brace.model import LimbModel, load_limb
 from brace.native.plant_batch import model_numbers, number_index
-from brace.rig import load_rig
-from brace.simulate import behind, joined, simulate
+from brace.rig.rig import load_rig
+from brace.rig.simulate import behind, joined, simulate
 
 META = (
     'format = 1\nkind = "loading"\ntitle = "two"\n[sensor]\nresolution_n = 0.01\nrange_n = 145.0\n'

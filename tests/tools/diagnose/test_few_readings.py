@@ -13,8 +13,8 @@ from brace.diagnose.diagnosis import Diagnosis
 from brace.diagnose.options import Options
 from brace.diagnose.run import diagnose
 from brace.model import load_limb
-from brace.rig import load_rig
-from brace.simulate import simulate
+from brace.rig.rig import load_rig
+from brace.rig.simulate import simulate
 
 LIMB = Path(__file__).resolve().parents[3] / "tools" / "brace" / "data" / "paper-limb.toml"
 RIG = """format = 1

@@ -21,7 +21,7 @@ from brace.identify.joint_test import JointProblem, usable
 from brace.identify.parameters import ANGLE_ZERO, TORQUE_OFFSET
 from brace.identify.run import Options, identify
 from brace.model import load_limb
-from brace.predict import predict
+from brace.rig.predict import predict
 
 LIMB = Path(__file__).parents[3] / "tools/brace/data/paper-limb.toml"
 COMPLIANCE, GAP, FRICTION = 2e-6, 0.04, 1200.0

@@ -15,7 +15,7 @@ from brace.diagnose.loading.next_experiment.confusability import Confusability, 
 from brace.model import LimbModel, load_limb
 from brace.native.plant import play_rig
 from brace.native.plant_batch import LoadingBatchPlayer, model_numbers, number_index
-from brace.rig import load_rig
+from brace.rig.rig import load_rig
 
 BEAMS = {"link.femur.moment_transfer": 1.0, "link.tibia.moment_transfer": 1.0}
 STEPS = {

@@ -17,9 +17,9 @@ from handmade import loading_record
 
 from brace.dataset import Dataset, load_dataset
 from brace.diagnose.diagnosis import Diagnosis
+from brace.diagnose.loading import rivals
 from brace.diagnose.loading.choose import LabelSet
 from brace.diagnose.loading.fit import Fit, fit
-from brace.diagnose.loading import rivals
 from brace.diagnose.loading.rivals import TURNS, Member, _contest, _fitted, _implausible, _InPlace, _wider
 from brace.diagnose.loading.space import space_of, trust_of
 from brace.diagnose.options import Options
@@ -29,7 +29,7 @@ from brace.effects.rivals import RIVAL_CAUSES
 from brace.identify.record import load_record, setting_of
 from brace.model import LimbModel, load_limb
 from brace.native.plant_batch import model_numbers, number_index
-from brace.stiffness import planar_limb
+from brace.stiffness.at_rest import planar_limb
 
 GAUGE = "base_gauge = true\nbase_noise_mm = 0.002\n"
 YIELDS = {"base.x_mm_per_n": 0.05, "base.z_mm_per_n": 0.05}

@@ -14,8 +14,8 @@ from brace.dataset.write import write_dataset
 from brace.identify.record import load_record
 from brace.model import load_limb
 from brace.native.plant_batch import model_numbers
-from brace.rig import load_rig
-from brace.simulate import simulate
+from brace.rig.rig import load_rig
+from brace.rig.simulate import simulate
 
 ENCODER_NOISE_RAD = 2e-5
 ENCODERS = ("enc1_rad", "enc2_rad")

@@ -9,9 +9,9 @@ import numpy as np
 
 from brace.dataset.check_runs import run_starts
 from brace.model import LimbModel
-from brace.stiffness import PostureError, yields_across
-from brace.stiffness_in_space_under_load import LoadedLimbInSpace
-from brace.stiffness_under_load import LoadedLimb
+from brace.stiffness.at_rest import PostureError, yields_across
+from brace.stiffness.in_space_under_load import LoadedLimbInSpace
+from brace.stiffness.under_load import LoadedLimb
 
 Columns = dict[str, np.ndarray]
 SAME_POSTURE_RAD = 0.01

@@ -15,8 +15,8 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from brace.model import LimbModel
-    from brace.play_under_load import Play
-    from brace.stiffness import PostureError
+    from brace.stiffness.at_rest import PostureError
+    from brace.stiffness.play_under_load import Play
 
 ARITHMETICS = ("f32", "fixed", "general")
 
@@ -144,22 +144,22 @@ def _check_one_posture(arguments: argparse.Namespace) -> None:
 def _run_single(arguments: argparse.Namespace, model: LimbModel) -> int:
     import numpy as np
 
-    from brace import stiffness
     from brace.cli.k_flags import flags_of_postures, outside
-    from brace.stiffness_in_space_under_load import LoadedLimbInSpace
-    from brace.stiffness_under_load import LoadedLimb, stiffness_under_load, without_rest
-    from brace.stiffness_with_gap import gaps_rad
+    from brace.stiffness import at_rest
+    from brace.stiffness.in_space_under_load import LoadedLimbInSpace
+    from brace.stiffness.under_load import LoadedLimb, stiffness_under_load, without_rest
+    from brace.stiffness.with_gap import gaps_rad
 
-    limb = stiffness.planar_limb(model, arguments.arith)
+    limb = at_rest.planar_limb(model, arguments.arith)
     try:
         if arguments.r is not None:
-            true1, true2 = limb.posture(arguments.r, stiffness.within_half_turn(arguments.phi), arguments.knee or "up")
+            true1, true2 = limb.posture(arguments.r, at_rest.within_half_turn(arguments.phi), arguments.knee or "up")
             offset1, offset2 = (float(a[0]) for a in limb.true_angles(np.zeros(1), np.zeros(1)))
             theta1, theta2 = true1 - offset1, true2 - offset2
         else:
             theta1, theta2 = arguments.theta1, arguments.theta2
             true1, true2 = (float(a[0]) for a in limb.true_angles(np.array([theta1]), np.array([theta2])))
-            true1 = stiffness.within_half_turn(true1)
+            true1 = at_rest.within_half_turn(true1)
         r_mm, phi_rad = limb.polar(true1, true2)
         sigma: Mapping[str, float | None]
         if arguments.theta0 is not None and arguments.is_loaded:
@@ -171,7 +171,7 @@ def _run_single(arguments: argparse.Namespace, model: LimbModel) -> int:
                 raise in_space.refusal(0)
             sigma = in_space.sigma(theta_rad, force_n)
         elif arguments.theta0 is not None:
-            result = stiffness.spatial_stiffness(model, *(np.array([a]) for a in (arguments.theta0, theta1, theta2)))
+            result = at_rest.spatial_stiffness(model, *(np.array([a]) for a in (arguments.theta0, theta1, theta2)))
             theta_rad = np.array([[arguments.theta0, theta1, theta2]])
             sigma = LoadedLimbInSpace(model, is_weightless=True).sigma(theta_rad, np.zeros((1, 3)))
         elif arguments.is_loaded:
@@ -183,7 +183,7 @@ def _run_single(arguments: argparse.Namespace, model: LimbModel) -> int:
         else:
             result = limb.stiffness(np.array([true1]), np.array([true2]))
             sigma = limb.sigma(true1, true2)
-    except stiffness.PostureError as error:
+    except at_rest.PostureError as error:
         raise _refused(error, arguments, model) from None
     values = {name: result[name][0].item() + 0 for name in result.dtype.names or ()}  # -0 is 0
     posture = {
@@ -221,7 +221,7 @@ def _run_single(arguments: argparse.Namespace, model: LimbModel) -> int:
                 "while_open": while_open,
                 "open": free,
                 **({"held": play.held, "engaged": play.engaged} if play else {}),
-                "flag_names": stiffness.flag_names(values["flags"]),
+                "flag_names": at_rest.flag_names(values["flags"]),
                 **sigma,
                 **posture,
                 "arith": path,
@@ -229,7 +229,7 @@ def _run_single(arguments: argparse.Namespace, model: LimbModel) -> int:
             }
         )
     else:
-        common.emit(_text(model.name, values, sigma, posture, path, stiffness.flag_names(values["flags"])))
+        common.emit(_text(model.name, values, sigma, posture, path, at_rest.flag_names(values["flags"])))
         for joint, gap_rad in gaps_rad(model, arguments.theta0 is not None).items():
             common.emit(_gap_text(joint, gap_rad, while_open.get(joint), is_told=play is not None))
         for line in _play_text(gaps_rad(model), free, arguments, play):
@@ -242,7 +242,7 @@ def _run_single(arguments: argparse.Namespace, model: LimbModel) -> int:
 def _both_open(gaps: dict[str, float], while_open: dict[str, dict[str, float]]) -> dict[str, float]:
     """K with every gap open, the lower bound: what a controller tells while no load is seen. Empty without play, or
     where it cannot be told."""
-    from brace.stiffness import PLANAR_K
+    from brace.stiffness.at_rest import PLANAR_K
 
     if not while_open or len(while_open) < len(gaps):
         return {}
@@ -255,7 +255,7 @@ def _play(
     model: LimbModel, true_rad: tuple[float, float], values: dict[str, float], arguments: argparse.Namespace
 ) -> Play | None:
     """Which play the load takes up, of a limb in its plane; K of now goes into `values`."""
-    from brace.play_under_load import PlayUnderLoad, put_into
+    from brace.stiffness.play_under_load import PlayUnderLoad, put_into
 
     if not arguments.is_loaded or arguments.theta0 is not None:
         return None
@@ -305,8 +305,8 @@ def _while_open(
     model: LimbModel, theta1_rad: float, theta2_rad: float, engaged: dict[str, float]
 ) -> dict[str, dict[str, float]]:
     """K for each joint's open gap. A joint is missing where the tip lies on its axis."""
-    from brace.stiffness import PostureError
-    from brace.stiffness_with_gap import gaps_rad, stiffness_while_open
+    from brace.stiffness.at_rest import PostureError
+    from brace.stiffness.with_gap import gaps_rad, stiffness_while_open
 
     found = {}
     for joint in gaps_rad(model):
@@ -332,7 +332,7 @@ def _gap_text(joint: str, gap_rad: float, k: dict[str, float] | None, *, is_told
 
 
 def _refused(error: PostureError, arguments: argparse.Namespace, model: LimbModel) -> UsageError:
-    from brace.stiffness import E_SINGULAR, E_UNREACHABLE
+    from brace.stiffness.at_rest import E_SINGULAR, E_UNREACHABLE
 
     if error.status == E_UNREACHABLE:
         femur, tibia = model.number("geometry.femur_mm"), model.number("geometry.tibia_mm")

@@ -8,7 +8,7 @@ import numpy as np
 
 from brace.model import LimbModel
 from brace.model.travel import ANGLES, travel_rad, within_travel
-from brace.stiffness_with_gap import gaps_rad
+from brace.stiffness.with_gap import gaps_rad
 from brace.wire.codes import FLAG
 
 _BIT = {code.name: 1 << code.number for code in FLAG.codes}

@@ -6,17 +6,17 @@ import argparse
 
 import numpy as np
 
-from brace import stiffness
 from brace.cli import common
 from brace.cli.k_flags import flags_of_postures
 from brace.cli.k_load import refuse_across_the_plane, refuse_in_space, refuse_load_with
+from brace.dataset.posture_table import PostureTable, read_postures
 from brace.ground.errors import BadFileError, UsageError
 from brace.ground.files import check_file, write_file
 from brace.model import LimbModel
-from brace.play_under_load import PlayUnderLoad, put_into
-from brace.posture_table import PostureTable, read_postures
-from brace.stiffness_in_space_under_load import LOADED_SPACE_REST, LoadedLimbInSpace
-from brace.stiffness_under_load import LOADED_REST, stiffness_under_load
+from brace.stiffness import at_rest
+from brace.stiffness.in_space_under_load import LOADED_SPACE_REST, LoadedLimbInSpace
+from brace.stiffness.play_under_load import PlayUnderLoad, put_into
+from brace.stiffness.under_load import LOADED_REST, stiffness_under_load
 
 
 def run_table(arguments: argparse.Namespace, model: LimbModel) -> int:
@@ -28,15 +28,15 @@ def run_table(arguments: argparse.Namespace, model: LimbModel) -> int:
     loaded = bool(table.forces) or arguments.is_loaded
     _check_load(table, arguments)
     loaded_rest = LOADED_SPACE_REST if spatial else LOADED_REST
-    rest = loaded_rest if loaded else stiffness.SPATIAL_REST if spatial else stiffness.PLANAR_REST
-    k, c = (stiffness.SPATIAL_K, stiffness.SPATIAL_C) if spatial else (stiffness.PLANAR_K, stiffness.PLANAR_C)
+    rest = loaded_rest if loaded else at_rest.SPATIAL_REST if spatial else at_rest.PLANAR_REST
+    k, c = (at_rest.SPATIAL_K, at_rest.SPATIAL_C) if spatial else (at_rest.PLANAR_K, at_rest.PLANAR_C)
     names = (*k, *c, *rest, "flags")
     _refuse_taken(table, names)
     try:
         under_load = _in_space_under_load if spatial else _under_load
         choose = under_load if loaded else _in_space if spatial else _in_plane
         result, path = choose(table, model, arguments)
-    except stiffness.PostureError as error:
+    except at_rest.PostureError as error:
         angles = ", ".join(f"{name} = {values[error.index]:g}" for name, values in table.angles.items())
         raise BadFileError(
             f"the posture {angles} is refused",
@@ -70,16 +70,16 @@ def run_table(arguments: argparse.Namespace, model: LimbModel) -> int:
 
 
 def _in_plane(table: PostureTable, model: LimbModel, arguments: argparse.Namespace) -> tuple[np.ndarray, str]:
-    limb = stiffness.planar_limb(model, arguments.arith)
+    limb = at_rest.planar_limb(model, arguments.arith)
     true1, true2 = limb.true_angles(table.angles["theta1_rad"], table.angles["theta2_rad"])
-    return limb.stiffness(stiffness.within_half_turn(true1), true2), limb.path
+    return limb.stiffness(at_rest.within_half_turn(true1), true2), limb.path
 
 
 def _under_load(table: PostureTable, model: LimbModel, arguments: argparse.Namespace) -> tuple[np.ndarray, str]:
-    limb = stiffness.planar_limb(model)
+    limb = at_rest.planar_limb(model)
     true1, true2 = limb.true_angles(table.angles["theta1_rad"], table.angles["theta2_rad"])
     force_n = _forces(table, {"fx_n": arguments.fx, "fz_n": arguments.fz})
-    true1 = stiffness.within_half_turn(true1)
+    true1 = at_rest.within_half_turn(true1)
     path = "loaded, fixed" if arguments.arith == "fixed" else "loaded"
     return stiffness_under_load(model, true1, true2, *force_n, arithmetic=arguments.arith), path
 
@@ -94,9 +94,9 @@ def _in_space_under_load(
 
 def _take_up(table: PostureTable, model: LimbModel, arguments: argparse.Namespace, result: np.ndarray) -> None:
     """K of now where the load leaves a gap open, and the flags of the play that it holds."""
-    true1, true2 = stiffness.planar_limb(model).true_angles(table.angles["theta1_rad"], table.angles["theta2_rad"])
+    true1, true2 = at_rest.planar_limb(model).true_angles(table.angles["theta1_rad"], table.angles["theta2_rad"])
     force_n = _forces(table, {"fx_n": arguments.fx, "fz_n": arguments.fz})
-    rows = np.column_stack([stiffness.within_half_turn(true1), true2, *force_n]).tolist()
+    rows = np.column_stack([at_rest.within_half_turn(true1), true2, *force_n]).tolist()
     limb = PlayUnderLoad(model, arguments.arith)
     for index, (theta1, theta2, fx_n, fz_n) in enumerate(rows):
         if np.isnan(result["k_xx_n_per_mm"][index]):
@@ -133,7 +133,7 @@ def _check_load(table: PostureTable, arguments: argparse.Namespace) -> None:
 
 def _in_space(table: PostureTable, model: LimbModel, arguments: argparse.Namespace) -> tuple[np.ndarray, str]:
     angles = [table.angles[name] for name in ("theta0_rad", "theta1_rad", "theta2_rad")]
-    return stiffness.spatial_stiffness(model, *angles), "spatial"
+    return at_rest.spatial_stiffness(model, *angles), "spatial"
 
 
 def _refuse_taken(table: PostureTable, names: tuple[str, ...]) -> None:

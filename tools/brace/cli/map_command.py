@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     import numpy as np
 
     from brace.model import LimbModel
-    from brace.workspace import Workspace
+    from brace.stiffness.workspace import Workspace
 
 
 def add(commands: Subcommands) -> None:
@@ -65,10 +65,10 @@ def add(commands: Subcommands) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Executes the subcommand."""
-    from brace import workspace
     from brace.ground.files import OutputSet, check_folder
     from brace.model import load_limb
-    from brace.stiffness_with_gap import gaps_rad
+    from brace.stiffness import workspace
+    from brace.stiffness.with_gap import gaps_rad
 
     for name in ("theta1", "theta2"):
         if getattr(arguments, name) is None:
@@ -143,7 +143,7 @@ class Summary(TypedDict):
 def _summary(name: str, grid: Workspace) -> Summary:
     import numpy as np
 
-    from brace.workspace import turning_points
+    from brace.stiffness.workspace import turning_points
 
     low, high = grid.band("lambda_min_n_per_mm"), grid.band("lambda_max_n_per_mm")
     turns = {

@@ -16,7 +16,7 @@ from brace.ground.errors import BraceError, UsageError
 
 if TYPE_CHECKING:
     from brace.model import LimbModel
-    from brace.plan import Plan, Wish
+    from brace.stiffness.plan import Plan, Wish
 
 APART_RATIO = 0.05  # of the reach, between the tips of postures that are printed
 _NEEDS = {"steady": ("payload", "a payload"), "light": ("friction", "the surface's friction"), "k": ("k", "a K")}
@@ -81,7 +81,7 @@ def add(commands: Subcommands) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Executes the subcommand."""
     from brace.model import load_limb
-    from brace.plan import KNEES, PREFERENCES, Wish, plan
+    from brace.stiffness.plan import KNEES, PREFERENCES, Wish, plan
 
     _check(arguments)
     model = load_limb(arguments.model)
@@ -157,7 +157,7 @@ def _without_travel(model: LimbModel) -> list[str]:
 
 def _play_lines(model: LimbModel, p: Mapping[str, float | str]) -> list[str]:
     """What a posture's K is until the load has taken up the play."""
-    from brace.play_of_posture import plays
+    from brace.stiffness.play_of_posture import plays
 
     lines = []
     for play in plays(model, float(p["theta1_true_rad"]), float(p["theta2_true_rad"]), p):

@@ -43,7 +43,7 @@ def run(arguments: argparse.Namespace) -> int:
     from brace.dataset import load_dataset
     from brace.ground.files import check_file, write_file
     from brace.model import load_limb
-    from brace.predict import predict, require_sound_inputs
+    from brace.rig.predict import predict, require_sound_inputs
 
     inputs = [arguments.model, arguments.dataset / "data.csv", arguments.dataset / "meta.toml"]
     check_file(arguments.out, inputs)  # before the work, not after

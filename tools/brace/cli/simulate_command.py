@@ -47,8 +47,8 @@ def run(arguments: argparse.Namespace) -> int:
     from brace.dataset.write import write_dataset
     from brace.ground.files import check_folder
     from brace.model import load_limb
-    from brace.rig import load_rig
-    from brace.simulate import behind, joined, simulate
+    from brace.rig.rig import load_rig
+    from brace.rig.simulate import behind, joined, simulate
 
     model = load_limb(arguments.model)
     rig = load_rig(arguments.rig)

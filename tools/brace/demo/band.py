@@ -10,7 +10,7 @@ from brace.demo.postures import curve
 from brace.ground.errors import BraceError
 from brace.identify.information import Information
 from brace.identify.parameters import TIP_HEIGHT
-from brace.stiffness import PostureError
+from brace.stiffness.at_rest import PostureError
 
 DRAWS = 150
 SEED = 4

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from brace.stiffness import PlanarLimb, PostureError
+from brace.stiffness.at_rest import PlanarLimb, PostureError
 
 SAG_MM = 2.0
 FRICTION_RATIO = 0.5

@@ -8,7 +8,7 @@ import numpy as np
 
 from brace.model import LimbModel
 from brace.plots.limb_plot import PosedLimb
-from brace.stiffness import PlanarLimb, planar_limb
+from brace.stiffness.at_rest import PlanarLimb, planar_limb
 
 
 @dataclass(frozen=True)

@@ -19,8 +19,8 @@ from brace.plots.cyclic_plot import cyclic_figure
 from brace.plots.eigenvalue_plot import eigenvalue_figure
 from brace.plots.figure import png_bytes
 from brace.plots.limb_plot import ellipse_figure
-from brace.stiffness import planar_limb
-from brace.workspace import compute
+from brace.stiffness.at_rest import planar_limb
+from brace.stiffness.workspace import compute
 
 Advance = Callable[[int], None]
 

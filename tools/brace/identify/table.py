@@ -8,13 +8,13 @@ import numpy as np
 
 from brace.dataset import Dataset
 from brace.dataset.check_table import stiffness
+from brace.dataset.table_poses import POSTURE_KEYS, TablePoses, table_poses
 from brace.ground.errors import BadFileError
 from brace.identify.fit import Nuisances
 from brace.identify.parameters import TIP_HEIGHT, Parameter, natural_scale
 from brace.model import LimbModel
 from brace.native.plant import reference_planar
 from brace.native.plant_batch import model_numbers, number_index, reference_planar_many
-from brace.tables import POSTURE_KEYS, TablePoses, table_poses
 
 MIN_ROWS = 2
 

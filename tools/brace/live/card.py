@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 from brace.ground.errors import BraceError
 from brace.model import LimbModel
-from brace.stiffness import PlanarLimb, planar_limb
+from brace.stiffness.at_rest import PlanarLimb, planar_limb
 
 # After this turn K's relative uncertainty is computed anew. Until then it changes by less than a tenth of itself, near
 # the straight and the folded limb by up to a sixth.

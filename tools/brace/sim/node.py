@@ -17,7 +17,7 @@ from brace.native.c_data import CData
 from brace.native.limb import fill_plant, plant_error, status_text
 from brace.params import pack
 from brace.sim.spec import JOINTS, Fault, Posture
-from brace.stiffness import SPATIAL_K, flag_names
+from brace.stiffness.at_rest import SPATIAL_K, flag_names
 from brace.wire import codes
 
 MODES = tuple(name.lower() for name in codes.MODE.names)

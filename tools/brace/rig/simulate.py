@@ -13,7 +13,7 @@ from brace.dataset import Dataset
 from brace.ground.errors import UsageError
 from brace.model import LimbModel
 from brace.native.plant import play_rig
-from brace.rig import Rig
+from brace.rig.rig import Rig
 
 BETWEEN_TESTS_S = 60.0
 

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from brace.hardening import Spring, settle
 from brace.model import LimbModel
 from brace.native import library
 from brace.native.limb import firmware_limb, status_text
-from brace.sigma import sigma_in_space
-from brace.stiffness import (
+from brace.stiffness.at_rest import (
     E_SINGULAR,
     SPATIAL_K,
     SPATIAL_REST,
@@ -19,7 +17,9 @@ from brace.stiffness import (
     spatial_compliance,
     within_half_turn,
 )
-from brace.stiffness_under_load import FOLDS
+from brace.stiffness.hardening import Spring, settle
+from brace.stiffness.sigma import sigma_in_space
+from brace.stiffness.under_load import FOLDS
 
 DISPLACEMENT = ("tip_dx_mm", "tip_dy_mm", "tip_dz_mm")
 LOADED_SPACE_REST = (*SPATIAL_REST, *DISPLACEMENT, "buckling_factor")

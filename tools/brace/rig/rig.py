@@ -98,7 +98,7 @@ class Rig:
         pose = self.poses[index]
         if "theta1_rad" in pose:
             return toml.number(pose, "theta1_rad"), toml.number(pose, "theta2_rad")
-        from brace.stiffness import PostureError, planar_limb
+        from brace.stiffness.at_rest import PostureError, planar_limb
 
         try:
             r_mm, phi_rad = toml.number(pose, "r_mm"), toml.number(pose, "phi_rad")

@@ -9,8 +9,8 @@ from brace.model import LimbModel
 from brace.native import library
 from brace.native.limb import firmware_limb, status_text
 from brace.params.values import words_of
-from brace.stiffness import PLANAR_C, PLANAR_K, PLANAR_REST, PostureError
-from brace.stiffness_under_load import LoadedLimb
+from brace.stiffness.at_rest import PLANAR_C, PLANAR_K, PLANAR_REST, PostureError
+from brace.stiffness.under_load import LoadedLimb
 
 JOINTS = ("femur", "tibia")
 _ROUNDS = 4  # the sides where joints stand move the limb by less than a degree: the second round nearly always agrees

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from brace.hardening import Spring, settle
 from brace.model import LimbModel
 from brace.native import library
 from brace.native.c_data import CData
 from brace.native.limb import firmware_limb, status_text
-from brace.sigma import sigma_in_plane
-from brace.stiffness import E_SINGULAR, PLANAR_C, PLANAR_K, PLANAR_REST, PostureError
+from brace.stiffness.at_rest import E_SINGULAR, PLANAR_C, PLANAR_K, PLANAR_REST, PostureError
+from brace.stiffness.hardening import Spring, settle
+from brace.stiffness.sigma import sigma_in_plane
 
 DISPLACEMENT = ("tip_dx_mm", "tip_dz_mm")
 LOADED_REST = (*PLANAR_REST, *DISPLACEMENT, "buckling_factor")

@@ -15,8 +15,8 @@ import numpy as np
 
 from brace.model import LimbModel
 from brace.model.travel import KNEE_MOST_RAD, has_travel, within_travel
-from brace.stiffness import PLANAR_C, PLANAR_K, PLANAR_REST, PlanarLimb, planar_limb
-from brace.stiffness_under_load import LoadedLimb
+from brace.stiffness.at_rest import PLANAR_C, PLANAR_K, PLANAR_REST, PlanarLimb, planar_limb
+from brace.stiffness.under_load import LoadedLimb
 
 KNEES = ("up", "down")
 PREFERENCES = {  # what is best, and the column that says so; -1: more is better

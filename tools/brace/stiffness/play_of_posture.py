@@ -8,8 +8,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from brace.model import LimbModel
-from brace.stiffness import PLANAR_K, PLANAR_REST, PostureError
-from brace.stiffness_with_gap import gaps_rad, stiffness_while_open
+from brace.stiffness.at_rest import PLANAR_K, PLANAR_REST, PostureError
+from brace.stiffness.with_gap import gaps_rad, stiffness_while_open
 
 
 @dataclass(frozen=True)

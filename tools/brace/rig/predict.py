@@ -8,10 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from brace.dataset import DataFault, Dataset
+from brace.dataset.table_poses import table_poses
 from brace.dataset.zeroing import zeroed
 from brace.ground.errors import UsageError
 from brace.model import LimbModel
-from brace.tables import table_poses
 
 _MEASURED = (
     "fx_n",
@@ -94,7 +94,7 @@ def _predict_joint_test(dataset: Dataset, model: LimbModel) -> Prediction:
 
 
 def _predict_table(dataset: Dataset, model: LimbModel, knee: str, tip_height_mm: float | None) -> Prediction:
-    from brace.stiffness import PostureError, planar_limb
+    from brace.stiffness.at_rest import PostureError, planar_limb
 
     poses = table_poses(dataset, model, knee)
     notes: tuple[str, ...] = ()

@@ -12,8 +12,8 @@ from brace.ground.errors import UsageError
 from brace.model import LimbModel
 from brace.native import library
 from brace.native.limb import firmware_limb, refused_limb
-from brace.stiffness import PLANAR_K, PLANAR_REST, E_UNSUPPORTED
-from brace.stiffness_under_load import LOADED_REST, LoadedLimb
+from brace.stiffness.at_rest import PLANAR_K, PLANAR_REST, E_UNSUPPORTED
+from brace.stiffness.under_load import LOADED_REST, LoadedLimb
 
 COLUMNS = (*PLANAR_K, *PLANAR_REST)
 LOADED_COLUMNS = (*PLANAR_K, *LOADED_REST)
