@@ -7,7 +7,7 @@
 #include <unistd.h>
 #include <unity.h>
 
-#include "bus_internal.h"
+#include "bus_socketcan.h"
 
 enum { MORE_THAN_ONE_CALL_SKIPS = 200 };
 

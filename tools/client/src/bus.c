@@ -1,34 +1,10 @@
-#include "bus_internal.h"
-
-#include <stdarg.h>
-#include <stdio.h>
+/* A bus by its URL: opened, sent to, received from, closed. */
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 
-uint64_t brace_bus_now_us(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (uint64_t)now.tv_sec * 1000000u + (uint64_t)now.tv_nsec / 1000u;
-}
-
-int brace_bus_left_ms(uint64_t deadline_us)
-{
-    const uint64_t now_us = brace_bus_now_us();
-    return now_us >= deadline_us ? 0 : (int)((deadline_us - now_us + 999u) / 1000u);
-}
-
-void brace_bus_say(char *why, unsigned why_room, const char *format, ...)
-{
-    if (why != NULL && why_room > 0u) {
-        va_list arguments;
-        va_start(arguments, format);
-        vsnprintf(why, why_room, format, arguments);
-        va_end(arguments);
-    }
-}
+#include "bus_slcan.h"
+#include "bus_socketcan.h"
 
 brace_bus_status_t brace_bus_open(const char *url, uint32_t bit_rate, int timeout_ms, brace_bus_t **bus, char *why,
                                   unsigned why_room)

@@ -1,6 +1,6 @@
-/* Shared by the two kinds of bus: a file descriptor, and text that comes in pieces. */
-#ifndef BRACE_BUS_INTERNAL_H
-#define BRACE_BUS_INTERNAL_H
+/* What the two kinds of bus share: a file descriptor, text that comes in pieces, the clock, a reason in words. */
+#ifndef BRACE_BUS_COMMON_H
+#define BRACE_BUS_COMMON_H
 
 #include <stddef.h>
 
@@ -26,20 +26,5 @@ uint64_t brace_bus_now_us(void);
 int brace_bus_left_ms(uint64_t deadline_us);
 
 void brace_bus_say(char *why, unsigned why_room, const char *format, ...) __attribute__((format(printf, 3, 4)));
-
-brace_bus_status_t brace_socketcan_open(brace_bus_t *bus, const char *name, char *why, unsigned why_room);
-brace_bus_status_t brace_socketcan_send(brace_bus_t *bus, const brace_bus_frame_t *frame, int timeout_ms);
-brace_bus_status_t brace_socketcan_receive(brace_bus_t *bus, brace_bus_frame_t *frame, int timeout_ms);
-
-brace_bus_status_t brace_slcan_open_tty(brace_bus_t *bus, const char *where, char rate, char *why, unsigned why_room);
-brace_bus_status_t brace_slcan_open_tcp(brace_bus_t *bus, const char *where, char rate, int timeout_ms, char *why,
-                                        unsigned why_room);
-bool brace_slcan_rate(uint32_t bit_rate, char *rate); /* the digit behind 'S'; false: there is no such rate */
-brace_bus_status_t brace_slcan_send(brace_bus_t *bus, const brace_bus_frame_t *frame, int timeout_ms);
-brace_bus_status_t brace_slcan_receive(brace_bus_t *bus, brace_bus_frame_t *frame, int timeout_ms);
-void brace_slcan_ask_status(brace_bus_t *bus, int timeout_ms);
-/* Opens the channel once more, for an adapter that was still starting and lost the first commands. */
-void brace_slcan_enter_again(brace_bus_t *bus);
-void brace_slcan_leave(brace_bus_t *bus);
 
 #endif

@@ -1,6 +1,6 @@
 /* CAN frames as LAWICEL text, over a serial device or TCP: "t1238" and the data in hexadecimal, ended by a carriage
  * return. */
-#include "bus_internal.h"
+#include "bus_slcan.h"
 
 #include <ctype.h>
 #include <errno.h>

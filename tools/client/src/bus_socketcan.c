@@ -1,5 +1,5 @@
 /* CAN through the kernel's own sockets. */
-#include "bus_internal.h"
+#include "bus_socketcan.h"
 
 #include <errno.h>
 #include <linux/can.h>

@@ -4,7 +4,7 @@
 #define BRACE_CLIENT_INTERNAL_H
 
 #include "brace/client_motion.h"
-#include "bus_internal.h"
+#include "bus_common.h"
 #include "joiner.h"
 #include "owner.h"
 
