@@ -1,5 +1,7 @@
 /* Questions in general, and the dictionary's entries by their numbers. */
 #include "ask.h"
+#include "client_can.h"
+#include "client_modbus.h"
 
 #include "brace/can_messages.h"
 

@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#include "client_internal.h"
+#include "client_state.h"
 
 /* Neither NaN, which would be sent as 'not known', nor infinite. */
 static inline bool is_number(float value)

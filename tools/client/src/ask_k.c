@@ -1,5 +1,8 @@
 /* Questions about K elsewhere: at a posture or where the tip would be, with and without a force. */
 #include "ask.h"
+#include "client_can.h"
+#include "client_modbus.h"
+#include "refusal.h"
 
 #include "brace/can_messages.h"
 #include "brace/status.h"

@@ -1,5 +1,8 @@
 /* Questions about the limb as it is now: its load, contact, drift, take-up; and where gravity points. */
 #include "ask.h"
+#include "client_can.h"
+#include "client_modbus.h"
+#include "command.h"
 
 #include "brace/can_messages.h"
 

@@ -1,5 +1,7 @@
 /* A client: opened, asked who it speaks with, read, closed. */
-#include "client_internal.h"
+#include "client_can.h"
+#include "client_modbus.h"
+#include "client_modbus_link.h"
 
 #include <stdlib.h>
 #include <string.h>

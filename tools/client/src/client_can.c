@@ -1,5 +1,8 @@
 /* The client over CAN. It looks at every frame that it receives, whatever it waits for. */
-#include "client_internal.h"
+#include "client_can.h"
+
+#include "bus_slcan.h"
+#include "refusal.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -167,7 +170,7 @@ static brace_bus_status_t receive_alive(brace_client_t *client, brace_bus_frame_
     brace_bus_status_t status;
     int left_ms = timeout_ms;
     do {
-        brace_client_tend(client, until_us);
+        brace_can_tend(client);
         if (client->is_down) {
             client->is_down = false;
             return BRACE_BUS_E_DOWN;
@@ -316,7 +319,14 @@ void brace_can_show_life(brace_client_t *client)
     (void)brace_can_pack_sign_of_life_request(&request, data);
     const uint32_t low = client->owner.has_begin ? BEGIN_TOKEN : LIFE_TOKEN;
     const brace_bus_frame_t frame = request_frame(client, data, (uint8_t)(client->master << 4 | low));
-    client->is_down |= brace_bus_send(client->bus, &frame, LIFE_MS) == BRACE_BUS_E_DOWN; /* the kernel tells it once */
+    client->is_down |= brace_bus_send(client->bus, &frame, LIFE_MS) == BRACE_BUS_E_DOWN; /* the kernel reports it once */
+}
+
+void brace_can_tend(brace_client_t *client)
+{
+    if (brace_client_life_is_due(client)) {
+        brace_can_show_life(client);
+    }
 }
 
 /* One try; a command's seal goes before it. */
@@ -431,7 +441,7 @@ static brace_client_status_t pause_apart(brace_client_t *client, uint64_t most_u
     return BRACE_CLIENT_OK;
 }
 
-/* Has the controller answered without the force? It tells so of K in space; of K in the plane it refuses then. */
+/* Has the controller answered without the force? It answers K in space with that said, and refuses K in the plane. */
 static bool is_without_force(const brace_question_t *question)
 {
     brace_can_k_in_space_at_posture_answer_4_t last;

@@ -4,7 +4,9 @@
 #include <stddef.h>
 #include <string.h>
 
+#include "client_modbus.h"
 #include "client_modbus_link.h"
+#include "refusal.h"
 
 #include "brace/can_messages.h"
 #include "brace/codes.h"
@@ -31,12 +33,31 @@ static void split(uint32_t value, uint16_t words[2])
     words[1] = (uint16_t)value;
 }
 
+/* Reads or writes so many registers from an address on. Tries again until an answer comes that is whole, and gives the
+ * signs of life that are due. */
+static brace_client_status_t transfer(brace_client_t *client, brace_modbus_function_t function, uint32_t address,
+                                      uint32_t count, uint16_t *words, uint64_t deadline_us)
+{
+    int error, broken = 0; /* broken: how an answer was that came so */
+    do {
+        brace_modbus_tend(client, deadline_us);
+        error = brace_modbus_fall_into_step(client, deadline_us);
+        error = error == 0 ? brace_modbus_try(client, function, address, count, words, deadline_us) : error;
+        if (error == 0) {
+            return BRACE_CLIENT_OK;
+        }
+        broken = brace_modbus_is_broken(error) ? error : broken;
+    } while (brace_modbus_may_pass(error) && brace_bus_left_ms(deadline_us) > 0);
+    /* The last try may be too short for an answer. That one came broken says more than that nothing came then. */
+    return brace_modbus_fail(client, broken != 0 && brace_modbus_is_silent(error) ? broken : error);
+}
+
 brace_client_status_t brace_modbus_open(brace_client_t *client, uint64_t deadline_us)
 {
     uint16_t words[8];
     brace_client_status_t status = brace_modbus_connect(client, deadline_us);
     if (status == BRACE_CLIENT_OK) {
-        status = brace_modbus_transfer(client, BRACE_MODBUS_READ_INPUT, 0u, 8u, words, deadline_us);
+        status = transfer(client, BRACE_MODBUS_READ_INPUT, 0u, 8u, words, deadline_us);
     }
     if (status != BRACE_CLIENT_OK) {
         return status;
@@ -159,7 +180,7 @@ static brace_client_status_t read_measured(brace_client_t *client, uint32_t firs
     uint16_t words[BRACE_MODBUS_REGISTERS_MOST];
     uint32_t values[BRACE_MEASURED_COUNT];
     const brace_client_status_t status =
-        brace_modbus_transfer(client, BRACE_MODBUS_READ_INPUT, 2u * first, 2u * count, words, deadline_us);
+        transfer(client, BRACE_MODBUS_READ_INPUT, 2u * first, 2u * count, words, deadline_us);
     if (status == BRACE_CLIENT_OK) {
         memset(values, 0xff, sizeof values);
         for (uint32_t i = 0u; i < count; i++) {
@@ -281,7 +302,7 @@ brace_client_status_t brace_modbus_entry(brace_client_t *client, uint32_t index,
     const uint32_t address = is_answer     ? 0x1000u + 2u * (index - BRACE_ENTRY_ANSWERED)
                              : is_measured ? 2u * (index - BRACE_ENTRY_MEASURED)
                                            : 2u * index;
-    const brace_client_status_t status = brace_modbus_transfer(
+    const brace_client_status_t status = transfer(
         client, is_measured ? BRACE_MODBUS_READ_INPUT : BRACE_MODBUS_READ_HOLDING, address, 2u, words, deadline_us);
     if (status == BRACE_CLIENT_OK) {
         *value = join(words);
@@ -333,6 +354,13 @@ void brace_modbus_show_life(brace_client_t *client, uint64_t deadline_us)
     }
 }
 
+void brace_modbus_tend(brace_client_t *client, uint64_t deadline_us)
+{
+    if (brace_client_life_is_due(client)) {
+        brace_modbus_show_life(client, deadline_us);
+    }
+}
+
 /* The check is over the request from its function on. */
 static brace_client_seal_t seal_of(brace_client_t *client, uint32_t address, const uint16_t *words, uint32_t words_count)
 {
@@ -347,11 +375,11 @@ static brace_client_seal_t seal_of(brace_client_t *client, uint32_t address, con
     return brace_owner_seal(&client->owner, request, REQUEST_HEAD + 2u * words_count);
 }
 
-/* An exception has less to say than a refusal over CAN; of who may command the controller tells the status. */
+/* An exception has less to say than a refusal over CAN; who may command the controller is in the status. */
 static brace_client_status_t fail_command(brace_client_t *client, uint32_t code, int error, uint64_t deadline_us)
 {
     const int exception = brace_modbus_exception(error);
-    uint32_t told;
+    uint32_t last_refusal;
     int32_t status = exception == 1   ? BRACE_E_MODE
                      : exception == 3 ? BRACE_E_RANGE
                      : exception == 6 ? BRACE_REFUSED_BUSY
@@ -362,11 +390,11 @@ static brace_client_status_t fail_command(brace_client_t *client, uint32_t code,
     client->refusal = exception;
     if (exception == NOT_OURS) {
         const brace_client_status_t asked =
-            brace_modbus_entry(client, BRACE_CLIENT_ENTRY(last_refusal), deadline_us, &told);
+            brace_modbus_entry(client, BRACE_CLIENT_ENTRY(last_refusal), deadline_us, &last_refusal);
         if (asked != BRACE_CLIENT_OK) {
             return asked;
         }
-        client->refusal = status = (int32_t)told - 256;
+        client->refusal = status = (int32_t)last_refusal - 256;
     }
     return brace_client_fail(client, BRACE_CLIENT_E_REFUSED, "%s: unit %u refuses: %s (exception %d)", client->url,
                              (unsigned)client->unit, brace_client_reason(code, status, 0u), exception);
@@ -384,7 +412,7 @@ brace_client_status_t brace_modbus_command(brace_client_t *client, uint32_t code
         split(values[i], words + 2u * i);
     }
     for (;;) {
-        brace_client_tend(client, deadline_us);
+        brace_modbus_tend(client, deadline_us);
         error = brace_modbus_fall_into_step(client, deadline_us);
         if (error != 0 && brace_modbus_may_pass(error) && brace_bus_left_ms(deadline_us) > 0) {
             continue;
@@ -422,13 +450,13 @@ static brace_client_status_t try_question(brace_client_t *client, uint32_t addre
 {
     uint16_t readback[2 * ASKED_MOST];
     brace_client_status_t status =
-        brace_modbus_transfer(client, BRACE_MODBUS_WRITE, address, 2u * count, words, deadline_us);
+        transfer(client, BRACE_MODBUS_WRITE, address, 2u * count, words, deadline_us);
     if (status == BRACE_CLIENT_OK) {
-        status = brace_modbus_transfer(client, BRACE_MODBUS_READ_INPUT, 0x1000u, 2u * BRACE_ANSWERED_COUNT, answers,
+        status = transfer(client, BRACE_MODBUS_READ_INPUT, 0x1000u, 2u * BRACE_ANSWERED_COUNT, answers,
                                        deadline_us);
     }
     if (status == BRACE_CLIENT_OK) {
-        status = brace_modbus_transfer(client, BRACE_MODBUS_READ_HOLDING, address, 2u * count, readback, deadline_us);
+        status = transfer(client, BRACE_MODBUS_READ_HOLDING, address, 2u * count, readback, deadline_us);
     }
     *is_mine = status == BRACE_CLIENT_OK && memcmp(words, readback, 4u * count) == 0;
     return status;
@@ -439,7 +467,7 @@ brace_client_status_t brace_modbus_ask(brace_client_t *client, uint32_t first, c
 {
     const uint32_t address = BRACE_REGISTER_COMMANDS + 2u * first;
     uint16_t words[2 * ASKED_MOST], answers[2 * BRACE_ANSWERED_COUNT];
-    uint32_t told[BRACE_ANSWERED_COUNT];
+    uint32_t values_read[BRACE_ANSWERED_COUNT];
     bool is_mine, is_contested = false;
     for (uint32_t i = 0u; i < count; i++) {
         split(values[i], words + 2u * i);
@@ -462,8 +490,8 @@ brace_client_status_t brace_modbus_ask(brace_client_t *client, uint32_t first, c
         poll(NULL, 0, pause_ms < left_ms ? pause_ms : left_ms); /* the other client asks again too, at other times */
     }
     for (uint32_t i = 0u; i < BRACE_ANSWERED_COUNT; i++) {
-        told[i] = join(answers + 2u * i);
+        values_read[i] = join(answers + 2u * i);
     }
-    memcpy(answered, told, sizeof *answered);
+    memcpy(answered, values_read, sizeof *answered);
     return BRACE_CLIENT_OK;
 }

@@ -139,9 +139,19 @@ brace_client_status_t brace_modbus_fail(brace_client_t *client, int error)
     return brace_client_fail(client, BRACE_CLIENT_E_DOWN, "%s: %s", client->url, modbus_strerror(error));
 }
 
+bool brace_modbus_is_broken(int error)
+{
+    return error == EMBBADCRC || error == EMBBADDATA;
+}
+
+bool brace_modbus_is_silent(int error)
+{
+    return error == ETIMEDOUT || error == EAGAIN;
+}
+
 bool brace_modbus_may_pass(int error)
 {
-    return error == ETIMEDOUT || error == EAGAIN || error == EMBBADCRC || error == EMBBADDATA || error == EMBXSBUSY;
+    return brace_modbus_is_silent(error) || brace_modbus_is_broken(error) || error == EMBXSBUSY;
 }
 
 /* The answer to the read of so many registers; all other answers have another length. returns 0, libmodbus' error for
@@ -204,23 +214,6 @@ int brace_modbus_try(brace_client_t *client, brace_modbus_function_t function, u
     return error;
 }
 
-brace_client_status_t brace_modbus_transfer(brace_client_t *client, brace_modbus_function_t function, uint32_t address,
-                                            uint32_t count, uint16_t *words, uint64_t deadline_us)
-{
-    int error = ETIMEDOUT, broken = 0; /* broken: how an answer was that came so */
-    do {
-        brace_client_tend(client, deadline_us);
-        error = brace_modbus_fall_into_step(client, deadline_us);
-        error = error == 0 ? brace_modbus_try(client, function, address, count, words, deadline_us) : error;
-        if (error == 0) {
-            return BRACE_CLIENT_OK;
-        }
-        broken = error == EMBBADCRC || error == EMBBADDATA ? error : broken;
-    } while (brace_modbus_may_pass(error) && brace_bus_left_ms(deadline_us) > 0);
-    /* The last try may be too short for an answer. What came before tells more than that nothing came then. */
-    return brace_modbus_fail(client, broken != 0 && (error == ETIMEDOUT || error == EAGAIN) ? broken : error);
-}
-
 brace_client_status_t brace_modbus_connect(brace_client_t *client, uint64_t deadline_us)
 {
     modbus_t *modbus = NULL;
@@ -265,17 +258,6 @@ void brace_modbus_close(brace_client_t *client)
     (void)client;
 }
 
-brace_client_status_t brace_modbus_transfer(brace_client_t *client, brace_modbus_function_t function, uint32_t address,
-                                            uint32_t count, uint16_t *words, uint64_t deadline_us)
-{
-    (void)function;
-    (void)address;
-    (void)count;
-    (void)words;
-    (void)deadline_us;
-    return brace_modbus_fail(client, 0);
-}
-
 int brace_modbus_try(brace_client_t *client, brace_modbus_function_t function, uint32_t address, uint32_t count,
                      uint16_t *words, uint64_t deadline_us)
 {
@@ -293,6 +275,18 @@ int brace_modbus_fall_into_step(brace_client_t *client, uint64_t deadline_us)
     (void)client;
     (void)deadline_us;
     return -1;
+}
+
+bool brace_modbus_is_broken(int error)
+{
+    (void)error;
+    return false;
+}
+
+bool brace_modbus_is_silent(int error)
+{
+    (void)error;
+    return false;
 }
 
 bool brace_modbus_may_pass(int error)

@@ -3,7 +3,7 @@
 #ifndef BRACE_CLIENT_MODBUS_LINK_H
 #define BRACE_CLIENT_MODBUS_LINK_H
 
-#include "client_internal.h"
+#include "client_state.h"
 
 typedef enum {
     BRACE_MODBUS_READ_HOLDING = 3,
@@ -13,15 +13,11 @@ typedef enum {
 
 enum { BRACE_MODBUS_REGISTERS_MOST = 125 /* of one read; 123 of one write */ };
 
-/* Opens the connection that client->url names. brace_modbus_close ends it. */
+/* Opens the connection that client->url names, and closes it. */
 brace_client_status_t brace_modbus_connect(brace_client_t *client, uint64_t deadline_us);
+void brace_modbus_close(brace_client_t *client);
 
-/* Reads or writes so many registers from an address on. Tries again until an answer comes that is whole, and gives the
- * signs of life that are due. */
-brace_client_status_t brace_modbus_transfer(brace_client_t *client, brace_modbus_function_t function, uint32_t address,
-                                            uint32_t count, uint16_t *words, uint64_t deadline_us);
-
-/* The same, once, without signs of life. returns the error */
+/* Reads or writes so many registers from an address on, once. returns the error */
 int brace_modbus_try(brace_client_t *client, brace_modbus_function_t function, uint32_t address, uint32_t count,
                      uint16_t *words, uint64_t deadline_us);
 
@@ -31,6 +27,10 @@ int brace_modbus_fall_into_step(brace_client_t *client, uint64_t deadline_us);
 
 /* Is another try worth it? Nothing came, or something broken, or the unit is busy. */
 bool brace_modbus_may_pass(int error);
+
+/* Did something come that was broken? Did nothing come? */
+bool brace_modbus_is_broken(int error);
+bool brace_modbus_is_silent(int error);
 
 /* The exception code by which the unit has refused; 0: the error is none. */
 int brace_modbus_exception(int error);

@@ -1,5 +1,8 @@
-/* Commands: sent by an owner with its key, and what anybody may send. */
-#include "client_internal.h"
+/* Commands, sent by an owner with its key. */
+#include "client_can.h"
+#include "client_modbus.h"
+#include "command.h"
+#include "refusal.h"
 
 #include <ctype.h>
 #include <poll.h>
@@ -12,8 +15,7 @@
 #include "brace/refusals.h"
 #include "brace/status.h"
 
-enum { BUSY_MS = 20, OTHER_SESSION_MS = 50, CHALLENGE_MS = 2, CHALLENGES = 5, ANY_VALUE = 1 };
-enum { NOT_IN_THIS_MODE = 1 /* exception of Modbus */ };
+enum { BUSY_MS = 20, OTHER_SESSION_MS = 50, CHALLENGE_MS = 2, CHALLENGES = 5 };
 
 /* -------------------------------------------------------------------------------------------- the key -- */
 
@@ -187,45 +189,7 @@ brace_client_status_t brace_client_command(brace_client_t *client, brace_command
     return status;
 }
 
-/* ------------------------------------------------------------------------------------- stop, and clear -- */
-
-brace_client_status_t brace_client_stop(brace_client_t *client, int timeout_ms)
-{
-    const uint64_t deadline_us = brace_client_deadline_after(timeout_ms);
-    const brace_can_loading_test_stop_request_t request = {0};
-    const uint32_t any = ANY_VALUE;
-    brace_question_t question = {.code = BRACE_REQUEST_LOADING_TEST_STOP};
-    (void)brace_can_pack_loading_test_stop_request(&request, question.data);
-    client->lives = false;
-    const brace_client_status_t status =
-        client->bus != NULL ? brace_can_ask(client, &question, deadline_us)
-                            : brace_modbus_command(client, question.code, BRACE_CLIENT_COMMAND_PLACE(stop), &any, 1u,
-                                                   false, false, deadline_us);
-    const int32_t nothing_moves = client->bus != NULL ? (int32_t)BRACE_E_MODE : (int32_t)NOT_IN_THIS_MODE;
-    if (status != BRACE_CLIENT_OK && (status != BRACE_CLIENT_E_REFUSED || client->refusal != nothing_moves)) {
-        return status;
-    }
-    brace_client_end_motion(client);
-    return BRACE_CLIENT_OK;
-}
-
-brace_client_status_t brace_client_stop_all(brace_client_t *client, uint32_t stop_id, int timeout_ms)
-{
-    const uint64_t deadline_us = brace_client_deadline_after(timeout_ms);
-    const brace_bus_frame_t frame = {.id = stop_id};
-    if (client->bus == NULL) {
-        return brace_client_fail(client, BRACE_CLIENT_E_UNSUPPORTED,
-                                 "%s: over Modbus no request stops every limb; stop each by its own client",
-                                 client->url);
-    }
-    if (stop_id < 1u || stop_id > 127u) {
-        return brace_client_out_of_range(client);
-    }
-    client->lives = false;
-    /* What is wrong with the bus, the answer below says. */
-    (void)brace_bus_send(client->bus, &frame, brace_bus_left_ms(deadline_us));
-    return brace_client_stop(client, brace_bus_left_ms(deadline_us));
-}
+/* ------------------------------------------------------------------------------------------- clear -- */
 
 brace_client_status_t brace_client_clear(brace_client_t *client, uint32_t faults, int timeout_ms, uint32_t *left)
 {

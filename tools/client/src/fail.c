@@ -1,5 +1,5 @@
 /* Writes in words why a call failed, and works out until when a call may try. */
-#include "client_internal.h"
+#include "client_state.h"
 
 #include <stdarg.h>
 #include <stdio.h>

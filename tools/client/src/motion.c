@@ -1,5 +1,7 @@
-/* Motions: asked for, kept going by signs of life, and followed to their end. */
-#include "client_internal.h"
+/* Motions: asked for, kept going by signs of life, followed to their end, and stopped. */
+#include "client_can.h"
+#include "client_modbus.h"
+#include "command.h"
 
 #include <poll.h>
 
@@ -7,36 +9,34 @@
 #include "brace/can_messages.h"
 #include "brace/codes.h"
 #include "brace/loading.h"
+#include "brace/status.h"
 
-enum { LIFE_US = 40000, POLL_US = 20000, PAUSE_MS = 10, STEP_MS = 100, STOP_MS = 100 };
+enum { POLL_US = 20000, PAUSE_MS = 10, STEP_MS = 100, STOP_MS = 100 };
 enum { NEWS_US = 1000000, LIMIT_MOST_MS = 3600000,
        BEGIN_US = 300000 /* by then what has been asked for runs, or will not */ };
 enum { FLANK_POSITIVE = 256, FLANK_NEGATIVE = 512, ANY_VALUE = 1, JOINTS = 3 };
+enum { NOT_IN_THIS_MODE = 1 /* exception of Modbus */ };
 enum { OUTCOME_RUNNING = BRACE_TAKEUP_RUNNING }; /* of a loading test, too */
 _Static_assert((int)BRACE_TAKEUP_RUNNING == (int)BRACE_LOADING_RUNNING, "one number for both");
 
 /* ---------------------------------------------------------------------------------------- signs of life -- */
 
-void brace_client_tend(brace_client_t *client, uint64_t deadline_us)
+/* Gives a sign of life if one is due. */
+static void tend(brace_client_t *client, uint64_t deadline_us)
 {
-    const bool has_any = client->bus == NULL || client->owner.has_number || client->owner.has_begin;
-    if (!client->lives || !has_any || brace_bus_left_ms(client->next_life_us) > 0) {
-        return;
-    }
-    client->next_life_us = brace_bus_now_us() + LIFE_US;
     if (client->bus != NULL) {
-        brace_can_show_life(client);
+        brace_can_tend(client);
     } else {
-        brace_modbus_show_life(client, deadline_us);
+        brace_modbus_tend(client, deadline_us);
     }
 }
 
-/* The number in hand may be old. The controller refuses it then, and tells the one of now. */
+/* The number in hand may be old. The controller refuses it then, and sends the one of now. */
 static void live(brace_client_t *client, uint64_t deadline_us)
 {
     client->next_life_us = client->lives ? client->next_life_us : 0u;
     client->lives = true;
-    brace_client_tend(client, deadline_us);
+    tend(client, deadline_us);
 }
 
 /* ---------------------------------------------------------------------------------------- how it goes -- */
@@ -53,7 +53,7 @@ static void end(brace_client_t *client, brace_motion_state_t state, int32_t reas
     (void)brace_client_fail(client, BRACE_CLIENT_OK, "%s: %s", client->url, why);
 }
 
-/* What the controller tells of a motion. */
+/* What the controller reports of a motion. */
 typedef struct {
     uint32_t outcome, mode, is_held, silences;
 } progress_t;
@@ -79,7 +79,7 @@ static brace_client_status_t ask_progress(brace_client_t *client, uint64_t deadl
     return BRACE_CLIENT_OK;
 }
 
-/* May the limb still be on its way, or on its way back? In a fault it goes back, too, and the mode does not tell when
+/* May the limb still be on its way, or on its way back? In a fault it goes back, too, and the mode does not show when
  * it is there. */
 static bool may_move(const progress_t *progress, uint32_t moving_mode)
 {
@@ -171,6 +171,48 @@ static void judge(brace_client_t *client, const progress_t *progress)
     }
 }
 
+/* ---------------------------------------------------------------------------------------------- stop -- */
+
+brace_client_status_t brace_client_stop(brace_client_t *client, int timeout_ms)
+{
+    const uint64_t deadline_us = brace_client_deadline_after(timeout_ms);
+    const brace_can_loading_test_stop_request_t request = {0};
+    const uint32_t any = ANY_VALUE;
+    brace_question_t question = {.code = BRACE_REQUEST_LOADING_TEST_STOP};
+    (void)brace_can_pack_loading_test_stop_request(&request, question.data);
+    client->lives = false;
+    const brace_client_status_t status =
+        client->bus != NULL ? brace_can_ask(client, &question, deadline_us)
+                            : brace_modbus_command(client, question.code, BRACE_CLIENT_COMMAND_PLACE(stop), &any, 1u,
+                                                   false, false, deadline_us);
+    const int32_t nothing_moves = client->bus != NULL ? (int32_t)BRACE_E_MODE : (int32_t)NOT_IN_THIS_MODE;
+    if (status != BRACE_CLIENT_OK && (status != BRACE_CLIENT_E_REFUSED || client->refusal != nothing_moves)) {
+        return status;
+    }
+    if (is_under_way(client)) {
+        end(client, BRACE_MOTION_STOPPED, 0, "the limb stands and is held; let go or ask again");
+    }
+    return BRACE_CLIENT_OK;
+}
+
+brace_client_status_t brace_client_stop_all(brace_client_t *client, uint32_t stop_id, int timeout_ms)
+{
+    const uint64_t deadline_us = brace_client_deadline_after(timeout_ms);
+    const brace_bus_frame_t frame = {.id = stop_id};
+    if (client->bus == NULL) {
+        return brace_client_fail(client, BRACE_CLIENT_E_UNSUPPORTED,
+                                 "%s: over Modbus no request stops every limb; stop each by its own client",
+                                 client->url);
+    }
+    if (stop_id < 1u || stop_id > 127u) {
+        return brace_client_out_of_range(client);
+    }
+    client->lives = false;
+    /* The request below reports what is wrong with the bus. */
+    (void)brace_bus_send(client->bus, &frame, brace_bus_left_ms(deadline_us));
+    return brace_client_stop(client, brace_bus_left_ms(deadline_us));
+}
+
 /* ------------------------------------------------------------------------------------------- stepping -- */
 
 static void give_up(brace_client_t *client)
@@ -238,7 +280,7 @@ brace_client_status_t brace_client_wait(brace_client_t *client, brace_motion_t *
 
 /* ------------------------------------------------------------------------------------------ beginning -- */
 
-/* Nothing was asked for. A motion that runs already goes on; one of before is not told again. returns status */
+/* Nothing was asked for. A motion that runs already goes on; one of before is not reported again. returns status */
 static brace_client_status_t not_begun(brace_client_t *client, brace_client_status_t status)
 {
     if (!is_under_way(client)) {
@@ -284,7 +326,7 @@ static brace_client_status_t begin(brace_client_t *client, brace_command_t *comm
         client->next_life_us = 0u;
         client->motion.asked_us = brace_bus_now_us();
         client->motion.next_poll_us = client->motion.asked_us + POLL_US;
-        brace_client_tend(client, deadline_us);
+        tend(client, deadline_us);
         if (client->bus != NULL) {
             brace_can_hear_begin(client, client->motion.asked_us + BEGIN_US < deadline_us
                                              ? client->motion.asked_us + BEGIN_US : deadline_us);
@@ -361,11 +403,4 @@ brace_client_status_t brace_client_begin_end_test(brace_client_t *client, int ti
                                .count = 1u};
     (void)brace_can_pack_write_entry_request(&request, command.question.data);
     return begin(client, &command, BRACE_ENDS_TEST, 0u, timeout_ms, limit_ms);
-}
-
-void brace_client_end_motion(brace_client_t *client)
-{
-    if (is_under_way(client)) {
-        end(client, BRACE_MOTION_STOPPED, 0, "the limb stands and is held; let go or ask again");
-    }
 }

@@ -1,7 +1,10 @@
 /* A refusal in words. */
-#include "client_internal.h"
+#include "refusal.h"
+
+#include <stddef.h>
 
 #include "brace/can_messages.h"
+#include "brace/client.h"
 #include "brace/refusals.h"
 #include "brace/status_text.h"
 
