@@ -120,7 +120,7 @@ class CanController:
     def k_in_space_at_posture(
         self, theta0_rad: float, theta1_rad: float, theta2_rad: float, force_n: SpaceForce = NO_FORCE
     ) -> SpaceAnswer:
-        """Refused where the limb has no coxa joint. No force is told too: else another client's might count."""
+        """Refused where the limb has no coxa joint. No force is sent too: else another client's might count."""
         asked: dict[str, Value] = {"theta0": theta0_rad, "theta1": theta1_rad, "theta2": theta2_rad}
         force: dict[str, Value] = dict(zip(("fx", "fy", "fz"), force_n, strict=True))
         return space_answer(self.session.ask_under_force(force, "k_in_space_at_posture", asked))

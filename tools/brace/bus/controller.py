@@ -112,7 +112,7 @@ class Controller(Protocol):
         """Takes back faults that stay until cleared; both as the dictionary's bits. returns those there now."""
 
     def take_up(self, joint: str, flank: int) -> None:
-        """Begins to take up backlash, until its side `flank`, +1 or -1, is loaded; take_ups tells how it goes."""
+        """Begins to take up backlash, until its side `flank`, +1 or -1, is loaded; take_ups reports how it goes."""
 
     def let_go(self) -> None:
         """Begins to let go of every joint that was taken up."""

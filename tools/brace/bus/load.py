@@ -83,7 +83,7 @@ class Load:
         return [f"across the limb's plane, to the left: {force:.3f} N counted, tip moved by {moved:.3f} mm{unloaded}"]
 
     def words(self) -> list[str]:
-        """The same in few words, for a line that has more to tell."""
+        """The same in few words, for a line that has more to report."""
         v, unloaded = self.values, self._unloaded
         if not self.is_counted:
             return ["no load counted"]

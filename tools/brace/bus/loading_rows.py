@@ -91,7 +91,7 @@ def _moved_mm(model: LimbModel, theta_rad: np.ndarray, force_n: np.ndarray) -> n
 
 
 def _turned(lever_mm: np.ndarray, d_mm: np.ndarray, model: LimbModel) -> np.ndarray:
-    """The motors' turns (2 x rows) of which the controller tells (dx, dz)."""
+    """The motors' turns (2 x rows) of which the controller reports (dx, dz)."""
     least = LEAST_KNEE_SINE * model.number("geometry.femur_mm") * model.number("geometry.tibia_mm")
     if abs(np.linalg.det(lever_mm)) < least:
         return np.zeros_like(d_mm)  # nearly straight: levers hardly tell the angles; the run's own are as good
@@ -113,7 +113,7 @@ def on_one_clock(columns: Columns, started_s: Sequence[float]) -> Columns:
 def added(before: Columns, new: Columns, pause_s: float | None) -> Columns:
     """`new` behind `before`: runs counted on, a posture that is there already as a repeat of its
     configuration, any other as the next. `pause_s` lies between the last reading and the new test's start;
-    None: unknown. A record begun before preloads were told is one of limbs that began at rest."""
+    None: unknown. A record begun before preloads were reported is one of limbs that began at rest."""
     config, rep = _place(before, new)
     moved: Mapping[str, np.ndarray] = {
         **new,

@@ -66,7 +66,7 @@ class Owner:
     def begin(self, setting: int, low: int, high: int, where: str) -> bool:
         """Whether a sign of life has to open a session: not on a bench, and not where our session goes on. With the
         challenge of before the counter goes on, too: the controller takes none twice.
-        setting, low, high: as the controller tells them"""
+        setting, low, high: as the controller reports them"""
         name = SETTING.name_of(setting)
         if name == "BENCH":
             return False

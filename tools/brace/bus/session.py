@@ -48,7 +48,7 @@ _NOT_REPEATED = frozenset({"commit", "rollback"})  # whose second time is not th
 _LIFE = "sign_of_life"
 _LIFE_TOKEN, _BEGIN_TOKEN, _COMMAND_TOKENS = 0, 15, 14  # lower four bits of tokens: signs of life, commands between
 _FORCE, _FORCE_IN_SPACE, _IN_SPACE = "tip_force", "tip_force_in_space", "k_in_space_at_posture"
-_ABOUT_FORCE = frozenset(  # a controller counts the force that was told last, whoever told it, and once
+_ABOUT_FORCE = frozenset(  # a controller counts the force that was sent last, whoever sent it, and once
     layout.command
     for name, layout in REQUESTS.items()
     if name in (_FORCE, _FORCE_IN_SPACE, _IN_SPACE) or name.startswith("k_under_load_")
@@ -70,7 +70,7 @@ class Session:
         self.bus = bus
         self.owner = Owner(key)
         self._is_bench = False
-        self._master = secrets.randbelow(16) << 4  # the upper bits of tokens tell masters apart
+        self._master = secrets.randbelow(16) << 4  # the upper bits of tokens distinguish masters
         self._lives = False
         self._next_life_s = 0.0
         self._has_begun = False
@@ -249,7 +249,7 @@ class Session:
         self, force_n: Mapping[str, Value], name: str, values: Mapping[str, Value]
     ) -> dict[str, Value]:
         """Tells the controller a force, asks about K under it and returns the answer. Does both again when another client
-        told its own force in between, or when an answer was lost and the controller has forgotten the force."""
+        sent its own force in between, or when an answer was lost and the controller has forgotten the force."""
         until = time.monotonic() + CONTESTED_S
         while time.monotonic() < until:
             self._force_is_taken = False
@@ -350,7 +350,7 @@ class Session:
 
     def _no_answer(self, name: str) -> NoDeviceError:
         """Nothing heard at all, others heard, or this node heard and silent on this: three different things.
-        VersionMismatchError: its heartbeat tells of another dictionary, so its answers have other numbers."""
+        VersionMismatchError: its heartbeat reports another dictionary, so its answers have other numbers."""
         if self.node not in self.heartbeats:
             self.listen(HEARTBEAT_S - ANSWER_S)
         beat = self.heartbeats.get(self.node)

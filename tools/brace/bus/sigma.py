@@ -45,16 +45,16 @@ class Sigma:
         k: in the order xx, xz, zz"""
         if None in k or is_open or not self.is_known:
             return self.words(is_open)
-        told = zip(SIGMA_ENTRIES, k, self.k, strict=False)
-        return ", ".join(f"{name} {value:.4f} +- {sigma:.4f}" for name, value, sigma in told) + " N/mm (one sigma)"
+        reported = zip(SIGMA_ENTRIES, k, self.k, strict=False)
+        return ", ".join(f"{name} {value:.4f} +- {sigma:.4f}" for name, value, sigma in reported) + " N/mm (one sigma)"
 
     def as_json(self) -> dict[str, object]:
         """Names with units."""
         units = ("n_per_mm",) * 5 + ("rad",)
-        told: dict[str, object] = {
+        reported: dict[str, object] = {
             f"sigma_{name}_{unit}": self.values[name] for name, unit in zip(SIGMA_ENTRIES, units, strict=True)
         }
-        return told | {f"sigma_{name}_n_per_mm": value for name, value in (self.space or {}).items()}
+        return reported | {f"sigma_{name}_n_per_mm": value for name, value in (self.space or {}).items()}
 
 
 def sigma_of(values: Mapping[str, Value], prefix: str = "") -> Sigma:

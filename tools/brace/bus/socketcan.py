@@ -72,7 +72,7 @@ class SocketCanBus:
             raise self._lost(error) from None
 
     def silence(self) -> tuple[str, str]:
-        """Error frames tell of another bit rate."""
+        """Error frames show another bit rate."""
         if self._errors:
             return (
                 f"{self._errors} error frames were heard: the interface's bit rate is not the "

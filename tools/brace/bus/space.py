@@ -20,7 +20,7 @@ class SpaceStiffness:
     k: tuple[Value, ...]  # N/mm: xx xy xz yy yz zz
     eigenvalues: tuple[Value, ...]  # N/mm, ascending
     flags: tuple[str, ...]
-    stiff_axis: tuple[Value, ...] = ()  # unit vector; empty: not told
+    stiff_axis: tuple[Value, ...] = ()  # unit vector; empty: not reported
 
     @property
     def is_valid(self) -> bool:

@@ -17,7 +17,7 @@ from brace.wire.frames import REQUEST_ID, REQUESTS
 STOP_ID = 1  # of the frame that stops every limb of a bus: controller.stop_id, unless set otherwise
 HEAR_S = 1.2  # a heartbeat comes each second
 AGAIN_S = 0.02
-STANDS_S = 0.3  # within which a controller that has heard the stop tells so
+STANDS_S = 0.3  # within which a controller that has heard the stop reports it
 _STOP, _STOP_ID_ENTRY = "loading_test_stop", "controller.stop_id"
 _MOVING = ("TAKING_UP", "LOADING_TEST")
 

@@ -45,7 +45,7 @@ class NodeState:
     heartbeat: Heartbeat | None = None
     mode: str = ""  # as last heard; empty: not heard yet
     faults: tuple[str, ...] | None = None  # as last heard; None: not heard yet
-    drift_cause: str = ""  # as the last emergency told it; empty: none has come
+    drift_cause: str = ""  # as the last emergency sent it; empty: none has come
     snapshots: int = 0
     valid: int = 0
     in_space: int = 0  # snapshots with K in space
@@ -82,7 +82,7 @@ class Watch:
         self._any_dictionary = any_dictionary
 
     def add(self, frame: Frame) -> Event | None:
-        """What the frame tells or completes. VersionMismatchError when a node speaks another dictionary."""
+        """What the frame reports or completes. VersionMismatchError when a node speaks another dictionary."""
         node = frame.identifier & NODE_MASK
         if node == 0 or (self._only is not None and node != self._only):
             return None

@@ -77,8 +77,8 @@ def run(arguments: argparse.Namespace) -> int:
             next_step="docs/errors.md says what each fault wants; brace monitor shows when it comes",
         )
     if arguments.json:
-        told = {"drift_cause": cause} if DRIFT in asked else {}
-        common.print_json({"node": device.node, "cleared": asked, "faults": faults, **told})
+        reported = {"drift_cause": cause} if DRIFT in asked else {}
+        common.print_json({"node": device.node, "cleared": asked, "faults": faults, **reported})
         return 0
     for name in asked:
         common.say(f"{where}: cleared {name}")

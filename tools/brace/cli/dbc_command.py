@@ -51,10 +51,10 @@ def run(arguments: argparse.Namespace) -> int:
             next_step="give each number once",
         )
     text = for_nodes((FD if arguments.fd else CLASSIC).read_text(), arguments.nodes)
-    told = {"nodes": arguments.nodes, "fd": arguments.fd}
+    reported = {"nodes": arguments.nodes, "fd": arguments.fd}
     if arguments.out is None:
         if arguments.json:
-            common.print_json({**told, "dbc": text})
+            common.print_json({**reported, "dbc": text})
         else:
             common.emit(text.rstrip("\n"))
         return 0
@@ -62,7 +62,7 @@ def run(arguments: argparse.Namespace) -> int:
         outputs.add(arguments.out, text)
         outputs.commit()
     if arguments.json:
-        common.print_json({**told, "written": [arguments.out]})
+        common.print_json({**reported, "written": [arguments.out]})
     else:
         common.say(f"-> {arguments.out}")
     return 0

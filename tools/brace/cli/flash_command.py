@@ -84,7 +84,7 @@ def run(arguments: argparse.Namespace) -> int:
         tool = programmers.choose_tool(arguments.tool, probe)
     plan = programmers.make_plan(tool, image, board, probe, arguments.probe)
     assert image.info is not None
-    told: dict[str, object] = {
+    reported: dict[str, object] = {
         "image": str(plan.file),
         "sha256": read_image(plan.file).sha256,
         "version": image.info.version,
@@ -107,14 +107,14 @@ def run(arguments: argparse.Namespace) -> int:
             raise programmers.nothing_attached(tool, "no debug probe and no boot loader is seen on USB")
         programmers.connect(plan)
         common.say(f"writing {plan.file.name} to the {board.chip}")
-        told["duration_s"] = round(programmers.program(plan), 2)
-        told["written"] = True
+        reported["duration_s"] = round(programmers.program(plan), 2)
+        reported["written"] = True
         if arguments.port:
-            told["running"] = console.check_running(arguments.port, image.info)
+            reported["running"] = console.check_running(arguments.port, image.info)
     if arguments.json:
-        common.print_json(told)
+        common.print_json(reported)
     else:
-        common.emit(_text(told, plan.command))
+        common.emit(_text(reported, plan.command))
     return 0
 
 
@@ -197,18 +197,18 @@ def _chosen(found: list[Probe], serial: str | None) -> Probe | None:
     return found[0] if found else None
 
 
-def _text(told: dict[str, object], command: Sequence[str]) -> str:
+def _text(reported: dict[str, object], command: Sequence[str]) -> str:
     lines = [
-        f"image    {told['image']}",
-        f"sha256   {told['sha256']}",
-        f"version  {told['version']} ({told['hash']}, {told['build']})",
-        f"target   {told['board']}: {told['target']}, {told['size_bytes']} bytes at {told['address']}",
+        f"image    {reported['image']}",
+        f"sha256   {reported['sha256']}",
+        f"version  {reported['version']} ({reported['hash']}, {reported['build']})",
+        f"target   {reported['board']}: {reported['target']}, {reported['size_bytes']} bytes at {reported['address']}",
         f"command  {shlex.join(command)}",
     ]
-    if told["written"]:
-        lines.append(f"written and checked in {told['duration_s']:g} s by {told['tool']}")
+    if reported["written"]:
+        lines.append(f"written and checked in {reported['duration_s']:g} s by {reported['tool']}")
     else:
         lines.append("dry run: nothing was written")
-    if "running" in told:
-        lines.append(f"running  {told['running']}")
+    if "running" in reported:
+        lines.append(f"running  {reported['running']}")
     return "\n".join(lines)

@@ -1,4 +1,4 @@
-"""`brace gravity`: where down is, told to a controller or asked from it."""
+"""`brace gravity`: where down is, sent to a controller or asked from it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`brace identify`: a limb's parameters from measurements, with intervals and what cannot be told apart."""
+"""`brace identify`: a limb's parameters from measurements, with intervals and what cannot be distinguished."""
 
 from __future__ import annotations
 

@@ -234,14 +234,14 @@ def _run_single(arguments: argparse.Namespace, model: LimbModel) -> int:
             common.emit(_gap_text(joint, gap_rad, while_open.get(joint), is_told=play is not None))
         for line in _play_text(gaps_rad(model), free, arguments, play):
             common.emit(line)
-        if told := outside(model, commanded):
-            common.say(told)
+        if reported := outside(model, commanded):
+            common.say(reported)
     return 0
 
 
 def _both_open(gaps: dict[str, float], while_open: dict[str, dict[str, float]]) -> dict[str, float]:
-    """K with every gap open, the lower bound: what a controller tells while no load is seen. Empty without play, or
-    where it cannot be told."""
+    """K with every gap open, the lower bound: what a controller reports while no load is seen. Empty without play, or
+    where it is not known."""
     from brace.stiffness.at_rest import PLANAR_K
 
     if not while_open or len(while_open) < len(gaps):
@@ -380,8 +380,8 @@ def _sigma_text(sigma: Mapping[str, float | None]) -> list[str]:
     }
     if None in entries.values():
         return ["  one sigma is not known: a limb that differs by a quarter of a sigma has no K here"]
-    told = ", ".join(f"{name} {value:.2g}" for name, value in entries.items())
-    return [f"  +- one sigma, from [uncertainty]: {told}"] if entries else []
+    reported = ", ".join(f"{name} {value:.2g}" for name, value in entries.items())
+    return [f"  +- one sigma, from [uncertainty]: {reported}"] if entries else []
 
 
 def _text(

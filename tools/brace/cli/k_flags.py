@@ -1,4 +1,4 @@
-"""Flags of a posture that a controller there would tell too: outside the travel, play that no load takes up."""
+"""Flags of a posture that a controller there would report too: outside the travel, play that no load takes up."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ def flags_of_postures(model: LimbModel, commanded_rad: Mapping[str, np.ndarray],
 
 def outside(model: LimbModel, commanded_rad: Mapping[str, float]) -> str:
     """Which angle is outside which travel; empty where none is."""
-    told = []
+    lines = []
     for joint, name in ANGLES.items():
         low, high = travel_rad(model, joint)
         if name in commanded_rad and not low - 1e-6 <= commanded_rad[name] <= high + 1e-6:
-            told.append(
+            lines.append(
                 f"{name} = {commanded_rad[name]:.4g} is outside the travel of [motor.{joint}], {low:g} to {high:g} rad"
             )
-    return "; ".join(told) + ": a controller tells no K there" if told else ""
+    return "; ".join(lines) + ": a controller tells no K there" if lines else ""

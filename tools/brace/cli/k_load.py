@@ -12,7 +12,7 @@ SOFTENED = 3.0  # of the buckling factor: below it a limb is much softer than wi
 
 
 def add_load(parser: OptionParser, in_space: bool = True) -> None:
-    """Declares --fx and --fz, and --fy of a command that tells K in space."""
+    """Declares --fx and --fz, and --fy of a command that computes K in space."""
     meaning = "force of the ground on the tip {}; K is then K under this load, at the equilibrium"
     parser.add_argument("--fx", type=force, metavar="N", help=meaning.format("outwards in the limb's plane"))
     if in_space:

@@ -90,22 +90,22 @@ def shown(state: NodeState) -> Snapshot | None:
 
 def _load(state: NodeState) -> Load | None:
     """The newest load; None: none has come lately."""
-    told, newest = state.load, state.snapshot
-    if told is None or newest is None or newest.time_s - told.time_s > _LOAD_LATE_S:
+    reported, newest = state.load, state.snapshot
+    if reported is None or newest is None or newest.time_s - reported.time_s > _LOAD_LATE_S:
         return None
-    return told.load
+    return reported.load
 
 
 def _sigma(state: NodeState) -> Sigma | None:
     """The newest uncertainty; None: none has come lately."""
-    told, newest = state.sigma, state.snapshot
-    if told is None or newest is None or newest.time_s - told.time_s > _LOAD_LATE_S:
+    reported, newest = state.sigma, state.snapshot
+    if reported is None or newest is None or newest.time_s - reported.time_s > _LOAD_LATE_S:
         return None
-    return told.sigma
+    return reported.sigma
 
 
 def fault_words(state: NodeState) -> list[str]:
-    """Names of the faults that are there, a drift with its cause where it has been told."""
+    """Names of the faults that are there, a drift with its cause where it has been reported."""
     names = list(state.faults or ())
     cause = state.drift_cause
     return [f"{name} ({cause})" if name == "model_drift" and cause not in ("", "none") else name for name in names]

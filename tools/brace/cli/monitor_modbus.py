@@ -58,8 +58,8 @@ def _tell_drift(arguments: argparse.Namespace, device: ModbusController, state: 
     if cause == before:
         return
     if arguments.json:
-        told = drift.as_json() if drift is not None else {"cause": cause}
-        common.emit(json.dumps(common.json_ready({"event": "drift", "node": device.node, **told})))
+        reported = drift.as_json() if drift is not None else {"cause": cause}
+        common.emit(json.dumps(common.json_ready({"event": "drift", "node": device.node, **reported})))
     elif drift is None:
         display.tell(f"node {device.node}: the drift has been cleared")
     else:

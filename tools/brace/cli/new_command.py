@@ -86,12 +86,12 @@ def run(arguments: argparse.Namespace) -> int:
         )
     known = _known(arguments)
     model = describe.model(known, arguments.out)
-    told = _expected(known, model)
+    reported = _expected(known, model)
     write_file(arguments.out, describe.text(known))
     if arguments.json:
-        common.print_json({**told, "guesses": describe.guesses(known), "out": arguments.out})
+        common.print_json({**reported, "guesses": describe.guesses(known), "out": arguments.out})
         return 0
-    common.emit(_text(known, told))
+    common.emit(_text(known, reported))
     for sentence in describe.guesses(known):
         common.emit(f"  {sentence}")
     common.say(f"-> {arguments.out}; brace k --model {arguments.out} --theta1 ... --theta2 ... tells K at a posture")
@@ -193,22 +193,22 @@ def _expected(known: Known, model: object) -> dict[str, object]:
             next_step="a stiffness for the joints, or 'measured BENDING AXIAL' for a link",
         ) from None
     names = (*PLANAR_K, "lambda_min_n_per_mm", "lambda_max_n_per_mm")
-    told: dict[str, object] = {name: float(found[name][0]) for name in names}
+    reported: dict[str, object] = {name: float(found[name][0]) for name in names}
     return {
-        "theta1_rad": theta1, "theta2_rad": theta2, **told, **limb.sigma(theta1, theta2),
+        "theta1_rad": theta1, "theta2_rad": theta2, **reported, **limb.sigma(theta1, theta2),
         "compliance_rel": compliance_rel(known),
     }  # fmt: skip
 
 
-def _text(known: Known, told: dict[str, object]) -> str:
-    rel = 100 * float(str(told["compliance_rel"]))
+def _text(known: Known, reported: dict[str, object]) -> str:
+    rel = 100 * float(str(reported["compliance_rel"]))
     entries = [
-        f"k_{entry} {told[f'k_{entry}_n_per_mm']:.3g} +- {told[f'sigma_k_{entry}_n_per_mm']:.2g}"
+        f"k_{entry} {reported[f'k_{entry}_n_per_mm']:.3g} +- {reported[f'sigma_k_{entry}_n_per_mm']:.2g}"
         for entry in ("xx", "xz", "zz")
     ]
     return (
-        f"{known.name}: expect this K [N/mm] at theta1 = {told['theta1_rad']:.3g} rad, theta2 = "
-        f"{told['theta2_rad']:.3g} rad: {', '.join(entries)} (one sigma: compliances may be off by {rel:.0f} %)"
+        f"{known.name}: expect this K [N/mm] at theta1 = {reported['theta1_rad']:.3g} rad, theta2 = "
+        f"{reported['theta2_rad']:.3g} rad: {', '.join(entries)} (one sigma: compliances may be off by {rel:.0f} %)"
         + (
             "".join(
                 f"\n  while the play of the {name} is open, K is smaller: brace k tells how much"

@@ -139,20 +139,20 @@ def _without_travel(model: LimbModel) -> list[str]:
     """A sentence for each joint whose travel limb.toml does not give."""
     from brace.model.travel import KNEE_MOST_RAD, has_travel
 
-    told = []
+    sentences = []
     if not has_travel(model, "femur"):
-        told.append(
+        sentences.append(
             f"{model.where('motor')}: no travel of the femur ([motor.femur] angle_min_rad, angle_max_rad): any angle "
             "of it "
             "is taken for one that it reaches"
         )
     if not has_travel(model, "tibia"):
-        told.append(
+        sentences.append(
             f"{model.where('motor')}: no travel of the knee ([motor.tibia] angle_min_rad, angle_max_rad): postures "
             "with the "
             f"knee beyond {KNEE_MOST_RAD:g} rad are left out"
         )
-    return told
+    return sentences
 
 
 def _play_lines(model: LimbModel, p: Mapping[str, float | str]) -> list[str]:

@@ -195,11 +195,11 @@ def _asked(arguments: argparse.Namespace, device: Controller) -> int:
     if arguments.json:
         common.print_json({"node": device.node, **place, "k_is_valid": valid, **k})
     else:
-        told = ", ".join(
+        reported = ", ".join(
             f"{name} {value:g}" if isinstance(value, float) else f"{name} {value}"
             for name, value in place.items()
         )
-        common.emit(f"node {device.node} at {told}")
+        common.emit(f"node {device.node} at {reported}")
         _emit_k(k, valid)
         if force is not None and None not in (answer.moved_x, answer.moved_z):
             common.emit(f"force and weight move the tip by {answer.moved_x:.3f} {answer.moved_z:.3f} mm")

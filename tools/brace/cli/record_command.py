@@ -126,9 +126,9 @@ def _say_end(arguments: argparse.Namespace, recording: Recording, watch: Watch, 
     in_space = {node: state.in_space for node, state in sorted(watch.nodes.items()) if state.in_space}
     seconds = watch.last_s - watch.first_s
     if arguments.json:
-        told = {"out": recording.path, "frames": recording.frames, "seconds": seconds, "snapshots": snapshots}
-        told["frames_left_out"] = left_out
-        common.print_json(told | ({"snapshots_in_space": in_space} if in_space else {}))
+        reported = {"out": recording.path, "frames": recording.frames, "seconds": seconds, "snapshots": snapshots}
+        reported["frames_left_out"] = left_out
+        common.print_json(reported | ({"snapshots_in_space": in_space} if in_space else {}))
         return
     nodes = ", ".join(
         f"node {node}: {count} K" + (f", {in_space[node]} in space too" if node in in_space else "")

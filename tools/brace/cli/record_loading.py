@@ -170,7 +170,7 @@ def _meta(arguments: argparse.Namespace, device: Controller) -> dict[str, object
 
 
 def _refuse_unsound(arguments: argparse.Namespace) -> list[str]:
-    """What intake would say of it, told at once."""
+    """What intake would report of it, at once."""
     from brace.dataset.intake import load_dataset
 
     found = [f"row {fault.row}, {fault.field}: {fault.why}" for fault in load_dataset(arguments.out).faults]

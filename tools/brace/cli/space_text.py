@@ -33,7 +33,7 @@ def coxa_lines(space: SpaceSnapshot) -> list[str]:
 
 
 def space_words(space: SpaceSnapshot) -> list[str]:
-    """The same in few words, for a line that has more to tell: the six entries row by row."""
+    """The same in few words, for a line that has more to report: the six entries row by row."""
     if not space.is_valid:
         return ["K in space not valid"]
     return [f"K in space {' '.join(_number(value) for value in space.k)} N/mm", *space.flags]

@@ -63,7 +63,7 @@ def say(text: str) -> None:
     try:
         print(printable(text), file=sys.stderr)
     except OSError:
-        pass  # nobody can be told
+        pass  # nobody can be reached
 
 
 def finish(lost: bool = False) -> None:

@@ -44,7 +44,7 @@ def _unit(columns: Columns, meta: Meta, inside: np.ndarray) -> Iterator[DataFaul
 
 
 def _stands(columns: Columns, inside: np.ndarray) -> Iterator[DataFault]:
-    """A clock that otherwise ticks evenly and here and there does not; runs without any tick are told elsewhere."""
+    """A clock that otherwise ticks evenly and here and there does not; runs without any tick are reported elsewhere."""
     steps = np.diff(columns["t_s"])
     ticks = steps[inside & (steps > 0.0)]
     starts = run_starts(columns["run"])

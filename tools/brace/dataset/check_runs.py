@@ -139,7 +139,7 @@ def _exchanged(columns: Columns) -> Iterator[DataFault]:
 
 
 def _determinant_sign(columns: Columns) -> int:
-    """Of the forces' slopes over the displacement columns as they are labelled; 0 when it cannot be told."""
+    """Of the forces' slopes over the displacement columns as they are labelled; 0 when it is not known."""
     signs = []
     for config in np.unique(columns["config"])[:500]:
         rows = columns["config"] == config

@@ -135,8 +135,9 @@ def _weight(story: Story, model: LimbModel) -> Iterator[str]:
     hung = [weight.hang(model, weight_n) for weight_n in weight.WEIGHTS_N]
     story.facts["weights"] = [
         {"weight_n": each.weight_n, "carried_n": each.carried_n, "sag_mm": each.sag_mm,
-         "told_n_per_mm": each.told, "truth_n_per_mm": each.truth,
-         "unloaded_n_per_mm": each.unloaded, "told_off": each.off(each.told), "unloaded_off": each.off(each.unloaded)}
+         "told_n_per_mm": each.reported, "truth_n_per_mm": each.truth,
+         "unloaded_n_per_mm": each.unloaded, "told_off": each.off(each.reported),
+         "unloaded_off": each.off(each.unloaded)}
         for each in hung
     ]
     theta1, theta2 = weight.POSTURE_RAD
@@ -144,7 +145,7 @@ def _weight(story: Story, model: LimbModel) -> Iterator[str]:
     yield f"   tip bears   it sags by                    k_xx     k_xz     k_zz    off by   {posture}"
     for each in hung:
         head = f"   {each.carried_n:6.1f} N   {each.sag_mm:6.1f} mm"
-        for words, k in (("told", each.told), ("the limb's own", each.truth), ("without load", each.unloaded)):
+        for words, k in (("told", each.reported), ("the limb's own", each.truth), ("without load", each.unloaded)):
             off = "" if k is each.truth else f"   {each.off(k):7.3%}"
             yield f"{head:23}  {words:15}" + "".join(f" {entry:8.3f}" for entry in k) + off
             head = ""

@@ -1,4 +1,4 @@
-"""A weight hung on the tip: the K that the controller tells, the limb's own, and the one without load."""
+"""A weight hung on the tip: the K that the controller reports, the limb's own, and the one without load."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class Hung:
 
     weight_n: float
     carried_n: float  # what of it the string, which has slackened as the limb gave way, still puts on the tip
-    told: np.ndarray
+    reported: np.ndarray
     truth: np.ndarray
     unloaded: np.ndarray
     told_sag_mm: float
@@ -47,17 +47,17 @@ def hang(model: LimbModel, weight_n: float) -> Hung:
     )
     with Node([setup]) as node:
         node.step(SETTLED_S)
-        told, truth = node.raw_snapshot(), node.raw_truth()
+        reported, truth = node.raw_snapshot(), node.raw_truth()
     force_n = np.array([truth.force_x_n, truth.force_z_n])
     own = loaded.under_force(model, truth.motor_rad[1], truth.motor_rad[2], force_n)
     k = own.k_n_per_mm[0]
     return Hung(
         weight_n,
         float(np.linalg.norm(force_n)),
-        _entries(told.stiffness.engaged),
+        _entries(reported.stiffness.engaged),
         np.array([k[0, 0], k[0, 1], k[1, 1]]),
-        _entries(told.load.unloaded),
-        float(np.hypot(told.load.moved_x_mm, told.load.moved_z_mm)),
+        _entries(reported.load.unloaded),
+        float(np.hypot(reported.load.moved_x_mm, reported.load.moved_z_mm)),
         float(np.linalg.norm(own.displacement_mm[0])),
     )
 

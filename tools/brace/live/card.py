@@ -21,7 +21,7 @@ Sigmas = tuple[float, float]
 
 @dataclass(eq=False)  # two cards are never equal, so that a card can be the key of the words that are kept for it
 class Card:
-    """Of one limb. `lengths_mm` are coxa, femur, tibia; None: nobody has told them."""
+    """Of one limb. `lengths_mm` are coxa, femur, tibia; None: nobody has given them."""
 
     lengths_mm: tuple[float, float, float] | None = None
     name: str = ""

@@ -32,7 +32,7 @@ _AGAIN_S = 2.0  # after a bus that went away, or a controller that did not answe
 
 @dataclass
 class Feed:
-    """One bus, by `follow` and `step`. Errors are told on the page, not raised: the bus may come back."""
+    """One bus, by `follow` and `step`. Errors are shown on the page, not raised: the bus may come back."""
 
     url: BusUrl
     bit_rate: int

@@ -1,4 +1,4 @@
-"""What the page is told of one limb: numbers with their units in the names, and sentences for what has a meaning."""
+"""What the page shows of one limb: numbers with their units in the names, and sentences for what has a meaning."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ class LoadView(TypedDict):
 
 
 class LimbWords(TypedDict):
-    """What a limb tells that seldom changes. None: not known."""
+    """What a limb reports that seldom changes. None: not known."""
 
     node: int
     name: str
@@ -74,7 +74,7 @@ class LimbWords(TypedDict):
 
 
 class LimbNumbers(TypedDict):
-    """What a limb tells that changes with every update. None: not known."""
+    """What a limb reports that changes with every update. None: not known."""
 
     node: int
     silent_s: float | None  # None: it is heard
@@ -111,8 +111,8 @@ def limb_numbers(node: int, state: NodeState, card: Card, now_s: float) -> LimbN
     """The newest of a limb. Everything of K is of one snapshot, the newest that came with its posture."""
     k = _k(state)
     theta1, theta2 = (k.theta1, k.theta2) if k is not None else (None, None)
-    told = _recent_sigma(state)
-    sigmas = _relative(told, k)
+    reported = _recent_sigma(state)
+    sigmas = _relative(reported, k)
     if sigmas is None and theta1 is not None and theta2 is not None:
         sigmas = card.relative_sigmas(theta1, theta2)
     space = state.space.space if state.space is not None else None
@@ -123,7 +123,7 @@ def limb_numbers(node: int, state: NodeState, card: Card, now_s: float) -> LimbN
         "rate_hz": round(state.rate_hz, 1),
         "age_ms": k.age_ms if k is not None else None,
         "is_valid": k is not None and k.is_valid,
-        "sigma_k_n_per_mm": list(told.k) if told is not None and told.is_known else None,
+        "sigma_k_n_per_mm": list(reported.k) if reported is not None and reported.is_known else None,
         "k_n_per_mm": [k.k_xx, k.k_xz, k.k_zz] if k is not None else [None, None, None],
         "lambda_n_per_mm": [k.lambda_min, k.lambda_max] if k is not None else [None, None],
         "stiff_axis_rad": k.stiff_axis if k is not None else None,
@@ -140,15 +140,15 @@ def _k(state: NodeState) -> Snapshot | None:
 
 
 def _recent_load(state: NodeState) -> Load | None:
-    told, newest = state.load, state.snapshot
-    is_recent = told is not None and newest is not None and newest.time_s - told.time_s <= LOAD_LATE_S
-    return told.load if told is not None and is_recent else None
+    reported, newest = state.load, state.snapshot
+    is_recent = reported is not None and newest is not None and newest.time_s - reported.time_s <= LOAD_LATE_S
+    return reported.load if reported is not None and is_recent else None
 
 
 def _recent_sigma(state: NodeState) -> Sigma | None:
-    told, newest = state.sigma, state.snapshot
-    is_recent = told is not None and newest is not None and newest.time_s - told.time_s <= LOAD_LATE_S
-    return told.sigma if told is not None and is_recent else None
+    reported, newest = state.sigma, state.snapshot
+    is_recent = reported is not None and newest is not None and newest.time_s - reported.time_s <= LOAD_LATE_S
+    return reported.sigma if reported is not None and is_recent else None
 
 
 def _relative(sigma: Sigma | None, k: Snapshot | None) -> tuple[float, float] | None:

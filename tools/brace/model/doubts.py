@@ -25,8 +25,8 @@ def doubts(values: Mapping[str, toml.Value], given: Container[str], where: Calla
     """A sentence for each of the `given` values that smells of another unit; `where` tells a key's file:line."""
     for suffix, words in _RULES.items():
         for key, value in values.items():
-            if key in given and key.endswith(suffix) and isinstance(value, float) and (told := words(key, value)):
-                yield f"{where(key)}: {key} = {value:g} {told}"
+            if key in given and key.endswith(suffix) and isinstance(value, float) and (reported := words(key, value)):
+                yield f"{where(key)}: {key} = {value:g} {reported}"
 
 
 def _play(_key: str, value: float) -> str:

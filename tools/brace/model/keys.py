@@ -43,7 +43,7 @@ LIMB_KEYS: tuple[Key, ...] = (
 
 KEY_BY_NAME = {key.name: key for key in LIMB_KEYS}
 
-# What a controller is told of its motors, its noise and its own manners: no part of the simulated limb.
+# What a controller is given of its motors, its noise and its own manners: no part of the simulated limb.
 CONTROLLER_KEYS = frozenset(
     key.name for key in LIMB_KEYS if key.name.startswith(("motor.", "controller.")) or key.name == "sensor.noise_n"
 )

@@ -91,7 +91,7 @@ class JointPlayer:
         self, model: LimbModel, reversal_rad: float = 0.0, start_torque_n_mm: np.ndarray | None = None
     ) -> np.ndarray:
         """Torque [N mm] for an imposed deflection, deflection [rad] for an imposed torque; `reversal_rad` is the
-        turning over which friction changes sign. `start_torque_n_mm` (one entry a row) tells how far friction is
+        turning over which friction changes sign. `start_torque_n_mm` (one entry a row) states how far friction is
         strained where each test starts; without it it starts relaxed."""
         ffi = self._native.ffi
         self._rows.reversal_rad = reversal_rad

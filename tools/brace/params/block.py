@@ -78,14 +78,14 @@ def read_block(path: Path) -> Block:
 
 
 def read_either(path: Path) -> Block:
-    """A block, or a limb.toml as a controller would hold it; told apart by the block's first bytes."""
+    """A block, or a limb.toml as a controller would hold it; distinguished by the block's first bytes."""
     if read_bytes(path, _LIMIT_BYTES, "limb model or parameter block").startswith(MAGIC):
         return read_block(path)
     return pack(load_limb(path))
 
 
 def _refuse_other_library(native: Library) -> None:
-    """The library's own defaults, packed, tell its schema."""
+    """The library's own defaults, packed, show its schema."""
     safe = native.ffi.new("brace_parameters_t *")
     content = native.ffi.new("uint8_t[]", int(native.lib.BRACE_BLOCK_BYTES))
     native.lib.brace_parameters_default(safe)

@@ -69,7 +69,7 @@ class LimbSetup:
 
 
 class LimbState(TypedDict):
-    """A tick as the controller tells it; None: K is not valid."""
+    """A tick as the controller reports it; None: K is not valid."""
 
     space: NotRequired[dict[str, object]]  # K in space, of a limb with a coxa joint
     limb: int  # from 1
@@ -317,7 +317,7 @@ class Node:
         return bool(self.raw_truth(limb).has_coxa_joint)
 
     def state(self, limb: int = 0) -> LimbState:
-        """The newest tick as the controller tells it; K is None unless it is valid."""
+        """The newest tick as the controller reports it; K is None unless it is valid."""
         s = self.raw_snapshot(limb)
         k = s.stiffness.now
         valid = bool(s.k_is_valid)
@@ -365,10 +365,10 @@ class Node:
 
     def servo(self, limb: int, joint: int) -> dict[str, int]:
         """A servo as its driver knows it, and what the driver has counted: the members of brace_node_servo_t."""
-        told = self.native.ffi.new("brace_node_servo_t *")
-        if self.native.lib.brace_node_servo(self._node, limb, joint, told) != 0:
+        reported = self.native.ffi.new("brace_node_servo_t *")
+        if self.native.lib.brace_node_servo(self._node, limb, joint, reported) != 0:
             raise ValueError(f"limb {limb} has no servos")
-        return {name: int(getattr(told, name)) for name, _ in self.native.ffi.typeof(told[0]).fields}
+        return {name: int(getattr(reported, name)) for name, _ in self.native.ffi.typeof(reported[0]).fields}
 
     def stats(self) -> dict[str, int]:
         """Ticks, lateness, frames since the start."""
@@ -380,7 +380,7 @@ class Node:
 def _load_of(s: CData) -> dict[str, object]:
     """The load that K counts, named as `brace query` names it; None: not known, or no buckling factor."""
     load, k = s.load, s.load.unloaded
-    told = {
+    reported = {
         "force_x_n": load.force_x_n,
         "force_z_n": load.force_z_n,
         "moved_x_mm": load.moved_x_mm,
@@ -391,9 +391,9 @@ def _load_of(s: CData) -> dict[str, object]:
         **{f"unloaded_{name}": getattr(k, name) for name in ("k_xx_n_per_mm", "k_xz_n_per_mm", "k_zz_n_per_mm")},
     }
     if s.space.is_fitted:
-        told |= {"force_y_n": load.force_y_n, "moved_y_mm": load.moved_y_mm}
-        told["unloaded_k_across_n_per_mm"] = load.unloaded_across_n_per_mm
-    known = {name: value if math.isfinite(value) else None for name, value in told.items()}
+        reported |= {"force_y_n": load.force_y_n, "moved_y_mm": load.moved_y_mm}
+        reported["unloaded_k_across_n_per_mm"] = load.unloaded_across_n_per_mm
+    known = {name: value if math.isfinite(value) else None for name, value in reported.items()}
     return {"is_counted": bool(load.is_counted), **known}
 
 

@@ -145,16 +145,16 @@ class PlanarLimb:
 
     def sigma(self, theta1_rad: float, theta2_rad: float) -> dict[str, float]:
         """One sigma of each entry, from the model's [uncertainty]; true angles [rad]. Empty where there is no K."""
-        told = self._with_sigma(theta1_rad, theta2_rad)
-        return {} if told is None else {name: float(getattr(told[1], name.removeprefix("sigma_"))) for name in SIGMA}
+        found = self._with_sigma(theta1_rad, theta2_rad)
+        return {} if found is None else {name: float(getattr(found[1], name.removeprefix("sigma_"))) for name in SIGMA}
 
     def relative_sigmas(self, theta1_rad: float, theta2_rad: float) -> tuple[float, float] | None:
         """One sigma of lambda_min and of lambda_max, each as a fraction of it; None where there is no K. Ten times as
         fast as `sigma` and `stiffness`, for a page that shows moving limbs."""
-        told = self._with_sigma(theta1_rad, theta2_rad)
-        if told is None:
+        found = self._with_sigma(theta1_rad, theta2_rad)
+        if found is None:
             return None
-        k, sigma = told
+        k, sigma = found
         return sigma.lambda_min_n_per_mm / k.lambda_min_n_per_mm, sigma.lambda_max_n_per_mm / k.lambda_max_n_per_mm
 
     def _with_sigma(self, theta1_rad: float, theta2_rad: float) -> tuple[CData, CData] | None:

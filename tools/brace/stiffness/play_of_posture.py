@@ -14,7 +14,7 @@ from brace.stiffness.with_gap import gaps_rad, stiffness_while_open
 
 @dataclass(frozen=True)
 class Play:
-    """One joint's: K xx, xz, zz while it is open (None where it cannot be told), and the tip's free way."""
+    """One joint's: K xx, xz, zz while it is open (None where it is not known), and the tip's free way."""
 
     joint: str
     gap_rad: float

@@ -83,15 +83,15 @@ class PlayUnderLoad:
             raise PostureError(0, status, status_text(self._native, status))
         by_joint = dict(zip(JOINTS, engaged, strict=True))
         names = (*PLANAR_K, *PLANAR_REST)
-        told = [{name: float(getattr(k, name)) + 0.0 for name in names} for k in (found.now, found.engaged)]
+        lines = [{name: float(getattr(k, name)) + 0.0 for name in names} for k in (found.now, found.engaged)]
         stands = {name: int(joint.flank) for name, joint in by_joint.items()}
         play = Play(
             stands,
             {name: int(joint.flank) for name, joint in by_joint.items() if joint.is_engaged and joint.flank},
             tuple(name for name, joint in by_joint.items() if joint.is_assumed),
             tuple(name for name, joint in by_joint.items() if not joint.is_engaged),
-            {**told[0], "flags": int(found.now.flags)},
-            told[1],
+            {**lines[0], "flags": int(found.now.flags)},
+            lines[1],
         )
         return play
 

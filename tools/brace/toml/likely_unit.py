@@ -20,7 +20,7 @@ def likely(key: str, value: float, low: float, high: float) -> str:
     """`0.185 m are 185` and the like; empty where no unit explains the value."""
     ends = [end for end in _SLIPS if key.endswith(end)]
     units = _SLIPS[max(ends, key=len)] if ends else ()
-    for unit, factor in reversed(units) if key.endswith("gap_rad") else units:  # plays are told in arcmin
+    for unit, factor in reversed(units) if key.endswith("gap_rad") else units:  # plays are given in arcmin
         meant = value * factor - (273.15 if unit == "K" else 0.0)
         if low <= meant <= high and meant != 0.0:
             return f"{value:g} {unit} {'is' if value == 1 else 'are'} {meant:.6g} here"

@@ -1,4 +1,4 @@
-"""A number's meanings, as the dictionary tells them."""
+"""A number's meanings, as the dictionary states them."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class CodeTable:
         return self._words.get(number) or str(number)
 
     def names_of_bits(self, bits: int) -> tuple[str, ...]:
-        """The names of the bits that are set; a bit without a name is told by its place."""
+        """The names of the bits that are set; a bit without a name is named by its place."""
         return self._names_of_bits(bits)
 
     @cached_property

@@ -1,4 +1,4 @@
-"""One measured value, as the dictionary tells it."""
+"""One measured value, as the dictionary states it."""
 
 from __future__ import annotations
 

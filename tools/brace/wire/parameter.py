@@ -1,4 +1,4 @@
-"""One member of the controller's parameter block, as the dictionary tells it."""
+"""One member of the controller's parameter block, as the dictionary states it."""
 
 from __future__ import annotations
 

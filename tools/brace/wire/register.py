@@ -1,4 +1,4 @@
-"""One Modbus value, as the dictionary tells it."""
+"""One Modbus value, as the dictionary states it."""
 
 from __future__ import annotations
 

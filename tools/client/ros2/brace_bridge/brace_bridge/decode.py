@@ -126,7 +126,7 @@ class LimbHealth:
     level: int  # as diagnostic_msgs numbers them: 0 OK, 1 WARN, 2 ERROR
     text: str
     faults: tuple[str, ...]
-    drift_cause: str  # none: no drift; empty: a drift whose cause was told before this bridge listened
+    drift_cause: str  # none: no drift; empty: a drift whose cause was reported before this bridge listened
 
 
 Message = LimbStiffness | LimbStiffnessInSpace | LimbLoad | LimbUncertainty | LimbHealth
@@ -149,7 +149,7 @@ class Decoder:
 
     def add(self, frame: Frame) -> list[Message]:
         """What this frame completes: K alone; K in space; its load; its uncertainty; K with eigenvalues and posture once more; with a
-        condition or an emergency the limb's health. Of a controller whose heartbeat tells of another dictionary: that
+        condition or an emergency the limb's health. Of a controller whose heartbeat reports another dictionary: that
         it does, and nothing else."""
         heartbeat = heartbeat_of(frame)
         if heartbeat is not None:
@@ -191,11 +191,11 @@ class Decoder:
     def _health(self, time_s: float, node: int, faults: tuple[str, ...]) -> LimbHealth:
         cause = self._cause.get(node, "") if _DRIFT in faults else "none"
         texts = {code.name.lower(): code.text for code in FAULT.codes}
-        told = [texts.get(name, name) for name in faults]
+        lines = [texts.get(name, name) for name in faults]
         if cause not in ("", "none"):
-            told.append(f"The drift's likeliest cause is {cause_text(cause)}")
+            lines.append(f"The drift's likeliest cause is {cause_text(cause)}")
         level = ERROR if _NO_K & set(faults) else WARN if faults else OK
-        return LimbHealth(time_s, node, level, " ".join(told) or "No fault is there.", faults, cause)
+        return LimbHealth(time_s, node, level, " ".join(lines) or "No fault is there.", faults, cause)
 
 
 def _stranger(heartbeat: Heartbeat) -> LimbHealth:
