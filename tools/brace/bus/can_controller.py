@@ -26,7 +26,7 @@ from brace.bus.session import Session
 from brace.bus.sigma import SIGMA_ENTRIES, SPACE_ENTRIES, Sigma, sigma_of
 from brace.bus.snapshot import Snapshot
 from brace.bus.space import SpaceAnswer, space_answer
-from brace.ground.errors import DeviceFaultError, NoDeviceError, NotVerifiedError, VersionMismatchError
+from brace.ground.errors import DeviceFaultError, NoDeviceError, NotVerifiedError
 from brace.wire.codes import FAULT, FLAG, MODE, PARAMETER_ORIGIN
 from brace.wire.layout import Value
 
@@ -35,7 +35,6 @@ if TYPE_CHECKING:
 
 KEY = 0xC0DE
 COMMIT_S = 2.5  # the store erases, writes and reads back
-MODE_S = 0.5
 LIVE_S = 0.6  # twelve periods of the slower frames
 _SIZE_WORD = 0xFFFF
 _MODES = {code.name.lower(): code.number for code in MODE.codes}
@@ -54,7 +53,6 @@ class CanController:
         answer = {name: int(value or 0) for name, value in self.session.ask("identify").items()}
         version = f"{answer['major']}.{answer['minor']}.{answer['patch']}"
         check_dictionary(answer["dictionary_hash"], self.session.where, version)
-        self._schema_hash = answer["schema_hash"]
         self.session.joiner.hear_faults(self.node, tuple(n.lower() for n in FAULT.names_of_bits(answer["faults"])))
         origin = PARAMETER_ORIGIN.word_of(int(answer["origin"] or 0))
         return Identity(self.node, version, answer["dictionary_hash"], answer["parameter_crc"], origin)
@@ -200,17 +198,6 @@ class CanController:
                 where=self.session.where,
                 why="it did not follow",
                 next_step="brace query shows mode and faults",
-            )
-
-    def check_schema(self, ours: int) -> None:
-        """The same list of parameters."""
-        if self._schema_hash != ours:
-            raise VersionMismatchError(
-                f"the controller's list of parameters is {self._schema_hash:08x}, ours {ours:08x}",
-                where=self.session.where,
-                why="its block has other members",
-                next_step="flash the firmware of this version (brace flash), or use the brace that came "
-                "with that firmware",
             )
 
     def upload(self, block: Block, advance: Advance) -> None:

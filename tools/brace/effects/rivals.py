@@ -213,5 +213,4 @@ INSTRUMENT_TROUBLES: tuple[RivalCause, ...] = (
 
 _ALL = (*RIVAL_CAUSES, *INSTRUMENT_TROUBLES)
 RIVAL_BY_NAME = {cause.name: cause for cause in _ALL}
-RIVAL_BY_LABEL = {cause.label: cause for cause in _ALL}
 RIVAL_UNITS = {size.key: size.unit for cause in _ALL for way in cause.ways for size in way}

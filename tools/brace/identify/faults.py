@@ -10,8 +10,6 @@ from brace.dataset import Dataset
 from brace.dataset.faults import DataFault
 from brace.ground.errors import BadFileError
 
-POLICIES = ("repair", "drop", "refuse")
-
 
 def settle(dataset: Dataset, policy: str) -> tuple[Dataset, list[str]]:
     """The record to fit, and what was done to it. Raises when a blocking fault remains."""

@@ -7,7 +7,6 @@ from brace.wire.names import OF_THE_MODEL, PARAMETERS
 from brace.wire.parameter import Parameter
 
 LINKS = ("coxa", "femur", "tibia")
-JOINT_ANGLE = {"coxa": "theta0", "femur": "theta1", "tibia": "theta2"}
 
 
 def _key(parameter: Parameter) -> Key:

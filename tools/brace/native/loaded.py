@@ -18,7 +18,6 @@ _ROWS = {  # function: struct of its cases, struct of its results
     "under_force": ("brace_loaded_case_t", "brace_loaded_result_t"),
     "under_displacement": ("brace_loaded_case_t", "brace_loaded_result_t"),
     "space_under_force": ("brace_loaded_space_case_t", "brace_loaded_space_result_t"),
-    "space_under_displacement": ("brace_loaded_space_case_t", "brace_loaded_space_result_t"),
 }
 
 
@@ -147,14 +146,6 @@ def space_under_force(
     """The limb in space: angles theta0, theta1, theta2 and forces in the robot's base frame, count x 3 each; `gravity`
     is the unit vector in which the weights pull."""
     return _in_space("space_under_force", model, theta_rad, _columns(force_n, ("fx_n", "fy_n", "fz_n")), gravity, parts)
-
-
-def space_under_displacement(
-    model: LimbModel, theta_rad: ArrayLike, displacement_mm: ArrayLike, gravity: ArrayLike = DOWN, parts: int = 0
-) -> LoadedLimbs:
-    """The same with the tip held at displacements from its place without force and weight."""
-    imposed = _columns(displacement_mm, ("dx_mm", "dy_mm", "dz_mm"))
-    return _in_space("space_under_displacement", model, theta_rad, imposed, gravity, parts)
 
 
 def _in_space(

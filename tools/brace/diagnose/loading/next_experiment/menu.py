@@ -4,7 +4,7 @@ and what each costs in minutes."""
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -50,7 +50,6 @@ class Condition:
     words: str
     rig: Mapping[str, Any]
     extra_min: float = 0.0
-    needs_memory: bool = field(default=False)
 
     def number(self, key: str) -> float:
         return float(self.rig[key])
