@@ -30,7 +30,11 @@ from interface.outputs import DICTIONARY, MESSAGES  # noqa: E402
 GENERATED = PROJECT / "firmware" / "interface" / "generated"
 CORE = PROJECT / "firmware" / "core" / "include"
 # Hand-written sources that once listed names or ranges of their own.
-SOURCES = ("firmware/boards/common/stiffness_words.c", "tools/brace/stiffness/at_rest.py", "tools/brace/bus/snapshot.py")
+SOURCES = (
+    "firmware/boards/common/stiffness_words.c",
+    "tools/brace/stiffness/at_rest.py",
+    "tools/brace/bus/snapshot.py",
+)
 
 
 @pytest.fixture(scope="module")

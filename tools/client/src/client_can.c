@@ -319,7 +319,8 @@ void brace_can_show_life(brace_client_t *client)
     (void)brace_can_pack_sign_of_life_request(&request, data);
     const uint32_t low = client->owner.has_begin ? BEGIN_TOKEN : LIFE_TOKEN;
     const brace_bus_frame_t frame = request_frame(client, data, (uint8_t)(client->master << 4 | low));
-    client->is_down |= brace_bus_send(client->bus, &frame, LIFE_MS) == BRACE_BUS_E_DOWN; /* the kernel reports it once */
+    /* The kernel reports it once. */
+    client->is_down |= brace_bus_send(client->bus, &frame, LIFE_MS) == BRACE_BUS_E_DOWN;
 }
 
 void brace_can_tend(brace_client_t *client)

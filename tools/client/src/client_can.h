@@ -1,5 +1,5 @@
-/* The client over CAN. Functions return what client.h says of the call with that name, and write client->why when that is
- * not OK. */
+/* The client over CAN. Functions return what client.h says of the call with that name, and write client->why when
+ * that is not OK. */
 #ifndef BRACE_CLIENT_CAN_H
 #define BRACE_CLIENT_CAN_H
 

@@ -1,5 +1,5 @@
-/* What a client knows, and what every part of it uses: words for a failure, a deadline, when a sign of life is due. Knows
- * no wire. */
+/* What a client knows, and what every part of it uses: words for a failure, a deadline, when a sign of life is due.
+ * Knows no wire. */
 #ifndef BRACE_CLIENT_STATE_H
 #define BRACE_CLIENT_STATE_H
 
