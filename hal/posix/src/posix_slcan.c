@@ -1,8 +1,10 @@
 /* One SLCAN client: answers its commands as an adapter does; CR is yes, BEL is no. */
 #include <string.h>
 
-#include "posix_bus.h"
 #include "posix_io.h"
+#include "posix_nodes.h"
+#include "posix_slcan.h"
+#include "posix_socketcan.h"
 #include "slcan_text.h"
 
 enum { READS_PER_POLL = 64, READ_BYTES = 1024, STAMP_PERIOD_MS = 60000 };
@@ -24,6 +26,33 @@ static bool hears(const brace_posix_bus_t *bus, const brace_posix_slcan_t *clien
 {
     const uint32_t rate = bus_bit_rate(bus);
     return client->bit_rate == 0u || rate == 0u || client->bit_rate == rate;
+}
+
+/* What another sends on the bus reaches an open channel as a line. */
+static void receive_frame(const brace_posix_bus_t *bus, brace_posix_slcan_t *client,
+                          const brace_posix_wire_frame_t *frame)
+{
+    if (client->file < 0 || !client->open || !hears(bus, client)) {
+        return;
+    }
+    char line[SLCAN_LINE_BYTES];
+    const int32_t stamp = client->stamps ? (int32_t)(bus->milliseconds % STAMP_PERIOD_MS) : -1;
+    if (!queue_put(&client->out, (const uint8_t *)line, posix_slcan_write(frame, stamp, line))) {
+        client->frames_lost += client->frames_lost != UINT32_MAX;
+    }
+}
+
+void bus_to_outside(brace_posix_bus_t *bus, const brace_posix_slcan_t *sender,
+                    const brace_posix_wire_frame_t *frame)
+{
+    for (uint32_t i = 0; i < BRACE_POSIX_CLIENTS; i++) {
+        if (&bus->client[i] != sender) {
+            receive_frame(bus, &bus->client[i], frame);
+        }
+    }
+    if (bus->socket_can >= 0) {
+        socketcan_send(bus, frame);
+    }
 }
 
 /* A frame goes by an open channel only, but a stop always does, as on a controller's own SLCAN port. */
@@ -148,18 +177,5 @@ void posix_slcan_poll(brace_posix_bus_t *bus, brace_posix_slcan_t *client)
     if (gone && bus->kind == BRACE_POSIX_BUS_TCP) {
         io_close(&client->file);
         client->open = false;
-    }
-}
-
-void posix_slcan_frame(const brace_posix_bus_t *bus, brace_posix_slcan_t *client,
-                 const brace_posix_wire_frame_t *frame)
-{
-    if (client->file < 0 || !client->open || !hears(bus, client)) {
-        return;
-    }
-    char line[SLCAN_LINE_BYTES];
-    const int32_t stamp = client->stamps ? (int32_t)(bus->milliseconds % STAMP_PERIOD_MS) : -1;
-    if (!queue_put(&client->out, (const uint8_t *)line, posix_slcan_write(frame, stamp, line))) {
-        client->frames_lost += client->frames_lost != UINT32_MAX;
     }
 }

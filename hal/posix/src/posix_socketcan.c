@@ -9,8 +9,9 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include "posix_bus.h"
 #include "posix_io.h"
+#include "posix_nodes.h"
+#include "posix_socketcan.h"
 
 enum { FRAMES_PER_POLL = 1024 };
 
@@ -67,7 +68,7 @@ void socketcan_poll(brace_posix_bus_t *bus)
         frame.frame.length = raw.len;
         frame.frame.fd = bytes == (ssize_t)CANFD_MTU;
         memcpy(frame.frame.data, raw.data, raw.len);
-        bus_to_nodes(bus, FROM_SOCKET, &frame, 0u);
+        bus_to_nodes(bus, -1, &frame, 0u);
     }
 }
 
