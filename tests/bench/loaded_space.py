@@ -17,7 +17,7 @@ from versions import core_sources
 
 STIFFNESS, TURN, BUCKLING = "rest and K", "turned, eigenvalues", "buckling factor"
 FUNCTIONS = {STIFFNESS: ("settle", "stiffness"), TURN: ("turn",), BUCKLING: ("buckling_factor",)}
-MOST_INSTRUCTIONS = {STIFFNESS: 6000, TURN: 550, BUCKLING: 13000}
+MOST_INSTRUCTIONS = {STIFFNESS: 7200, TURN: 550, BUCKLING: 13000}
 LIMBS = {"beams": (beam_limb, "BEAM"), "coxa link yields": (coxa_limb, "COXA"), "tilted": (tilted_limb, "TILTED")}
 
 NOTE = """\

@@ -33,7 +33,7 @@ def vector(struct: CData) -> Array:
 
 class CoreLimb:
     """A limb, collapsed, and the load on it; theta0 turns the load into the limb's plane and the answers out of it.
-    goes_on: as the tools, which take further steps where four do not settle."""
+    goes_on: as the tools, which take further steps."""
 
     def __init__(self, case: Case, *, goes_on: bool = False) -> None:
         ffi, lib = library().ffi, library().lib
@@ -59,7 +59,7 @@ class CoreLimb:
         for struct, given in ((self._load.tip_n, case.force_n), (self._load.down, case.gravity)):
             struct.x, struct.y, struct.z = (float(part) for part in self._yaw.T @ given)
         status = lib.brace_loaded_space_settle(self._loaded, *case.theta_rad[1:], self._load, self.rest)
-        if status == lib.BRACE_E_SINGULAR and goes_on:
+        if status in (lib.BRACE_OK, lib.BRACE_E_SINGULAR) and goes_on:
             status = lib.brace_loaded_space_settle_on(self._loaded, self.rest)
         if status == lib.BRACE_OK:
             status = lib.brace_loaded_space_stiffness(self._loaded, self.rest, self.result)

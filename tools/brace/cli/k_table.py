@@ -63,8 +63,8 @@ def run_table(arguments: argparse.Namespace, model: LimbModel) -> int:
         common.say(f"{len(table.rows)} postures ({path}) -> {arguments.out}")
     if no_rest:
         common.say(
-            f"{no_rest} of {len(table.rows)} rows have no rest near their posture under their load: the load folds the "
-            "limb; they have flags and no numbers; a smaller force or another posture has K"
+            f"{no_rest} of {len(table.rows)} rows have no K: no rest was found under their load; they "
+            "have flags and no numbers; a smaller force or another posture has K"
         )
     return 0
 

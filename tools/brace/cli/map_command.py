@@ -170,7 +170,7 @@ def _rises(r_mm: np.ndarray, band: np.ndarray) -> bool:
     """Whether the curve is higher at the greatest reach than at the least."""
     order = r_mm.argsort()
     middle = band[order, 1]
-    middle = middle[middle == middle]  # where the load folds the limb there is none
+    middle = middle[middle == middle]  # without a rest there is none
     return bool(middle.size and middle[-1] > middle[0])
 
 
@@ -225,7 +225,7 @@ def _ellipses(model: LimbModel, grid: Workspace) -> tuple[dict[str, np.ndarray],
 
 
 def _under_load(grid: Workspace) -> dict[str, float]:
-    """How far the load moves the tip at most, the least buckling factor, and at how many postures it folds the limb."""
+    """How far the load moves the tip at most, the least buckling factor, and at how many postures no rest was found."""
     import numpy as np
 
     moved_mm = np.hypot(grid.values["tip_dx_mm"], grid.values["tip_dz_mm"])
@@ -238,7 +238,7 @@ def _under_load(grid: Workspace) -> dict[str, float]:
 
 def _load_text(load: dict[str, float]) -> str:
     factor = load["buckling_factor_least"]
-    folded = f"; {load['folded_postures']:.0f} postures have no K: the load folds the limb"
+    folded = f"; {load['folded_postures']:.0f} postures have no K: no rest was found under the load"
     return (
         f"under the ground's force on the tip ({load['fx_n']:g}, {load['fz_n']:g}) N and the limb's weight: the tip "
         "moves by up to "

@@ -108,7 +108,7 @@ def run(arguments: argparse.Namespace) -> int:
             "no posture reaches there",
             where=str(arguments.model),
             why="the tip's places lie beyond the links, the joints' travel ([motor.*] angle_min_rad, angle_max_rad) "
-            "keeps it away, or the load folds the limb there",
+            "keeps it away, or no rest was found there under the load",
             next_step="a wider --x or --z; brace map draws what the limb reaches",
         )
     reach = model.number("geometry.femur_mm") + model.number("geometry.tibia_mm")

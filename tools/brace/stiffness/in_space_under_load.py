@@ -19,7 +19,7 @@ from brace.stiffness.at_rest import (
 )
 from brace.stiffness.hardening import Spring, settle
 from brace.stiffness.sigma import sigma_in_space
-from brace.stiffness.under_load import FOLDS
+from brace.stiffness.under_load import NO_REST
 
 DISPLACEMENT = ("tip_dx_mm", "tip_dy_mm", "tip_dz_mm")
 LOADED_SPACE_REST = (*SPATIAL_REST, *DISPLACEMENT, "buckling_factor")
@@ -91,7 +91,7 @@ class LoadedLimbInSpace:
 
     def refusal(self, index: int) -> PostureError:
         """Why a row without a rest has no K."""
-        return PostureError(index, E_SINGULAR, FOLDS)
+        return PostureError(index, E_SINGULAR, NO_REST)
 
     def _without_rest(self) -> np.ndarray:
         lib = self._native.lib
@@ -107,7 +107,7 @@ class LoadedLimbInSpace:
         load.tip_n.x, load.tip_n.y, load.tip_n.z = force_n
         result = np.zeros(1, _RESULT)
         status = lib.brace_loaded_space_settle(self._loaded, theta_rad[1], theta_rad[2], load, rest)
-        if status == E_SINGULAR:
+        if status in (0, E_SINGULAR):  # nobody waits: on to what is rounded away, or to a rest that four steps miss
             status = lib.brace_loaded_space_settle_on(self._loaded, rest)
         status = status or lib.brace_loaded_space_stiffness(self._loaded, rest, found)
         status = status or lib.brace_loaded_space_turn(theta_rad[0], self._native.ffi.addressof(found.k), turned)

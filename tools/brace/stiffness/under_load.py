@@ -14,7 +14,10 @@ from brace.stiffness.sigma import sigma_in_plane
 
 DISPLACEMENT = ("tip_dx_mm", "tip_dz_mm")
 LOADED_REST = (*PLANAR_REST, *DISPLACEMENT, "buckling_factor")
-FOLDS = "no stable equilibrium is near: the load folds the limb, or nothing yields in some direction"
+NO_REST = (
+    "no rest was found: the load may fold the limb or move it further than these equations go, or nothing yields in "
+    "some direction"
+)
 _TIBIA = ("tibia_x_mm", "tibia_z_mm")
 _RESULT = np.dtype(
     [(name, "f4") for name in (*PLANAR_K, *PLANAR_REST)]
@@ -114,7 +117,7 @@ class LoadedLimb:
         else:
             status = lib.brace_loaded_stiffness(self._loaded, *given)
         if status == E_SINGULAR:
-            return PostureError(index, status, FOLDS)
+            return PostureError(index, status, NO_REST)
         return PostureError(index, status, status_text(self._native, status))
 
 

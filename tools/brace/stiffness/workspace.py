@@ -24,7 +24,7 @@ MONOTONE_SLACK = 1e-5  # relative; below the accuracy of K
 @dataclass(frozen=True)
 class Workspace:
     """Grid of true angles, under a load the commanded ones: theta2 runs over rows, theta1 over columns. `values[name]`
-    is rows x columns; NaN where the load folds the limb."""
+    is rows x columns; NaN where no rest was found."""
 
     theta1_rad: np.ndarray
     theta2_rad: np.ndarray
@@ -49,7 +49,7 @@ class Workspace:
 
     @property
     def folded(self) -> int:
-        """At how many postures the load folds the limb."""
+        """At how many postures no rest was found."""
         return int(np.isnan(self.values["k_xx_n_per_mm"]).sum())
 
 
@@ -126,8 +126,8 @@ def _under_load(
         raise UsageError(
             f"{folded} of {theta1.size} postures have no K under this load",
             where=model.where(),
-            why=f"{force_n[0]:g} N along x and {force_n[1]:g} N along z fold the limb there; a map needs half of its "
-            "postures",
+            why=f"{force_n[0]:g} N along x and {force_n[1]:g} N along z: no rest was found there, the load may fold "
+            "the limb; a map needs half of its postures",
             next_step="a smaller --fx and --fz, or leave both out for K without load",
         )
     return out

@@ -30,26 +30,28 @@ void brace_loaded_space_collapse(const brace_limb_t *limb, const brace_gravity_t
  * load: the force is checked; direction and compliances are not.
  * rest: room to work in, and the equilibrium after BRACE_OK.
  * returns BRACE_OK, BRACE_E_RANGE, BRACE_E_NOT_FINITE, or BRACE_E_SINGULAR: four steps do not come near an equilibrium
- *         (they leave more than some 0.025 rad), or come to one far from the commanded posture. The third is taken
- *         where two steps leave more than 0.0025 rad, and the fourth where the third leaves more than that.
+ *         (they leave more than some 0.025 rad), or come to one far from the commanded posture: the links' own turns
+ *         together beyond 1.5 rad, base and coxa joint beyond 1 rad, another joint beyond 1.5 rad. The third is taken
+ *         where two steps leave more than 0.001 rad, and the fourth where the third leaves more than that.
  * Cost on a Cortex-M4F: 3,100 instructions where two steps are enough, 4,900 after three, at most 6,300; stack at most
  *         900 bytes. */
 brace_status_t brace_loaded_space_settle(const brace_loaded_space_t *loaded, float theta1_rad, float theta2_rad,
                                          const brace_space_load_t *load, brace_space_rest_t *rest);
 
-/* Further steps for who has the time: two more, from where brace_loaded_space_settle or this call left `rest`.
- * Worth a call after BRACE_E_SINGULAR. Ten calls find what steps from the straight limb lead to.
- * loaded: the same. returns as brace_loaded_space_settle, without its refusals of inputs.
- * Cost on a Cortex-M4F: at most 3,500 instructions; stack at most 900 bytes. */
+/* The same for who has the time: goes on from where brace_loaded_space_settle left `rest` after BRACE_OK, to what is
+ * rounded away, or after BRACE_E_SINGULAR. Where further steps lead nowhere, it raises the load from none, share by
+ * share. loaded: the same. returns as brace_loaded_space_settle, without its refusals of inputs.
+ * Cost on a Cortex-M4F: mostly 3,500 instructions, at most 800,000. Not for the tick; stack at most 1,500 bytes. */
 brace_status_t brace_loaded_space_settle_on(const brace_loaded_space_t *loaded, brace_space_rest_t *rest);
 
 /* K at an equilibrium, and how the limb stands there.
  * loaded, rest: what brace_loaded_space_settle was given and left. result: written on success only.
  * returns BRACE_OK, or BRACE_E_SINGULAR: the equilibrium is not stable, or nothing yields in some direction.
  * Accuracy: where the buckling factor is at least 2 and the tip moves by at most a fifth of the reach, K within 1 %
- *         (Frobenius norm; median 0.01 %) in 998 of 1,000 random limbs without a flag, the others within 2.5 %; the
- *         displacement within 2 mm. result->flags has BRACE_FLAG_NEAR_SINGULAR where a link bends so far within itself
- *         that one part is too few for it. At a tenth of such a load K within 0.07 %, at no load within 2e-7 of itself
+ *         (Frobenius norm; median 0.01 %) without a flag after brace_loaded_space_settle_on; after
+ *         brace_loaded_space_settle alone in all but one of 5,700 random limbs, that one within 1.1 %. The displacement
+ *         within 2 mm. result->flags has BRACE_FLAG_NEAR_SINGULAR where a link bends by more than 0.3 rad within itself,
+ *         or where the steps have left more than 0.005 rad. At a tenth of such a load K within 0.08 %, at no load within 2e-7 of itself
  *         for each unit of C's condition number (3e-5 for random limbs).
  *         tests/engine/test_core_in_space_under_load.py judges.
  * Cost on a Cortex-M4F: at most 3,300 instructions, the same for every posture; stack at most 950 bytes. */
@@ -85,7 +87,7 @@ brace_status_t brace_loaded_space_turn(float theta0_rad, const brace_k3_t *k, br
  * brace/loaded.h says; infinity where it is above 16, and where it may be above 11.
  * loaded, rest: what brace_loaded_space_settle was given and left; neither may be null.
  * Accuracy: of 600 random limbs with a factor from 2 to 10, median 0.05 %, nine of ten within 0.4 %, 99 of 100 within
- *         1.7 %, 0.7 % of them beyond 2 %, the worst 8.4 %. Those are limbs whose short coxa link bends by large angles
+ *         1.7 %, 0.7 % of them beyond 2 %, the worst 8.7 %. Those are limbs whose short coxa link bends by large angles
  *         within itself.
  *         tests/engine/test_core_in_space_under_load.py judges.
  * Cost on a Cortex-M4F: at most 13,000 instructions; stack at most 950 bytes. */

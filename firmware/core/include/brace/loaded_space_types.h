@@ -20,6 +20,7 @@ typedef struct {
     float end_share, stretch_end_share; /* the part of the link's turn that these springs, and the axial one, follow,
                                            less one half */
     float twist_share;         /* the part of the link's twist that its chord and those springs follow */
+    float twist_end_half;      /* half the part of the twist that is at the link's end and follows its whole turn */
     float curl_per_mm;         /* twist for each mm of these springs and each radian of bending */
     float across_spread_per_n_mm, sideways_spread_per_n_mm; /* twist's compliance for each squared radian of bending */
     float shortens_per_mm;     /* by those springs */
@@ -78,6 +79,7 @@ typedef struct {
     brace_space_bent_t coxa, femur, tibia;
     brace_vec3_t tip_n, down, whole_n; /* the load, and the force on the base, in the limb's plane's frame */
     brace_loaded_joint_t yaw, hip, knee;  /* as in the load */
+    float left_rad2; /* square of what the last round of steps has left */
 } brace_space_rest_t;
 
 #define BRACE_SPACE_COXA_PARTS 2 /* parts of the coxa link, for the buckling factor (loaded/space_parts.h) */
@@ -111,7 +113,7 @@ typedef struct {
     brace_vec3_t displacement_mm; /* of the tip, from where it is at these angles without load */
     brace_vec3_t tibia_mm;        /* from the knee to the tip at the equilibrium */
     float yaw_turn_rad, hip_turn_rad, knee_turn_rad; /* how far the load has turned the joints, without the base */
-    uint32_t flags; /* BRACE_FLAG_NEAR_SINGULAR: a link bends further within itself than the accuracy is promised for */
+    uint32_t flags; /* BRACE_FLAG_NEAR_SINGULAR: no accuracy is promised, see brace/loaded_space.h */
 } brace_space_result_t;
 
 /* --- between steps. Other code must not read their members. ---------------------------------------------------- */
@@ -199,7 +201,6 @@ typedef struct {
     brace_space_pose_t drives; /* what it is still driven by there */
     brace_space_pose_t first;  /* the first step of a round */
     float shrinks_ratio2;      /* square of a round's second step over its first and second */
-    float left_rad2;           /* square of what a round of steps leaves */
 } brace_space_settling_t;
 
 /* K that is being worked out. */

@@ -11,15 +11,20 @@
 
 #define SINGULAR 1e-3f
 #define LEFT_MOST_RAD2 6.25e-4f /* square of 0.025 rad: levers that turn by so much change K by up to twice that, 5 % */
-#define LEFT_SURE_RAD2 6.25e-6f /* square of 0.0025 rad: what further steps are not taken for */
+#define LEFT_PROMISED_RAD2 2.5e-5f /* square of 0.005 rad: beyond it no accuracy is promised */
+#define LEFT_SURE_RAD2 1e-6f /* square of 0.001 rad: what further steps are not taken for */
 #define ROUNDS_MOST 2           /* of two steps each */
 #define ROUNDS_ON_MOST 10       /* where nobody waits at all */
+#define SHARES_MOST 64 /* of a load that is raised; the first, and the least */
+#define SHARE_FIRST 0.125f
+#define SHARE_LEAST 0.002f
+#define ROUNDS_A_SHARE 3
 #define STEP_MOST_RAD2 1.44f    /* square of 1.2 rad: a longer step is shortened to it */
-#define SMALL_TURN_RAD2 0.36f /* squares: what brace_small_turn() takes, */
-#define LINKS_RAD2 1.44f      /* and of links, which turn half way on either side */
+#define SMALL_TURN_RAD2 1.0f /* squares: what brace_small_turn() takes, */
+#define LINKS_RAD2 2.25f      /* and of links, which turn half way on either side */
 #define JOINT_TURN_RAD 1.5f /* sine and cosine of base/trig.h hold up to pi/2 */
 #define FORCE_MOST_N 1e4f
-#define BEND_PROMISED 0.085f /* see bends_beyond */
+#define BEND_PROMISED_RAD2 0.09f /* square of 0.3 rad, see bends_beyond */
 #define SLENDER 1e-4f /* least over largest eigenvalue; below it the accuracy is not promised */
 
 /* The limb's plane's frame, x outwards, y to the left, z up, as the coxa's frame at rest: x outwards, y up, z to the
@@ -128,7 +133,7 @@ static void first_step(brace_space_rest_t *rest, settling_t *settling)
     settling->first = none;
     add_to_pose(&settling->first, &step, scale);
     add_to_pose(&rest->pose, &settling->first, 1.0f);
-    settling->left_rad2 = first2 * settling->shrinks_ratio2;
+    rest->left_rad2 = first2 * settling->shrinks_ratio2;
 }
 
 /* Prolonged. What both steps leave is about the third of such a series, second^2/first, or the second itself where that
@@ -142,14 +147,14 @@ static void second_step(brace_space_rest_t *rest, settling_t *settling)
     const float prolonged = over_second_step(dot_of_poses(&step, &settling->first), first2);
     add_to_pose(&rest->pose, &step, prolonged * step_scale(prolonged * prolonged * second2));
     settling->shrinks_ratio2 = second2 / (first2 + second2 + FLT_MIN);
-    settling->left_rad2 = second2 * settling->shrinks_ratio2;
+    rest->left_rad2 = second2 * settling->shrinks_ratio2;
 }
 
 /* A later round's matrix is nearer to the limb's own, so its steps shrink at least as fast as those of the round
  * before. Where that leaves nothing to go for, its first step is enough. */
-static bool first_is_enough(const settling_t *settling, bool is_first)
+static bool first_is_enough(const brace_space_rest_t *rest, bool is_first)
 {
-    return !is_first && settling->left_rad2 <= LEFT_SURE_RAD2;
+    return !is_first && rest->left_rad2 <= LEFT_SURE_RAD2;
 }
 
 static bool is_within(const brace_space_pose_t *pose)
@@ -207,17 +212,17 @@ static void take_round(const brace_loaded_space_t *loaded, brace_space_rest_t *r
         begin_round_bent(loaded, rest, settling);
     }
     first_step(rest, settling);
-    const bool is_there = first_is_enough(settling, is_first);
+    const bool is_there = first_is_enough(rest, is_first);
     bend_to(loaded, rest, !is_there, settling);
     if (!is_there) {
         second_step(rest, settling);
-        bend_to(loaded, rest, settling->left_rad2 > LEFT_SURE_RAD2, settling);
+        bend_to(loaded, rest, rest->left_rad2 > LEFT_SURE_RAD2, settling);
     }
 }
 
-static brace_status_t rest_found(const brace_space_rest_t *rest, const settling_t *settling)
+static brace_status_t rest_found(const brace_space_rest_t *rest)
 {
-    return settling->left_rad2 <= LEFT_MOST_RAD2 && is_within(&rest->pose) ? BRACE_OK : BRACE_E_SINGULAR;
+    return rest->left_rad2 <= LEFT_MOST_RAD2 && is_within(&rest->pose) ? BRACE_OK : BRACE_E_SINGULAR;
 }
 
 brace_status_t brace_loaded_space_settle(const brace_loaded_space_t *loaded, float theta1_rad, float theta2_rad,
@@ -229,13 +234,14 @@ brace_status_t brace_loaded_space_settle(const brace_loaded_space_t *loaded, flo
         return status;
     }
     take_round(loaded, rest, true, &settling);
-    for (int rounds = 1; rounds < ROUNDS_MOST && settling.left_rad2 > LEFT_SURE_RAD2; rounds++) {
+    for (int rounds = 1; rounds < ROUNDS_MOST && rest->left_rad2 > LEFT_SURE_RAD2; rounds++) {
         take_round(loaded, rest, false, &settling);
     }
-    return rest_found(rest, &settling);
+    return rest_found(rest);
 }
 
-brace_status_t brace_loaded_space_settle_on(const brace_loaded_space_t *loaded, brace_space_rest_t *rest)
+/* Rounds from where the limb is bent to, one at least. */
+static brace_status_t go_on(const brace_loaded_space_t *loaded, brace_space_rest_t *rest, int most)
 {
     settling_t settling = {.shrinks_ratio2 = 1.0f};
     settling.curls = (curls_t){curl_of(&rest->coxa, rest->pose.coxa), curl_of(&rest->femur, rest->pose.femur)};
@@ -244,8 +250,49 @@ brace_status_t brace_loaded_space_settle_on(const brace_loaded_space_t *loaded, 
     do {
         take_round(loaded, rest, false, &settling);
         rounds++;
-    } while (rounds < ROUNDS_ON_MOST && settling.left_rad2 > LEFT_SURE_RAD2);
-    return rest_found(rest, &settling);
+    } while (rounds < most && rest->left_rad2 > LEFT_SURE_RAD2);
+    return rest_found(rest);
+}
+
+static void put_load(const brace_loaded_space_t *loaded, vec3_t tip_n, vec3_t down, float share,
+                     brace_space_rest_t *rest)
+{
+    rest->tip_n = vec3_scaled(tip_n, share);
+    rest->down = vec3_scaled(down, share);
+    rest->whole_n = vec3_plus_scaled(rest->tip_n, rest->down, loaded->beyond_coxa_n);
+}
+
+/* Raises force and weight from none, each share from the rest under the one before; a share without a rest is halved. */
+static brace_status_t raise_load(const brace_loaded_space_t *loaded, brace_space_rest_t *rest)
+{
+    static const brace_space_pose_t straight;
+    const vec3_t tip_n = rest->tip_n, down = rest->down;
+    brace_space_rest_t reached = *rest;
+    float at = 0.0f, by = SHARE_FIRST;
+    brace_status_t status = BRACE_E_SINGULAR;
+    reached.pose = straight;
+    for (int tries = 0; tries < SHARES_MOST && at < 1.0f && by >= SHARE_LEAST; tries++) {
+        const float share = at + by < 1.0f ? at + by : 1.0f;
+        *rest = reached;
+        put_load(loaded, tip_n, down, share, rest);
+        status = go_on(loaded, rest, ROUNDS_A_SHARE);
+        if (status == BRACE_OK && rest->left_rad2 <= LEFT_SURE_RAD2) {
+            reached = *rest;
+            at = share;
+            by += by;
+        } else {
+            status = BRACE_E_SINGULAR;
+            by *= 0.5f;
+        }
+    }
+    put_load(loaded, tip_n, down, 1.0f, rest);
+    return status;
+}
+
+brace_status_t brace_loaded_space_settle_on(const brace_loaded_space_t *loaded, brace_space_rest_t *rest)
+{
+    const brace_status_t status = go_on(loaded, rest, ROUNDS_ON_MOST);
+    return status == BRACE_OK ? status : raise_load(loaded, rest);
 }
 
 /* How far the tip has moved from where the commanded limb has it. */
@@ -276,21 +323,18 @@ static void sum_first(const brace_loaded_space_t *loaded, const brace_space_rest
     *coxa = frames.coxa;
 }
 
-/* A link is one part. Under a load its curvature is not the line that a part has: by about this much of a radian, its
- * own turns times how far the load at its end would bend it alone. */
-INLINE bool bends_beyond(const brace_space_link_t *link, vec3_t turn, const brace_space_bent_t *bent)
+/* A link is one part: half of its own turn lies on either side of a straight chord. A turn of 0.3 rad is off by about a
+ * twelfth of its square, 0.75 %. */
+INLINE bool bends_beyond(vec3_t turn)
 {
-    const float force_n = fabsf(bent->beyond_n.x) + fabsf(bent->beyond_n.y) + fabsf(bent->beyond_n.z);
-    const float by_moment = brace_fma(link->bend_rad_per_n_mm, fabsf(turn.z),
-                                      link->sideways_rad_per_n_mm * fabsf(turn.y));
-    return link->length_mm * force_n * by_moment > BEND_PROMISED;
+    return brace_fma(turn.y, turn.y, turn.z * turn.z) > BEND_PROMISED_RAD2;
 }
 
-static uint32_t flags_of(const brace_loaded_space_t *loaded, const brace_space_rest_t *rest)
+static uint32_t flags_of(const brace_space_rest_t *rest)
 {
-    const bool is_beyond = bends_beyond(&loaded->coxa, rest->pose.coxa, &rest->coxa) ||
-                           bends_beyond(&loaded->femur, rest->pose.femur, &rest->femur) ||
-                           bends_beyond(&loaded->tibia, rest->pose.tibia, &rest->tibia);
+    const brace_space_pose_t *pose = &rest->pose;
+    const bool is_beyond = bends_beyond(pose->coxa) || bends_beyond(pose->femur) || bends_beyond(pose->tibia) ||
+                           rest->left_rad2 > LEFT_PROMISED_RAD2;
     return is_beyond ? (uint32_t)BRACE_FLAG_NEAR_SINGULAR : 0u;
 }
 
@@ -311,7 +355,7 @@ static brace_status_t sum_second(const brace_loaded_space_t *loaded, const brace
     result->yaw_turn_rad = rest->pose.yaw;
     result->hip_turn_rad = rest->pose.hip;
     result->knee_turn_rad = rest->pose.knee;
-    result->flags = flags_of(loaded, rest);
+    result->flags = flags_of(rest);
     return BRACE_OK;
 }
 
@@ -366,10 +410,10 @@ static bool work_second_step(const brace_loaded_space_t *loaded, brace_space_wor
 {
     settling_t *settling = &work->of.settling;
     second_step(&work->rest, settling);
-    const bool is_sure = !(settling->left_rad2 > LEFT_SURE_RAD2), is_last = work->rounds >= ROUNDS_MOST;
+    const bool is_sure = !(work->rest.left_rad2 > LEFT_SURE_RAD2), is_last = work->rounds >= ROUNDS_MOST;
     bend_to(loaded, &work->rest, !is_sure, settling);
     work->step = is_sure || is_last ? ELIMINATE : STEP_FIRST;
-    return work->step == STEP_FIRST || rest_found(&work->rest, settling) == BRACE_OK;
+    return work->step == STEP_FIRST || rest_found(&work->rest) == BRACE_OK;
 }
 
 bool brace_loaded_space_step(const brace_loaded_space_t *loaded, brace_space_work_t *work,

@@ -27,6 +27,7 @@ static brace_space_link_t link_of(const brace_link_t *link, float length_mm, flo
         .sideways_mm_per_n = springs * link->lateral_mm_per_n,
         .end_share = 0.5f * ends,
         .stretch_end_share = 0.5f - beam,
+        .twist_end_half = 0.5f - 0.5f * beam,
         .twist_share = beam * (1.0f - 0.5f * beams),
         .curl_per_mm = beams * per_mm,
         .across_spread_per_n_mm = spread * link->bending_mm_per_n,

@@ -91,6 +91,32 @@ static void see_forces(const brace_loaded_space_t *loaded, vec3_t tip_n, vec3_t 
 
 /* --- a link --------------------------------------------------------------------------------------------------- */
 
+/* How a spring at a link's end yields [mm/N]. It shortens the link by the square of its move: a force that pulls at the
+ * link resists that, one that presses helps. */
+INLINE float end_yields(const brace_space_link_t *link, float mm_per_n, float along_n)
+{
+    return mm_per_n / brace_fma(2.0f * link->shortens_per_mm * mm_per_n, along_n, 1.0f);
+}
+
+/* The end spring's part of the twist acts at the link's end, which is turned by half of the link's own turn: so much its
+ * axis leans from x to y (.x) and to z (.z) of the link's frame. */
+INLINE brace_vec_t twist_leans(const brace_space_link_t *link, vec3_t turn)
+{
+    return (brace_vec_t){link->twist_end_half * turn.z, -(link->twist_end_half * turn.y)};
+}
+
+/* The beam's own end spring twists the link and keeps its direction; the spring behind it turns with the link and twists
+ * nothing. As one spring (`across`, and `sideways` likewise) they miss what moves them against one another: half the
+ * pull along the link, turned with it, and the twisting moment. Per radian of the link's turn, times its length. */
+typedef struct {
+    float pulls_n_mm, twists_n_mm;
+} apart_t;
+
+INLINE apart_t moves_apart(const brace_space_link_t *link, const brace_space_bent_t *bent, vec3_t moment_n_mm)
+{
+    return (apart_t){0.5f * link->length_mm * bent->beyond_n.x, moment_n_mm.x};
+}
+
 /* A bent beam of length L whose end is moved across by d twists by -d/L for each radian that it turns about y or z with
  * d: turns in space do not commute. So the end's springs carry a part of the twisting moment.
  * twists_n_mm: the moment about x of all beyond the end. */
@@ -101,8 +127,10 @@ INLINE void bend_link(const brace_space_link_t *link, vec3_t turn, float twists_
     const float curled_n = link->curl_per_mm * twists_n_mm;
     vec3_t across = vec3(brace_fma(-share_z, link->across.z, link->across.x),
                          brace_fma(share_z, link->across.x, link->across.z), -(share_y * link->across.x));
-    const float across_mm = link->across_mm_per_n * brace_fma(-turn.y, curled_n, vec3_dot(across, f));
-    const float sideways_mm = link->sideways_mm_per_n * brace_fma(-turn.z, curled_n, brace_fma(share_y, f.x, f.z));
+    const float across_n = brace_fma(-turn.y, curled_n, vec3_dot(across, f));
+    const float sideways_n = brace_fma(-turn.z, curled_n, brace_fma(share_y, f.x, f.z));
+    const float across_mm = end_yields(link, link->across_mm_per_n, f.x) * across_n;
+    const float sideways_mm = end_yields(link, link->sideways_mm_per_n, f.x) * sideways_n;
     const float stretch = brace_fma(link->stretch_root.x, f.x, link->stretch_root.z * f.y);
     const float across_shortens = link->shortens_per_mm * across_mm;
     const float sideways_shortens = link->shortens_per_mm * sideways_mm;
@@ -130,12 +158,21 @@ INLINE vec3_t chord_moment(const brace_space_bent_t *bent)
     return vec3_cross(bent->chord_mm, vec3_plus_scaled(bent->beyond_n, bent->own_n, 0.5f));
 }
 
-INLINE vec3_t drives_of(const brace_space_link_t *link, const brace_space_bent_t *bent, vec3_t moment_n_mm,
-                        vec3_t chord_n_mm)
+INLINE vec3_t drives_of(const brace_space_link_t *link, vec3_t turn, const brace_space_bent_t *bent,
+                        vec3_t moment_n_mm, vec3_t chord_n_mm)
 {
     const vec3_t f = bent->beyond_n;
     vec3_t drives = vec3_plus_scaled(moment_n_mm, chord_n_mm, 0.5f);
+    const brace_vec_t leans = twist_leans(link, turn);
+    const apart_t apart = moves_apart(link, bent, moment_n_mm);
+    const float across = link->across_spread_per_n_mm *
+                         brace_fma(turn.z, apart.pulls_n_mm, -(turn.y * apart.twists_n_mm));
+    const float sideways = link->sideways_spread_per_n_mm *
+                           brace_fma(turn.z, apart.twists_n_mm, turn.y * apart.pulls_n_mm);
+    drives.y = brace_fma(sideways, apart.pulls_n_mm, brace_fma(-across, apart.twists_n_mm, drives.y));
+    drives.z = brace_fma(across, apart.pulls_n_mm, brace_fma(sideways, apart.twists_n_mm, drives.z));
     drives.x = brace_fma(link->twist_share, chord_n_mm.x, moment_n_mm.x);
+    drives.x = brace_fma(leans.x, moment_n_mm.y, brace_fma(leans.z, moment_n_mm.z, drives.x));
     drives.y = brace_fma(-bent->across_curl, moment_n_mm.x, drives.y);
     drives.y = brace_fma(bent->by_sideways_mm, f.x, brace_fma(link->twelfth_mm, bent->own_n.z, drives.y));
     drives.z = brace_fma(-bent->sideways_curl, moment_n_mm.x, drives.z);
@@ -156,7 +193,7 @@ INLINE void bend_and_drive(const brace_space_link_t *link, vec3_t turn, brace_sp
     bend_link(link, turn, moment_n_mm->x, bent);
     const vec3_t chord_n_mm = chord_moment(bent);
     if (is_driven) {
-        *drives = drives_of(link, bent, *moment_n_mm, chord_n_mm);
+        *drives = drives_of(link, turn, bent, *moment_n_mm, chord_n_mm);
     }
     *moment_n_mm = vec3_plus(*moment_n_mm, chord_n_mm);
 }

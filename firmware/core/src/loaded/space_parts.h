@@ -266,9 +266,7 @@ INLINE void hold_link(const brace_loaded_space_t *loaded, const brace_space_shap
 INLINE void hold_base(const brace_loaded_space_t *loaded, const brace_space_shape_t *shape, float times, held_t *held,
                       pivots_t *pivots)
 {
-    const sym3_t r = held->resists;
-    const vec3_t m = held->moment_n_mm, row = vec3(brace_fma(-0.5f, m.z, r.xy), r.yy, brace_fma(0.5f, m.x, r.yz));
-    (void)eliminate(held, row, r.yy, shape->joint_rad_per_n_mm[BRACE_COXA], pivots);
+    (void)eliminate(held, row_of_y(held), held->resists.yy, shape->joint_rad_per_n_mm[BRACE_COXA], pivots);
     held_about_y(held, shape->yaw);
     const float base_x_n = times * about_z(shape->whole_n, back(shape->base)).x;
     const float entry = brace_fma(-loaded->coxa.length_mm, base_x_n, held->resists.zz);

@@ -60,11 +60,44 @@ INLINE sym3_t own_turns_resist(sym3_t r, float curl_y, float curl_z)
     return own;
 }
 
-INLINE freedom_t eliminate_joint(held_t *held, float rad_per_n_mm, pivots_t *pivots)
+/* The moments on what lies before for a unit turn of all beyond about y, and about z. */
+INLINE vec3_t row_of_y(const held_t *held)
 {
     const sym3_t r = held->resists;
-    const vec3_t m = held->moment_n_mm, row = vec3(brace_fma(0.5f, m.y, r.xz), brace_fma(-0.5f, m.x, r.yz), r.zz);
-    return eliminate(held, row, r.zz, rad_per_n_mm, pivots);
+    const vec3_t m = held->moment_n_mm;
+    return vec3(brace_fma(-0.5f, m.z, r.xy), r.yy, brace_fma(0.5f, m.x, r.yz));
+}
+
+INLINE vec3_t row_of_z(const held_t *held)
+{
+    const sym3_t r = held->resists;
+    const vec3_t m = held->moment_n_mm;
+    return vec3(brace_fma(0.5f, m.y, r.xz), brace_fma(-0.5f, m.x, r.yz), r.zz);
+}
+
+INLINE freedom_t eliminate_joint(held_t *held, float rad_per_n_mm, pivots_t *pivots)
+{
+    return eliminate(held, row_of_z(held), held->resists.zz, rad_per_n_mm, pivots);
+}
+
+/* What a link's end springs, where they move apart, and the axis of the twist behind them add: to the stiffness of the
+ * link's own turns, and to the twist's row. See space_bent.h. */
+INLINE void count_end(const brace_space_link_t *link, vec3_t turn, const brace_space_bent_t *bent, const held_t *held,
+                      sym3_t *own, vec3_t *row_x)
+{
+    const sym3_t r = held->resists;
+    const vec3_t m = held->moment_n_mm;
+    const brace_vec_t leans = twist_leans(link, turn);
+    const apart_t apart = moves_apart(link, bent, m);
+    const float pulls = apart.pulls_n_mm, twists = apart.twists_n_mm;
+    const float across = link->across_spread_per_n_mm, sideways = link->sideways_spread_per_n_mm;
+    own->xx = brace_fma(2.0f * leans.x, r.xy, brace_fma(2.0f * leans.z, r.xz, own->xx));
+    own->xy = brace_fma(leans.x, r.yy, brace_fma(leans.z, r.yz, brace_fma(link->twist_end_half, m.z, own->xy)));
+    own->xz = brace_fma(leans.x, r.yz, brace_fma(leans.z, r.zz, brace_fma(-link->twist_end_half, m.y, own->xz)));
+    own->yy = brace_fma(-across * twists, twists, brace_fma(-sideways * pulls, pulls, own->yy));
+    own->yz = brace_fma((across - sideways) * pulls, twists, own->yz);
+    own->zz = brace_fma(-across * pulls, pulls, brace_fma(-sideways * twists, twists, own->zz));
+    *row_x = vec3_plus_scaled(vec3_plus_scaled(*row_x, row_of_y(held), leans.x), row_of_z(held), leans.z);
 }
 
 /* Adds a spring of a link. Everything before it resists less then, and the link's own turns too.
@@ -111,6 +144,7 @@ INLINE void eliminate_link(const brace_space_link_t *link, vec3_t turn, const br
     rows.z = vec3(brace_fma(-by_bend.z, f.z, q.xz + half_m.y), brace_fma(by_bend.x, f.z, q.yz - half_m.x),
                   brace_fma(-by_bend.x, f.y, brace_fma(by_bend.z, f.x, q.zz)));
     if (!is_last) {
+        count_end(link, turn, bent, held, &own, &rows.x);
         rows.y = vec3_plus_scaled(rows.y, rows.x, -curl_y);
         rows.z = vec3_plus_scaled(rows.z, rows.x, -curl_z);
     }
@@ -126,11 +160,13 @@ INLINE void eliminate_link(const brace_space_link_t *link, vec3_t turn, const br
     const vec3_t on_across = vec3(twist * across.x, brace_fma(share, across.y, curled_n), share * across.z);
     const vec3_t on_sideways = vec3(twist * sideways.x, share * sideways.y, brace_fma(share, sideways.z, curled_n));
     const vec3_t on_stretch = vec3(0.0f, stretch_share * stretch.y, stretch_share * stretch.z);
-    free->across = (freedom_t){vec3_scaled(across, -link->across_mm_per_n), link->across_mm_per_n};
-    free->sideways = (freedom_t){vec3_scaled(sideways, -link->sideways_mm_per_n), link->sideways_mm_per_n};
+    const float across_yields = end_yields(link, link->across_mm_per_n, f.x);
+    const float sideways_yields = end_yields(link, link->sideways_mm_per_n, f.x);
+    free->across = (freedom_t){vec3_scaled(across, -across_yields), across_yields};
+    free->sideways = (freedom_t){vec3_scaled(sideways, -sideways_yields), sideways_yields};
     free->stretch_follows = vec3_scaled(stretch, -1.0f);
-    free->by_across = vec3_scaled(on_across, -link->across_mm_per_n);
-    free->by_sideways = vec3_scaled(on_sideways, -link->sideways_mm_per_n);
+    free->by_across = vec3_scaled(on_across, -across_yields);
+    free->by_sideways = vec3_scaled(on_sideways, -sideways_yields);
     free->y_by_stretch = -on_stretch.y;
     free->z_by_stretch = -on_stretch.z;
     soften_link(across, free->across.follows, on_across, free->by_across, held, &own, &rows);
@@ -187,9 +223,7 @@ INLINE pivots_t eliminate_limb(const brace_loaded_space_t *loaded, const brace_s
     eliminate_link(&loaded->coxa, pose->coxa, &rest->coxa, false, &held, &free->coxa, &pivots);
     held_about_y(&held, turns->coxa_y);
     held_about_z(&held, turns->coxa_z);
-    const sym3_t r = held.resists;
-    const vec3_t m = held.moment_n_mm, row = vec3(brace_fma(-0.5f, m.z, r.xy), r.yy, brace_fma(0.5f, m.x, r.yz));
-    free->yaw = eliminate(&held, row, r.yy, rest->yaw.slope_rad_per_n_mm, &pivots);
+    free->yaw = eliminate(&held, row_of_y(&held), held.resists.yy, rest->yaw.slope_rad_per_n_mm, &pivots);
     held_about_y(&held, turns->yaw);
     const float base_x_n = about_z(rest->whole_n, back(turns->base)).x;
     const float entry = brace_fma(-loaded->coxa.length_mm, base_x_n, held.resists.zz);
@@ -254,6 +288,8 @@ INLINE void add_link(sum_t *sum, const brace_space_link_t *link, vec3_t turn, co
     sum->by_turn.z = vec3_plus(beyond.z, by_chord.z);
     if (!is_last) {
         vec3_t x = vec3_plus_scaled(beyond.x, by_chord.x, link->twist_share);
+        const brace_vec_t leans = twist_leans(link, turn);
+        x = vec3_plus_scaled(vec3_plus_scaled(x, beyond.y, leans.x), beyond.z, leans.z);
         x = vec3_plus_scaled(vec3_plus_scaled(x, across, free->by_across.x), sideways, free->by_sideways.x);
         y = vec3_plus_scaled(y, x, free->y_by_x);
         z = vec3_plus_scaled(z, x, free->z_by_x);
