@@ -399,10 +399,10 @@ static void work_first_step(const brace_loaded_space_t *loaded, brace_space_work
 static bool work_first_bend(const brace_loaded_space_t *loaded, brace_space_work_t *work)
 {
     settling_t *settling = &work->of.settling;
-    const bool is_there = first_is_enough(settling, work->rounds == 1u);
+    const bool is_there = first_is_enough(&work->rest, work->rounds == 1u);
     bend_to(loaded, &work->rest, !is_there, settling);
     work->step = is_there ? ELIMINATE : STEP_SECOND;
-    return !is_there || rest_found(&work->rest, settling) == BRACE_OK;
+    return !is_there || rest_found(&work->rest) == BRACE_OK;
 }
 
 /* returns whether the work goes on: with another step or round, or because the limb rests */
