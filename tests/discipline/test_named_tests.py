@@ -14,7 +14,7 @@ SUITES = ROOT / "tests"
 def named(page: str) -> set[str]:
     """Names of suites in backticks or in a command, without what ends a file's name."""
     text = (ROOT / "docs" / page).read_text()
-    return set(re.findall(r"\b(test_\w+)", text)) | set(re.findall(r"build/host/tests/\w+/(\w+)", text))
+    return set(re.findall(r"\b(test_\w+)", text)) | set(re.findall(r"build/host/tests/judges/\w+/(\w+)", text))
 
 
 @pytest.mark.parametrize("page", ["security.md", "trust.md"])

@@ -8,17 +8,17 @@ import sys
 
 from sources import ROOT
 
-SMALL = ("coverage", "emulated", "examples", "misra", "modbus", "mutants", "proofs", "release", "servo", "socketcan")
+SMALL = ("emulated", "examples", "judges/coverage", "judges/misra", "judges/mutants", "judges/proofs", "modbus", "release", "servo", "socketcan")
 
 # Folders that are checked at once, since no two of their modules have the same name: where imports are looked for.
 TYPED = {
     "tools/brace tools/interface tools/release": "tools",
-    "tests/bench": "tools:tests/bench:tests/property",
-    "tests/blind": "tools:tests/blind",
-    "tests/engine": "tools:tests/engine:tests/blind",
-    "tests/foreign": "tools:tests/foreign:tests/blind:tests/engine",
+    "tests/judges/bench": "tools:tests/judges/bench:tests/property",
+    "tests/judges/blind": "tools:tests/judges/blind",
+    "tests/judges/engine": "tools:tests/judges/engine:tests/judges/blind",
+    "tests/judges/foreign": "tools:tests/judges/foreign:tests/judges/blind:tests/judges/engine",
     "tests/property": "tools:tests/property",
-    "tests/tools": "tools:tests/tools:tests/tools/diagnose:tests/tools/importing:tests/tools/new:tests/bench",
+    "tests/tools": "tools:tests/tools:tests/tools/diagnose:tests/tools/importing:tests/tools/new:tests/judges/bench",
     " ".join(f"tests/{name}" for name in SMALL): ":".join(["tools", *(f"tests/{name}" for name in SMALL)]),
 }
 

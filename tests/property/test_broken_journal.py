@@ -1,4 +1,4 @@
-"""The enumeration of power cuts of the drift check's journal (tests/faults)
+"""The enumeration of power cuts of the drift check's journal (tests/judges/memory)
 finds out every journal broken on purpose."""
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ BROKEN = {
     "writes into the store's part": ("BRACE_JOURNAL_AT + offset, bytes, count",
                                      "BRACE_JOURNAL_AT - 64 + offset, bytes, count"),
 }
-SOURCES = ("tests/faults/crc32_fast.c", "tests/faults/nvm_model.c", "tests/faults/journal_cuts.c")
+SOURCES = ("tests/judges/memory/crc32_fast.c", "tests/judges/memory/nvm_model.c", "tests/judges/memory/journal_cuts.c")
 
 
 @pytest.mark.skipif(shutil.which("gcc") is None, reason="no gcc")

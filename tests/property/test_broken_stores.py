@@ -1,4 +1,4 @@
-"""The enumeration of power cuts (tests/faults) finds out every store that is broken on purpose."""
+"""The enumeration of power cuts (tests/judges/memory) finds out every store that is broken on purpose."""
 
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ import pytest
 PROJECT = Path(__file__).resolve().parents[2]
 STORE = PROJECT / "firmware" / "store" / "src"
 INCLUDES = ("firmware/store/include", "firmware/store/src", "firmware/core/include", "firmware/core/src", "hal/include",
-            "tests/faults")
+            "tests/judges/memory")
 INTERFACE = ("firmware/interface/include", "firmware/interface/generated", "firmware/interface/src")
 FOLDERS = [PROJECT / folder for folder in (*INCLUDES, *INTERFACE)]
 SOURCES = (
     "firmware/interface/src/[!c]*.c",  # all but crc32.c, in whose place stands
-    "tests/faults/crc32_fast.c",
+    "tests/judges/memory/crc32_fast.c",
     "firmware/interface/generated/*.c",
     "firmware/core/src/limb/*.c",
     "firmware/core/src/base/*.c",
-    "tests/faults/nvm_model.c",
-    "tests/faults/power_cuts.c",
+    "tests/judges/memory/nvm_model.c",
+    "tests/judges/memory/power_cuts.c",
 )
 
 Edit = tuple[str, str, str]  # file, what stands there, what it becomes

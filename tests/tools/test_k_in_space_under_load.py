@@ -193,7 +193,7 @@ def test_sigma_in_space_is_the_plane_s_where_both_say_the_same(
     brace: Callable[..., Outcome], paper_limb: Path, tmp_path: Path
 ) -> None:
     """At zero yaw and without a load in space, the entries of the plane are as uncertain as in it; across it, K is as
-    uncertain as the compliances across. tests/engine judges sigma under loads."""
+    uncertain as the compliances across. tests/judges/engine judges sigma under loads."""
     path = tmp_path / "trusted.toml"
     values = {"joint.coxa.compliance_rad_per_n_mm": 8e-6, "gravity.tibia_n": 3.0}
     path.write_text(load_limb(paper_limb).with_values(values).to_toml())

@@ -189,13 +189,13 @@ OTHER_PROGRAMS = {  # how a command begins, without .venv/bin/: where it runs, o
     "cmake --build build/client": "tests/client/test_package.py",
     "cmake --install build/client": "tests/client/test_package.py",
     "build/client/print_k": "tests/client",
-    "build/host/tests/faults/rotten_sets": "minutes; ./dev test plays each 23rd bit",
-    "build/host/tests/faults/bit_flips": "an hour; ./dev test plays each 61st bit",
+    "build/host/tests/judges/memory/rotten_sets": "minutes; ./dev test plays each 23rd bit",
+    "build/host/tests/judges/memory/bit_flips": "an hour; ./dev test plays each 61st bit",
     "build/host/tests/test_late": "a minute or two; ./dev test plays fewer bursts",
     "build/host/tests/test_flood": "minutes; ./dev test plays fewer floods",
-    "build/host/tests/soak/soak": "as long as the reader wants; ./dev test plays fewer ticks",
+    "build/host/tests/judges/soak/soak": "as long as the reader wants; ./dev test plays fewer ticks",
     "qemu-system-arm": "until it is ended; tests/emulated starts the images so",
-    "cp -r": "<yours> is the reader's; tests/mutants and the build take the blank board as it is",
+    "cp -r": "<yours> is the reader's; tests/judges/mutants and the build take the blank board as it is",
     "ros2 run": "needs ROS 2; tests/client/test_ros_bridge.py runs what it starts",
 }
 

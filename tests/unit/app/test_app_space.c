@@ -135,7 +135,7 @@ static void test_K_in_space_beyond_the_travel_is_flagged(void)
     TEST_ASSERT_EQUAL_HEX32(BRACE_FLAG_OUT_OF_RANGE, e.flags);
 }
 
-/* K under a force from any side, by the core's estimator: tests/engine judges it. */
+/* K under a force from any side, by the core's estimator: tests/judges/engine judges it. */
 typedef struct {
     brace_stiffness_spatial_t k;
     float moved_mm[3];

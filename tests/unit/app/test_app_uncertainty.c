@@ -1,6 +1,6 @@
 /* The uncertainty of K in the snapshot has three parts: the uncertainty of the parameters, a load that the mean over
  * the joints' samples has not followed yet, and a gap in which a joint may stand anywhere. How long it holds:
- * jobs/uncertainty/test_sigma_holds.c. That three sigmas hold K: tests/engine/test_core_uncertainty.py. */
+ * jobs/uncertainty/test_sigma_holds.c. That three sigmas hold K: tests/judges/engine/test_core_uncertainty.py. */
 #include "app_bench.h"
 #include "brace/uncertainty_causes.h"
 

@@ -1,4 +1,4 @@
-/* Written by tests/engine/print_rows.py from the double-precision reference; do not edit. In each row
+/* Written by tests/judges/engine/print_rows.py from the double-precision reference; do not edit. In each row
  * the limb, the direction of its weight, theta1, theta2, the tip's force; then K, the tip's displacement
  * and the buckling factor, all in the limb's plane's frame. */
 #ifndef LOADED_SPACE_ROWS_H

@@ -1,5 +1,5 @@
 /* K under a load in fixed point beside the float path: the same numbers within the rounding, the same refusals. The
- * float path's own tests say what is right; tests/engine judges both over random limbs. */
+ * float path's own tests say what is right; tests/judges/engine judges both over random limbs. */
 #include <math.h>
 #include <string.h>
 

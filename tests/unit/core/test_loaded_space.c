@@ -1,5 +1,5 @@
 /* K in space under a load: no load; closed forms of one hinge, pulled, pushed and turned; where its equilibrium is not
- * reached; the plane's own path; turning and eigenvalues; what is refused. tests/engine judges random limbs. */
+ * reached; the plane's own path; turning and eigenvalues; what is refused. tests/judges/engine judges random limbs. */
 #include <math.h>
 #include <string.h>
 

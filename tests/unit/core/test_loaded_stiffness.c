@@ -1,5 +1,5 @@
 /* K under a load: the check values of docs/physics.md, which another program and an engine agree on; no load; what is
- * refused. tests/engine judges random limbs. */
+ * refused. tests/judges/engine judges random limbs. */
 #include <math.h>
 #include <string.h>
 

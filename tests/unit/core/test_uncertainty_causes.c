@@ -1,5 +1,5 @@
 /* K's uncertainty by changing one input at a time: which inputs count where, what it agrees with, what is refused. That
- * three sigmas hold K, under loads too: tests/engine/test_core_uncertainty.py. */
+ * three sigmas hold K, under loads too: tests/judges/engine/test_core_uncertainty.py. */
 #include <string.h>
 
 #include "brace/general.h"

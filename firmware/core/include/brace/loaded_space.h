@@ -53,7 +53,7 @@ brace_status_t brace_loaded_space_settle_on(const brace_loaded_space_t *loaded, 
  *         within 2 mm. result->flags has BRACE_FLAG_NEAR_SINGULAR where a link bends by more than 0.3 rad within itself,
  *         or where the steps have left more than 0.005 rad. At a tenth of such a load K within 0.08 %, at no load within 2e-7 of itself
  *         for each unit of C's condition number (3e-5 for random limbs).
- *         tests/engine/test_core_in_space_under_load.py judges.
+ *         tests/judges/engine/test_core_in_space_under_load.py judges.
  * Cost on a Cortex-M4F: at most 3,300 instructions, the same for every posture; stack at most 950 bytes. */
 brace_status_t brace_loaded_space_stiffness(const brace_loaded_space_t *loaded, const brace_space_rest_t *rest,
                                             brace_space_result_t *result);
@@ -89,7 +89,7 @@ brace_status_t brace_loaded_space_turn(float theta0_rad, const brace_k3_t *k, br
  * Accuracy: of 600 random limbs with a factor from 2 to 10, median 0.05 %, nine of ten within 0.4 %, 99 of 100 within
  *         1.7 %, 0.7 % of them beyond 2 %, the worst 8.7 %. Those are limbs whose short coxa link bends by large angles
  *         within itself.
- *         tests/engine/test_core_in_space_under_load.py judges.
+ *         tests/judges/engine/test_core_in_space_under_load.py judges.
  * Cost on a Cortex-M4F: at most 13,000 instructions; stack at most 950 bytes. */
 float brace_loaded_space_buckling_factor(const brace_loaded_space_t *loaded, const brace_space_rest_t *rest);
 

@@ -1,5 +1,5 @@
 /* What a structure keeps so that no sum of planar_fixed.c leaves its word at any knee angle. The collapse looks for
- * it last, in integers; the proof of planar_fixed.c stands on it (tests/proofs/harness/fixed_planar.c). */
+ * it last, in integers; the proof of planar_fixed.c stands on it (tests/judges/proofs/harness/fixed_planar.c). */
 #ifndef BRACE_FIXED_KEPT_H
 #define BRACE_FIXED_KEPT_H
 

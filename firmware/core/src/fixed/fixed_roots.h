@@ -1,4 +1,4 @@
-/* Roots, quotients and angles from tables, each of one number: tests/proofs goes through all of them. */
+/* Roots, quotients and angles from tables, each of one number: tests/judges/proofs goes through all of them. */
 #ifndef BRACE_CORE_FIXED_ROOTS_H
 #define BRACE_CORE_FIXED_ROOTS_H
 

@@ -1,5 +1,5 @@
 /* What a collapsed limb keeps so that no number of loaded_fixed.c leaves its word under any load. The collapse looks
- * for it last, in integers; the proofs of loaded_fixed.c stand on it (tests/proofs/harness/loaded_sizes.h). */
+ * for it last, in integers; the proofs of loaded_fixed.c stand on it (tests/judges/proofs/harness/loaded_sizes.h). */
 #ifndef BRACE_LOADED_FIXED_UNITS_H
 #define BRACE_LOADED_FIXED_UNITS_H
 

@@ -11,7 +11,7 @@
  *
  * Power may fail at any write: a start finds the record before or the new one, whole. As with the store's marks, a
  * piece that looks erased may have been touched then, so each session writes zeros over two before its first record.
- * tests/faults enumerates it.
+ * tests/judges/memory enumerates it.
  *
  * Off and on the tick: each call is one bounded piece. One thread. No heap, no recursion. Stack: at most 100 bytes.
  */

@@ -22,7 +22,7 @@
  * differently each time, until something whole stands after it. What an interrupted operation left open (the old set or
  * the new one) therefore stays open until the next operation's marks stand. Marks are only ever added. A place that
  * looks erased may have been touched as power failed, so each session writes zeros over two first and its mark behind.
- * Zeros are all that is ever written over a unit that is not erased. tests/faults enumerates all of this.
+ * Zeros are all that is ever written over a unit that is not erased. tests/judges/memory enumerates all of this.
  *
  * Works off the tick: brace_store_step does one erase, or writes or reads at most 32 bytes. The erase stops the
  * processor (brace_hal.h), so updates are for the configuration mode. One brace_store_t per limb; one thread, the

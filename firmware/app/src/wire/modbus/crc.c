@@ -1,7 +1,7 @@
 #include "wire/modbus/crc.h"
 
 /* What each byte adds to the check. 512 bytes of flash halve the cost of a byte against working it out: the longest
- * answer's check is made in the tick that answers. tests/proofs/harness/crc16.c proves every entry. */
+ * answer's check is made in the tick that answers. tests/judges/proofs/harness/crc16.c proves every entry. */
 static const uint16_t step[256] = {
     0x0000, 0xc0c1, 0xc181, 0x0140, 0xc301, 0x03c0, 0x0280, 0xc241, 0xc601, 0x06c0, 0x0780, 0xc741,
     0x0500, 0xc5c1, 0xc481, 0x0440, 0xcc01, 0x0cc0, 0x0d80, 0xcd41, 0x0f00, 0xcfc1, 0xce81, 0x0e40,
