@@ -189,6 +189,41 @@ def test_play_of_the_coxa_joint_is_told(brace: Callable[..., Outcome], model: Li
     assert "backlash" not in brace("k", "--model", path, "--theta1", 0.9, "--theta2", 1.3).out
 
 
+def test_a_load_takes_up_the_play_of_the_joints_that_it_holds(
+    brace: Callable[..., Outcome], model: LimbModel, tmp_path: Path
+) -> None:
+    """Nothing goes through a coxa joint that its load does not hold; once it does, K is that of the limb half its gap
+    off. tests/judges/engine/test_play_settles.py compares both with a controller."""
+    gap_rad, path, tight = 0.02, tmp_path / "play.toml", tmp_path / "tight.toml"
+    path.write_text(model.with_values({"joint.coxa.gap_rad": gap_rad}).to_toml())
+    tight.write_text(model.to_toml())
+    posture = ("--theta1", 0.9, "--theta2", 1.3, "--fx", 5, "--fz", 10)
+    found = brace("k", "--model", path, "--theta0", -ZERO_RAD[0], *posture)
+    assert "GAP_OPEN" in found.out and "brace take-up coxa-" in found.out
+    free = json.loads(brace("k", "--model", path, "--theta0", -ZERO_RAD[0], *posture, "--json").out)
+    assert free["k_yy_n_per_mm"] == pytest.approx(0.0, abs=1e-6) and free["engaged"]["k_yy_n_per_mm"] > 0.1
+    assert free["c_yy_mm_per_n"] is None
+    held = json.loads(brace("k", "--model", path, "--theta0", -ZERO_RAD[0], *posture, "--fy", 20, "--json").out)
+    side = held["held"]["coxa"]
+    stands_rad = -ZERO_RAD[0] - 0.5 * side * gap_rad
+    stands = json.loads(brace("k", "--model", tight, "--theta0", stands_rad, *posture, "--fy", 20, "--json").out)
+    assert side == -1 and not held["flags"]  # the ground pushes to the left, so the motor holds to the right
+    assert [held[name] for name in SPATIAL_K] == pytest.approx([stands[name] for name in SPATIAL_K], rel=1e-5)
+    assert held["c_yy_mm_per_n"] == pytest.approx(stands["c_yy_mm_per_n"], rel=1e-4)
+
+
+def test_a_table_in_space_has_k_of_the_play_that_each_row_holds(
+    brace: Callable[..., Outcome], model: LimbModel, tmp_path: Path
+) -> None:
+    path, rows, out = tmp_path / "play.toml", tmp_path / "in.csv", tmp_path / "out.csv"
+    path.write_text(model.with_values({"joint.coxa.gap_rad": 0.004}).to_toml())
+    rows.write_text("theta0_rad,theta1_rad,theta2_rad,fx_n,fy_n,fz_n\n-0.05,0.9,1.3,5,0,10\n-0.05,0.9,1.3,5,20,10\n")
+    assert brace("k", "--model", path, "--csv", rows, "--out", out).code == 0
+    free, held = list(csv.DictReader(out.open()))
+    assert float(free["k_yy_n_per_mm"]) == pytest.approx(0.0, abs=1e-6) and float(held["k_yy_n_per_mm"]) > 0.1
+    assert (free["flags"], held["flags"]) == ("8", "0")
+
+
 def test_sigma_in_space_is_the_plane_s_where_both_say_the_same(
     brace: Callable[..., Outcome], paper_limb: Path, tmp_path: Path
 ) -> None:

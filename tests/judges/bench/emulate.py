@@ -10,7 +10,7 @@ import numpy as np
 import fetch
 from toolchain import BENCH, BUILD, Processor, run, symbol_address
 
-RUN_IMAGE = BENCH.parent / "emulated" / "run_image"
+RUN_IMAGE = BENCH.parents[1] / "emulated" / "run_image"
 
 
 @dataclass(frozen=True)

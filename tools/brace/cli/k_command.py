@@ -210,7 +210,7 @@ def _run_single(arguments: argparse.Namespace, model: LimbModel) -> int:
     commanded = {name: float(posture[name]) for name in names if name in posture}
     at = {name: np.array([angle]) for name, angle in commanded.items()}
     values["flags"] |= int(flags_of_postures(model, at, unloaded=unloaded)[0])
-    play = _play(model, (true1, true2), values, arguments)
+    play = _play(model, (theta1, theta2), (true1, true2), values, arguments)
     if play and play.open:
         sigma = {}  # of K with every gap closed
     free = _both_open(gaps_rad(model), while_open)
@@ -252,14 +252,22 @@ def _both_open(gaps: dict[str, float], while_open: dict[str, dict[str, float]]) 
 
 
 def _play(
-    model: LimbModel, true_rad: tuple[float, float], values: dict[str, float], arguments: argparse.Namespace
+    model: LimbModel,
+    commanded_rad: tuple[float, float],
+    true_rad: tuple[float, float],
+    values: dict[str, float],
+    arguments: argparse.Namespace,
 ) -> Play | None:
-    """Which play the load takes up, of a limb in its plane; K of now goes into `values`."""
-    from brace.stiffness.play_under_load import PlayUnderLoad, put_into
+    """Which play the load takes up; K of now goes into `values`."""
+    from brace.stiffness.play_under_load import PlayInSpaceUnderLoad, PlayUnderLoad, put_into
 
-    if not arguments.is_loaded or arguments.theta0 is not None:
+    if not arguments.is_loaded:
         return None
-    play = PlayUnderLoad(model, arguments.arith).at(*true_rad, arguments.fx, arguments.fz)
+    if arguments.theta0 is None:
+        play = PlayUnderLoad(model, arguments.arith).at(*true_rad, arguments.fx, arguments.fz)
+    else:
+        force_n = (arguments.fx, arguments.fy or 0.0, arguments.fz)
+        play = PlayInSpaceUnderLoad(model).at((arguments.theta0, *commanded_rad), force_n)
     if play:
         put_into(values, play)
     return play
@@ -269,8 +277,6 @@ def _play_text(
     gaps: dict[str, float], free: dict[str, float], arguments: argparse.Namespace, play: Play | None
 ) -> list[str]:
     """Which of the two K holds."""
-    if not gaps or arguments.theta0 is not None:
-        return []
     if play:
         sides = {joint: "+" if side > 0 else "-" for joint, side in play.held.items()}
         lines = [
@@ -288,10 +294,11 @@ def _play_text(
                 f"brace take-up {joint}- --bus URL (or {joint}+) takes it up"
             )
         if play.open:
-            once = ", ".join(f"{play.engaged[f'k_{entry}_n_per_mm']:.6g}" for entry in ("xx", "xz", "zz"))
-            lines.append(f"           once all is taken up K = {once} N/mm (xx, xz, zz)")
+            shown = ("xx", "xz", "zz") if arguments.theta0 is None else ("xx", "xy", "xz", "yy", "yz", "zz")
+            once = ", ".join(f"{play.engaged[f'k_{entry}_n_per_mm']:.6g}" for entry in shown)
+            lines.append(f"           once all is taken up K = {once} N/mm ({', '.join(shown)})")
         return lines
-    if not free:
+    if not gaps or arguments.theta0 is not None or not free:
         return []
     entries = ", ".join(f"{value:.6g}" for value in free.values())
     return [

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Callable, Iterator
+from functools import partial
 
 import numpy as np
 
@@ -15,7 +17,7 @@ from brace.ground.files import check_file, write_file
 from brace.model import LimbModel
 from brace.stiffness import at_rest
 from brace.stiffness.in_space_under_load import LOADED_SPACE_REST, LoadedLimbInSpace
-from brace.stiffness.play_under_load import PlayUnderLoad, put_into
+from brace.stiffness.play_under_load import Play, PlayInSpaceUnderLoad, PlayUnderLoad, put_into
 from brace.stiffness.under_load import LOADED_REST, stiffness_under_load
 
 
@@ -45,7 +47,7 @@ def run_table(arguments: argparse.Namespace, model: LimbModel) -> int:
             next_step="angles are in rad, theta2_rad within [-pi, pi]; a singular posture needs another limb",
         ) from None
     result["flags"] |= flags_of_postures(model, table.angles, unloaded=not (spatial or loaded))
-    if loaded and not spatial:
+    if loaded:
         _take_up(table, model, arguments, result)
     write_file(arguments.out, table.with_columns(names, [_texts(result[name]) for name in names]), inputs)
     no_rest = int(np.count_nonzero(np.isnan(result[k[0]])))
@@ -94,20 +96,32 @@ def _in_space_under_load(
 
 def _take_up(table: PostureTable, model: LimbModel, arguments: argparse.Namespace, result: np.ndarray) -> None:
     """K of now where the load leaves a gap open, and the flags of the play that it holds."""
-    true1, true2 = at_rest.planar_limb(model).true_angles(table.angles["theta1_rad"], table.angles["theta2_rad"])
-    force_n = _forces(table, {"fx_n": arguments.fx, "fz_n": arguments.fz})
-    rows = np.column_stack([at_rest.within_half_turn(true1), true2, *force_n]).tolist()
-    limb = PlayUnderLoad(model, arguments.arith)
-    for index, (theta1, theta2, fx_n, fz_n) in enumerate(rows):
-        if np.isnan(result["k_xx_n_per_mm"][index]):
-            continue
-        play = limb.at(theta1, theta2, fx_n, fz_n)
+    for index, find in enumerate(_plays(table, model, arguments)):
+        play = None if np.isnan(result["k_xx_n_per_mm"][index]) else find()
         if play is None:
             continue
         values = {name: result[name][index].item() for name in result.dtype.names or ()}
         put_into(values, play)
         for name, value in values.items():
             result[name][index] = value
+
+
+def _plays(
+    table: PostureTable, model: LimbModel, arguments: argparse.Namespace
+) -> Iterator[Callable[[], Play | None]]:
+    """For each row, what finds its play."""
+    if "theta0_rad" in table.angles:
+        angles = [table.angles[name] for name in ("theta0_rad", "theta1_rad", "theta2_rad")]
+        force_n = _forces(table, {"fx_n": arguments.fx, "fy_n": arguments.fy or 0.0, "fz_n": arguments.fz})
+        in_space = PlayInSpaceUnderLoad(model)
+        for theta_rad, force in zip(np.column_stack(angles), np.column_stack(force_n), strict=True):
+            yield partial(in_space.at, theta_rad, force)
+    else:
+        true1, true2 = at_rest.planar_limb(model).true_angles(table.angles["theta1_rad"], table.angles["theta2_rad"])
+        force_n = _forces(table, {"fx_n": arguments.fx, "fz_n": arguments.fz})
+        limb = PlayUnderLoad(model, arguments.arith)
+        for row in np.column_stack([at_rest.within_half_turn(true1), true2, *force_n]).tolist():
+            yield partial(limb.at, *row)
 
 
 def _forces(table: PostureTable, given: dict[str, float]) -> list[np.ndarray]:

@@ -6,6 +6,7 @@ import numpy as np
 
 from brace.model import LimbModel
 from brace.native import library
+from brace.native.c_data import CData
 from brace.native.limb import firmware_limb, status_text
 from brace.stiffness.at_rest import (
     E_SINGULAR,
@@ -81,6 +82,14 @@ class LoadedLimbInSpace:
         true_rad: np.ndarray = np.asarray(theta_rad, float) + self._offset_rad
         true_rad[:, 1] = within_half_turn(true_rad[:, 1])
         return true_rad
+
+    def rest_at(self, theta_rad: np.ndarray, force_n: np.ndarray) -> tuple[list[float], CData, CData, CData, CData]:
+        """At the one row of theta_rad and force_n: true angles, limb, weights, load, and brace_space_result_t. Raises
+        PostureError where there is no rest."""
+        found = self.stiffness(theta_rad, force_n)
+        if np.isnan(found[SPATIAL_K[0]][0]):
+            raise self.refusal(0)
+        return self._true(theta_rad)[0].tolist(), self._limb, self._weights, self._load, self._found
 
     def sigma(self, theta_rad: np.ndarray, force_n: np.ndarray) -> dict[str, float | None]:
         """One sigma of K, from the model's [uncertainty], at the one row of theta_rad and force_n."""

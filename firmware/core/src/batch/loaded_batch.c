@@ -2,6 +2,9 @@
 
 #include <math.h>
 
+#include "brace/loaded_space.h"
+#include "brace/spatial.h"
+
 #define NOT_A_NUMBER __builtin_nanf("")
 
 static void refuse(brace_status_t status, brace_loaded_stiffness_t *result)
@@ -84,29 +87,43 @@ static void loads_of(const brace_pose_t *pose, const brace_gravity_t *weights, c
     n_mm[1] = pose->lever_tibia.x_mm * f.x_n + pose->lever_tibia.z_mm * f.z_n - weights->tibia_n * shank_mm;
 }
 
+/* The pose bent as a rest under a load has it. moved: of the tip; tibia: from the knee to the tip */
+static void bent_pose(const brace_limb_t *limb, float theta1_rad, float theta2_rad, brace_vec_t moved_mm,
+                      brace_vec_t tibia_mm, brace_pose_t *pose)
+{
+    brace_kinematics_pose(limb, theta1_rad, theta2_rad, pose);
+    pose->tip = (brace_point_t){pose->tip.x_mm + moved_mm.x, pose->tip.z_mm + moved_mm.z};
+    pose->knee = (brace_point_t){pose->tip.x_mm - tibia_mm.x, pose->tip.z_mm - tibia_mm.z};
+    pose->lever_femur = (brace_point_t){-pose->tip.z_mm, pose->tip.x_mm};
+    pose->lever_tibia = (brace_point_t){-tibia_mm.z, tibia_mm.x};
+}
+
+/* index: BRACE_COXA to BRACE_TIBIA */
+static brace_engagement_t engagement_of(const brace_limb_t *limb, int index, const brace_pose_t *pose,
+                                        const brace_play_joint_t *joint, const brace_backlash_t *machine,
+                                        float load_n_mm)
+{
+    const brace_point_t lever = index == BRACE_FEMUR ? pose->lever_femur : pose->lever_tibia;
+    if (!(limb->joint[index].gap_rad >= BRACE_BACKLASH_LEAST_GAP_RAD)) {
+        return (brace_engagement_t){0, true, false};
+    }
+    return brace_play_at_rest(joint, machine, load_n_mm, fabsf(lever.x_mm) + fabsf(lever.z_mm), index != BRACE_COXA);
+}
+
 brace_status_t brace_loaded_play(const brace_limb_t *limb, const brace_gravity_t *weights, float theta1_rad,
                                  float theta2_rad, const brace_load_t *load, const brace_loaded_stiffness_t *rest,
                                  const brace_play_joint_t joint[2], const brace_backlash_t *const machine[2],
                                  brace_engagement_t engaged[2], brace_gap_stiffness_t *k)
 {
     static const uint32_t bit[2] = {BRACE_GAP_FEMUR, BRACE_GAP_TIBIA};
+    const brace_vec_t moved_mm = {rest->displacement.x_mm, rest->displacement.z_mm};
     brace_pose_t pose;
     float load_n_mm[2];
     uint32_t open = 0, assumed = 0;
-    brace_kinematics_pose(limb, theta1_rad, theta2_rad, &pose);
-    const brace_vec_t tibia = rest->tibia_mm;
-    pose.tip = (brace_point_t){pose.tip.x_mm + rest->displacement.x_mm, pose.tip.z_mm + rest->displacement.z_mm};
-    pose.knee = (brace_point_t){pose.tip.x_mm - tibia.x, pose.tip.z_mm - tibia.z};
-    pose.lever_femur = (brace_point_t){-pose.tip.z_mm, pose.tip.x_mm};
-    pose.lever_tibia = (brace_point_t){-tibia.z, tibia.x};
+    bent_pose(limb, theta1_rad, theta2_rad, moved_mm, rest->tibia_mm, &pose);
     loads_of(&pose, weights, load, load_n_mm);
     for (int i = 0; i < 2; i++) {
-        const brace_point_t lever = i == 0 ? pose.lever_femur : pose.lever_tibia;
-        const float lever_mm = fabsf(lever.x_mm) + fabsf(lever.z_mm);
-        engaged[i] = (brace_engagement_t){0, true, false};
-        if (limb->joint[BRACE_FEMUR + i].gap_rad >= BRACE_BACKLASH_LEAST_GAP_RAD) {
-            engaged[i] = brace_play_at_rest(&joint[i], machine[i], load_n_mm[i], lever_mm, true);
-        }
+        engaged[i] = engagement_of(limb, BRACE_FEMUR + i, &pose, &joint[i], machine[i], load_n_mm[i]);
         open |= engaged[i].is_engaged ? 0u : bit[i];
         assumed |= engaged[i].is_assumed ? (uint32_t)BRACE_FLAG_PLAY_ASSUMED : 0u;
     }
@@ -114,6 +131,63 @@ brace_status_t brace_loaded_play(const brace_limb_t *limb, const brace_gravity_t
     if (status == BRACE_OK) {
         k->now.flags |= assumed;
         k->engaged.flags |= assumed;
+    }
+    return status;
+}
+
+/* Sum of the weights times their places along one axis. root, knee, tip: places of the femur's ends and of the tip. */
+static float weigh(const brace_gravity_t *weights, float root_mm, float knee_mm, float tip_mm)
+{
+    return weights->femur_n * 0.5f * (root_mm + knee_mm) + weights->knee_n * knee_mm +
+           weights->tibia_n * 0.5f * (knee_mm + tip_mm);
+}
+
+/* What the motor of the coxa joint holds against force and weights. */
+static float coxa_load_of(const brace_limb_t *limb, const brace_pose_t *pose, const brace_gravity_t *weights,
+                          const brace_space_load_t *load, const brace_space_result_t *rest)
+{
+    const float knee_mm = limb->coxa_mm + pose->knee.x_mm, tip_mm = limb->coxa_mm + pose->tip.x_mm;
+    const float across_mm = rest->displacement_mm.y, knee_across_mm = across_mm - rest->tibia_mm.y;
+    const float weighs_n_mm = load->down.y * weigh(weights, limb->coxa_mm, knee_mm, tip_mm) -
+                              load->down.x * weigh(weights, 0.0f, knee_across_mm, across_mm);
+    return across_mm * load->tip_n.x - tip_mm * load->tip_n.y - weighs_n_mm;
+}
+
+brace_status_t brace_loaded_space_play(const brace_limb_t *limb, const brace_gravity_t *weights,
+                                       const float theta_rad[3], const brace_space_load_t *load,
+                                       const brace_space_result_t *rest, const brace_play_joint_t joint[3],
+                                       const brace_backlash_t *const machine[3], brace_engagement_t engaged[3],
+                                       brace_stiffness_spatial_t *k)
+{
+    const brace_load_t in_plane = {.tip = {load->tip_n.x, load->tip_n.z}, .down = {load->down.x, load->down.z}};
+    const brace_vec_t moved_mm = {rest->displacement_mm.x, rest->displacement_mm.z};
+    const brace_vec_t tibia_mm = {rest->tibia_mm.x, rest->tibia_mm.z};
+    brace_stiffness_t plane;
+    brace_gap_stiffness_t gaps;
+    brace_pose_t pose;
+    float load_n_mm[BRACE_LINK_COUNT];
+    uint32_t open = 0, flags = 0;
+    bent_pose(limb, theta_rad[BRACE_FEMUR], theta_rad[BRACE_TIBIA], moved_mm, tibia_mm, &pose);
+    load_n_mm[BRACE_COXA] = coxa_load_of(limb, &pose, weights, load, rest);
+    loads_of(&pose, weights, &in_plane, &load_n_mm[BRACE_FEMUR]);
+    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
+        engaged[i] = engagement_of(limb, i, &pose, &joint[i], machine[i], load_n_mm[i]);
+        open |= engaged[i].is_engaged ? 0u : 1u << i;
+        flags |= engaged[i].is_assumed ? (uint32_t)BRACE_FLAG_PLAY_ASSUMED : 0u;
+    }
+    brace_status_t status = brace_loaded_space_in_plane(&rest->k, &plane);
+    if (status == BRACE_OK) {
+        status = brace_gap_stiffness_known(&plane, &pose, open & (BRACE_GAP_FEMUR | BRACE_GAP_TIBIA), &gaps);
+    }
+    if (status == BRACE_OK) {
+        const bool coxa_is_open = (open & 1u << BRACE_COXA) != 0u;
+        flags |= coxa_is_open ? (uint32_t)BRACE_FLAG_GAP_OPEN : 0u;
+        status = open == 0u ? brace_loaded_space_turn(theta_rad[BRACE_COXA], &rest->k, k)
+                            : brace_spatial_turn(theta_rad[BRACE_COXA], &gaps.now,
+                                                 coxa_is_open ? 0.0f : rest->k.yy_n_per_mm, k);
+    }
+    if (status == BRACE_OK) {
+        k->flags |= flags | rest->flags;
     }
     return status;
 }
