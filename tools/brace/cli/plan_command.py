@@ -17,6 +17,7 @@ from brace.ground.errors import BraceError, UsageError
 if TYPE_CHECKING:
     from brace.model import LimbModel
     from brace.stiffness.plan import Plan, Wish
+    from brace.stiffness.play_under_load import Play
 
 APART_RATIO = 0.05  # of the reach, between the tips of postures that are printed
 _NEEDS = {"steady": ("payload", "a payload"), "light": ("friction", "the surface's friction"), "k": ("k", "a K")}
@@ -119,6 +120,9 @@ def run(arguments: argparse.Namespace) -> int:
         {name: float(column[index]) for name, column in found.columns.items()} | {"knee": str(found.knee[index])}
         for index in best
     ]
+    held = [_play_of(model, posture) for posture in postures]
+    for posture, play in zip(postures, held, strict=True):
+        posture["play_open"] = " ".join(play.open) if play else ""
     if arguments.json:
         common.print_json(
             {"model": model.name, "postures": found.count, "satisfying": int(found.kept.sum()), "prefer": prefer,
@@ -129,8 +133,8 @@ def run(arguments: argparse.Namespace) -> int:
         f"{model.name}: {found.kept.sum()} of {found.count} postures satisfy all demands; best first: "
         f"{PREFERENCES[prefer][0]}"
     )
-    for number, posture in enumerate(postures, start=1):
-        for line in (*_lines(number, posture, wish), *_play_lines(model, posture)):
+    for number, (posture, play) in enumerate(zip(postures, held, strict=True), start=1):
+        for line in (*_lines(number, posture, wish), *_play_lines(model, posture, play)):
             common.emit(line)
     return 0
 
@@ -155,16 +159,30 @@ def _without_travel(model: LimbModel) -> list[str]:
     return sentences
 
 
-def _play_lines(model: LimbModel, p: Mapping[str, float | str]) -> list[str]:
-    """What a posture's K is until the load has taken up the play."""
+def _play_of(model: LimbModel, p: Mapping[str, float | str]) -> Play | None:
+    """Which play the planned force holds there, as a controller settles at; None: no joint of the plane has play."""
+    from brace.stiffness.play_under_load import PlayUnderLoad
+
+    names = ("theta1_true_rad", "theta2_true_rad", "force_x_n", "force_z_n")
+    return PlayUnderLoad(model).at(*(float(p[name]) for name in names))
+
+
+def _play_lines(model: LimbModel, p: Mapping[str, float | str], held: Play | None) -> list[str]:
+    """Whether the planned force holds a joint's play, and what the posture's K is until the play is taken up."""
     from brace.stiffness.play_of_posture import plays
 
     lines = []
     for play in plays(model, float(p["theta1_true_rad"]), float(p["theta2_true_rad"]), p):
-        k = ", ".join(f"{value:.4g}" for value in play.open_k_n_per_mm) if play.open_k_n_per_mm else "not told there"
+        k = ", ".join(f"{value:.4g}" for value in play.open_k_n_per_mm) if play.open_k_n_per_mm else "not known there"
+        is_open = held is not None and play.joint in held.open
         lines.append(
-            f"   play of the {play.joint}: until the load takes it up the tip goes {play.tip_mm:.2g} mm, with K "
-            f"[N/mm] {k}"
+            f"   play of the {play.joint}: "
+            + (
+                f"force and weight do not hold it (GAP_OPEN; brace take-up {play.joint}+ or {play.joint}- does); "
+                if is_open
+                else "force and weight hold it; "
+            )
+            + f"until it is taken up the tip goes {play.tip_mm:.2g} mm, with K [N/mm] {k}"
         )
     return lines
 
