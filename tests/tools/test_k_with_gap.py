@@ -65,12 +65,16 @@ def test_a_posture_outside_the_travel_is_flagged(brace: Brace, paper_limb: Path,
 def test_map_and_plan_tell_the_play(brace: Brace, with_gap: Path, tmp_path: Path) -> None:
     drawn = brace("map", "--model", with_gap, "--postures", 400, "--out", tmp_path / "m")
     assert "backlash of the tibia, 0.229 deg: K of this map holds once a load has taken it up" in drawn.out
+    pressed = ("map", "--model", with_gap, "--postures", 400, "--theta2", 0.5, 1.5, "--fz")
+    for force_n, low, high in ((20, 0.8, 1.0), (0.001, 0.0, 0.1)):
+        loaded = json.loads(brace(*pressed, force_n, "--out", tmp_path / "p", "--json").out)
+        assert low <= loaded["play_held_ratio"]["tibia"] <= high
     planned = brace("plan", "--model", with_gap, "--count", 1)
     assert "play of the tibia: force and weight do not hold it (GAP_OPEN; brace take-up tibia+" in planned.out
     assert "until it is taken up the tip goes 1.3 mm" in planned.out  # 0.004 rad at 313.5 mm
     where = ("--x", 300, 350, "--z", -200, -150)
-    loaded = brace("plan", "--model", with_gap, "--count", 1, *where, "--payload", 20)
-    assert "play of the tibia: force and weight hold it; until it is taken up" in loaded.out
+    carries = brace("plan", "--model", with_gap, "--count", 1, *where, "--payload", 20)
+    assert "play of the tibia: force and weight hold it; until it is taken up" in carries.out
     best = json.loads(brace("plan", "--model", with_gap, "--count", 1, *where, "--json").out)["best"][0]
     assert best["play_open"] == "tibia"
     assert "no travel of the femur" in planned.err and "no travel of the knee" in planned.err

@@ -68,6 +68,7 @@ def run(arguments: argparse.Namespace) -> int:
     from brace.ground.files import OutputSet, check_folder
     from brace.model import load_limb
     from brace.stiffness import workspace
+    from brace.stiffness.play_under_load import held_ratio
     from brace.stiffness.with_gap import gaps_rad
 
     for name in ("theta1", "theta2"):
@@ -96,8 +97,10 @@ def run(arguments: argparse.Namespace) -> int:
         for name, content in _files(model, grid, arguments.npy, title):
             outputs.add(arguments.out / name, content)
         outputs.commit()
+    held = {} if force_n is None else held_ratio(model, grid.postures_rad, force_n)
     if arguments.json:
-        common.print_json({**summary, **load, "play_rad": gaps_rad(model), "out": arguments.out})
+        play = {"play_rad": gaps_rad(model), **({"play_held_ratio": held} if held else {})}
+        common.print_json({**summary, **load, **play, "out": arguments.out})
     else:
         common.emit(_text(summary, arguments.out))
         for joint, gap_rad in gaps_rad(model).items():
@@ -105,6 +108,7 @@ def run(arguments: argparse.Namespace) -> int:
                 f"backlash of the {joint}, {math.degrees(gap_rad):.3g} deg: K of this map holds once a load has "
                 "taken it up; "
                 "until then the limb is free in one direction (lambda_min 0): brace k tells K while it is open"
+                + (f"; this load holds it at {100 * held[joint]:.3g} % of the postures" if joint in held else "")
             )
         if load:
             common.emit(_load_text(load))

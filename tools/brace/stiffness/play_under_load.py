@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -120,6 +121,22 @@ class PlayUnderLoad:
         names = (*PLANAR_K, *PLANAR_REST)
         lines = [{name: float(getattr(k, name)) + 0.0 for name in names} for k in (found.now, found.engaged)]
         return watched.found(engaged, {**lines[0], "flags": int(found.now.flags)}, lines[1])
+
+
+def held_ratio(
+    model: LimbModel, theta_rad: np.ndarray, force_n: tuple[float, float], most: int = 1000
+) -> dict[str, float]:
+    """For each joint of the plane with play: at what share of the postures (rows: true theta1, theta2) a force holds it.
+    At most so many postures count, evenly taken; those without a rest do not."""
+    limb = PlayUnderLoad(model)
+    joints = [joint for joint, gap_rad in limb.gaps_rad.items() if gap_rad > 0.0]
+    every = max(1, -(-len(theta_rad) // most))
+    open_of: list[tuple[str, ...]] = []
+    for theta1_rad, theta2_rad in theta_rad[::every].tolist() if joints else ():
+        with contextlib.suppress(PostureError):
+            if play := limb.at(theta1_rad, theta2_rad, *force_n):
+                open_of.append(play.open)
+    return {joint: sum(joint not in gaps for gaps in open_of) / len(open_of) for joint in joints if open_of}
 
 
 class PlayInSpaceUnderLoad:

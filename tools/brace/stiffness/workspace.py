@@ -37,6 +37,12 @@ class Workspace:
         """Number of postures."""
         return int(self.theta1_rad.size * self.theta2_rad.size)
 
+    @property
+    def postures_rad(self) -> np.ndarray:
+        """A row of theta1 and theta2 for each posture."""
+        angles = np.tile(self.theta1_rad, self.theta2_rad.size), np.repeat(self.theta2_rad, self.theta1_rad.size)
+        return np.column_stack(angles)
+
     def band(self, name: str) -> np.ndarray:
         """rows x (low, middle, high) of an eigenvalue over theta1: one line unless the base yields or a load acts. NaN
         where the limb has no K."""
