@@ -1,5 +1,5 @@
 // Leads the tip from where it is held to where it shall be held: in one part, or, where no rest is found so far away,
-// in shorter ones. It knows how far each step of Newton's method moved the limb, and nothing of what the limb is.
+// in shorter ones. It sees how far each step of Newton's method moved the limb; it does not see the limb's model.
 #pragma once
 
 #include <algorithm>

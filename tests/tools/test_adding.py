@@ -71,8 +71,8 @@ def test_the_copy_s_own_suites_pass(tmp_path: Path, unity: str) -> None:
 
 
 def faults_without(project: Path, unity: str) -> str:
-    """What a person is told who has left something out: by the generator, by the compiler, or by the test that finds no
-    row. Empty: nothing is missing."""
+    """The message that somebody gets who has left a step out: from the generator, from the compiler, or from the test
+    that misses a row. Empty: nothing is missing."""
     generated = generate(project)
     if generated.returncode != 0:
         return generated.stderr

@@ -44,7 +44,7 @@ class Proof:
 
     name: str
     claim: str
-    brief: str = field(repr=False)  # claim and bound for the page, in a few words; no part of what is kept
+    brief: str = field(repr=False)  # claim and bound in a few words, for the page; the kept record does not contain them
     brief_bound: str = field(repr=False)
     functions: tuple[str, ...]
     bound: str

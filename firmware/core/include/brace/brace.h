@@ -1,5 +1,5 @@
-/* The core of Brace, the first header to read: what there is, and which header does it. This header includes all that a
- * controller or a robot's program uses.
+/* The core of Brace. Read this header first: it names the other headers and says what each of them does. It includes
+ * all that a controller or a robot's program uses.
  *
  * A program does three things:
  *
