@@ -76,6 +76,7 @@ def test_the_oracle_does_better_and_still_not_well(lib: ctypes.CDLL) -> None:
     assert 0.02 < oracle.beyond_a_tenth / oracle.ticks < bench.beyond_a_tenth(machine.all)
 
 
+@pytest.mark.minutes
 def test_a_motor_that_feels_for_the_flank_tells_more(lib: ctypes.CDLL) -> None:
     """So does a filter that knows only what a controller may know."""
     looking, feeling = (floor.oracle(lib, SEED, 8, 400, exact=False, told=False, joint_exact=False, reach_gaps=reach)

@@ -25,6 +25,7 @@ BROKEN = {
 SOURCES = ("tests/judges/memory/crc32_fast.c", "tests/judges/memory/nvm_model.c", "tests/judges/memory/journal_cuts.c")
 
 
+@pytest.mark.minutes
 @pytest.mark.skipif(shutil.which("gcc") is None, reason="no gcc")
 @pytest.mark.parametrize("name", BROKEN)
 def test_a_broken_journal_is_found_out(name: str, tmp_path: Path) -> None:

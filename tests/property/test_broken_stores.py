@@ -107,6 +107,7 @@ def unbroken_objects(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
     return compile_objects(sources, FOLDERS, tmp_path_factory.mktemp("unbroken"))
 
 
+@pytest.mark.minutes
 @pytest.mark.skipif(shutil.which("gcc") is None, reason="no gcc")
 @pytest.mark.parametrize("name", BROKEN)
 def test_a_broken_store_is_found_out(name: str, unbroken_objects: list[Path], tmp_path: Path) -> None:

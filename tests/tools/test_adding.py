@@ -56,6 +56,7 @@ def unity() -> str:
     return line.partition("=")[2]
 
 
+@pytest.mark.minutes
 def test_the_copy_s_own_suites_pass(tmp_path: Path, unity: str) -> None:
     project = tmp_path / "project"
     shutil.copytree(PROJECT, project, ignore=shutil.ignore_patterns(*LEFT_BEHIND), symlinks=True)

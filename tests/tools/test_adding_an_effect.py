@@ -100,6 +100,7 @@ def extended(tmp_path_factory: pytest.TempPathFactory) -> Extended:
     return Extended(folder, generated, parts)
 
 
+@pytest.mark.minutes
 def test_four_files_are_written_and_the_rest_is_generated(extended: Extended) -> None:
     before, after = files_of(PROJECT), files_of(extended.folder)
     touched = {name for name in after if after[name] != before.get(name)}
@@ -108,6 +109,7 @@ def test_four_files_are_written_and_the_rest_is_generated(extended: Extended) ->
     assert "host_sim/api/brace_plant_model.h" in extended.generated
 
 
+@pytest.mark.minutes
 def test_the_suite_of_all_numbers_plays_the_new_one(extended: Extended, tmp_path: Path) -> None:
     """The same suite that the project has: it reads the numbers from the generated table."""
     (unity,) = [line.partition("=")[2] for line in (PROJECT / "build/host/CMakeCache.txt").read_text().splitlines()
@@ -148,10 +150,12 @@ assert np.abs(force(curved, changing) - force(limb, changing)).max() > 0.1
 """
 
 
+@pytest.mark.minutes
 def test_the_simulated_limb_follows_the_law(extended: Extended) -> None:
     run([sys.executable, "-c", LAW], extended.folder)
 
 
+@pytest.mark.minutes
 def test_the_catalogue_has_its_row(extended: Extended) -> None:
     listed = run([sys.executable, "-m", "brace.effects"], extended.folder).stdout
     assert "## thermal_curve" in listed and "`thermal.joint_compliance_per_degc2`: -0.1 to 0.1 1/degC^2" in listed

@@ -257,6 +257,7 @@ def test_ctrl_c_while_the_command_is_being_imported(tmp_path: Path) -> None:
     assert done.returncode == 130 and done.stderr == "brace: interrupted; nothing was written\n"
 
 
+@pytest.mark.minutes
 def test_a_million_postures_of_any_limb_in_two_seconds_of_processor(tmp_path: Path) -> None:
     model = tmp_path / "limb.toml"
     model.write_text(

@@ -171,6 +171,7 @@ def test_a_slipped_decimal_is_found_and_mended(tmp_path: Path) -> None:
             assert faults[0].suggestion == pytest.approx(right) and faults[0].repair
 
 
+@pytest.mark.minutes
 def test_a_wild_reading_is_no_slipped_decimal_of_the_next_one(tmp_path: Path) -> None:
     """Beside a wild reading the line through the neighbours is half as far off: just where a decimal point would be."""
     for row in range(3, 200):

@@ -30,6 +30,7 @@ def demo(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
     return out, run.stdout
 
 
+@pytest.mark.minutes
 def test_faults_of_the_table(demo: tuple[Path, str]) -> None:
     facts = json.loads((demo[0] / "facts.json").read_text())
     faults = facts["identification"]["data_faults"]

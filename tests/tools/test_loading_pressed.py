@@ -143,6 +143,7 @@ def test_the_levers_are_those_of_the_mean_force(limb: LimbModel) -> None:
     assert np.std([column.k_x_n_per_mm for column in found], ddof=1) < 1.7 * told
 
 
+@pytest.mark.minutes
 def test_a_pressed_foot_raises_no_alarm(limb: LimbModel) -> None:
     """The drift check learns from tests with 5 N, and goes on watching with other feet, presses and directions."""
     with Node([LimbSetup(limb, limb, changes=STRONG_BELIEVED, drive=STRONG)]) as one:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pytest
 
 from brace.dataset.write import csv_text, meta_text
 from brace.model import LimbModel, load_limb
@@ -56,6 +57,19 @@ rise_degc = 4.0
 """
 SIDES = "encoders = true\nencoder_noise_rad = 2e-5\nbase_gauge = true\nbase_noise_mm = 0.001\n"
 DECIMALS = {"t_s": 6, "temp_degc": 6}
+
+
+def each_once(
+    rows: Iterable[str], columns: Iterable[str], makes_sense: Callable[[str, str], bool] = lambda row, column: True
+) -> list[Any]:
+    """All pairs that make sense, as parameters of a test. ./dev test plays each row with one column, the columns in
+    turn; ./dev judges plays the other pairs."""
+    pairs: list[Any] = []
+    for place, row in enumerate(rows):
+        those = [column for column in columns if makes_sense(row, column)]
+        now = those[place % len(those)]
+        pairs += [pytest.param(row, one, marks=() if one == now else pytest.mark.minutes) for one in those]
+    return pairs
 
 
 def believed_limb(paper: Path, name: str) -> LimbModel:

@@ -135,6 +135,7 @@ def test_everything_zero(limb: Path, tmp_path: Path) -> None:
         assert _no_effect(code, tmp_path / "out") in ("unknown", "data_fault")
 
 
+@pytest.mark.minutes
 def test_one_configuration_of_a_sound_limb(limb: Path, tmp_path: Path) -> None:
     rows = [row for row in loading_rows() if row[1] == "1"]
     code, _, _ = _diagnosed(write_loading(tmp_path / "data", rows), limb, tmp_path / "out")
@@ -152,6 +153,7 @@ def test_noise_alone_is_no_effect(limb: Path, tmp_path: Path) -> None:
     assert "do not follow" in json.loads((tmp_path / "out" / "diagnosis.json").read_text())["sentence"]
 
 
+@pytest.mark.minutes
 def test_a_wholly_other_limb_makes_up_no_play_nor_friction(limb: Path, tmp_path: Path) -> None:
     """Everything about it is another limb's. What may be said is that lengths and compliances are not the
     model's, or that nothing in the catalogue explains it; what the record has no trace of must not be
@@ -179,6 +181,7 @@ def _identical(count: int) -> Iterator[str]:
         yield line * 1000
 
 
+@pytest.mark.minutes
 def test_a_million_identical_rows(limb: Path, tmp_path: Path) -> None:
     folder = write_loading(tmp_path / "data", [])
     with (folder / "data.csv").open("w") as file:

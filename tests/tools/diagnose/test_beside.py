@@ -74,6 +74,7 @@ def record(brace: Callable[..., Any], tmp_path: Path, paper_limb: Path, paper_ri
     return record
 
 
+@pytest.mark.minutes
 def test_one_process_and_two_write_the_same_bytes(
     brace: Callable[..., Any], tmp_path: Path, paper_limb: Path, record: Path
 ) -> None:

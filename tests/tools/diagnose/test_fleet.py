@@ -297,6 +297,7 @@ def cluster(workers: int) -> Iterator[str]:
                 process.kill()
 
 
+@pytest.mark.minutes
 def test_on_a_cluster_the_same_bytes(
     fleet: list[Path], locally: tuple[Path, Outcome], tmp_path: Path
 ) -> None:

@@ -15,7 +15,11 @@ TRUE_RAD_PER_N_MM = 2.6e-5
 SOFT = LIMB.replace("compliance_rad_per_n_mm = 1.0e-5", f"compliance_rad_per_n_mm = {TRUE_RAD_PER_N_MM}")
 
 
-@pytest.mark.parametrize("encoders", [(), ("--link-encoders",)], ids=["tip force only", "link encoders"])
+@pytest.mark.parametrize(
+    "encoders",
+    [pytest.param((), marks=pytest.mark.minutes), ("--link-encoders",)],
+    ids=["tip force only", "link encoders"],
+)
 def test_a_soft_drive_is_named(brace: Callable[..., Outcome], tmp_path: Path, encoders: tuple[str, ...]) -> None:
     """From the tip alone it is one of a class; encoders behind the drives tell it from the rest, with its size."""
     believed, true = tmp_path / "believed.toml", tmp_path / "true.toml"
@@ -45,6 +49,7 @@ def test_a_soft_drive_is_named(brace: Callable[..., Outcome], tmp_path: Path, en
         assert abs(size["value"] - TRUE_RAD_PER_N_MM) < 5.0 / 1.64 * 0.5 * (size["high"] - size["low"])
 
 
+@pytest.mark.minutes
 def test_a_sound_limb_is_sound_at_a_posture_that_is_repeated(brace: Callable[..., Outcome], tmp_path: Path) -> None:
     """Motors that go to the same angles again are off by the same rounding again: that is no effect of the limb's."""
     believed, record, found = tmp_path / "believed.toml", tmp_path / "record", tmp_path / "found"

@@ -96,7 +96,6 @@ def limb() -> Path:
 @pytest.mark.parametrize(
     ("spoil", "words"),
     [
-        (gain_steps, "the sensor reads +"),
         (zero_steps, "the sensor's zero moved by fz_n +0.4"),
         (slips, "single readings"),
     ],
@@ -110,6 +109,8 @@ def test_a_sound_limb_with_a_troubled_sensor(tmp_path: Path, limb: Path, spoil: 
 
 def test_the_step_of_a_gain_has_its_size_and_its_run(tmp_path: Path, limb: Path) -> None:
     found = spoiled(tmp_path / "record", limb, gain_steps, values={})
+    assert found.verdict == "data_fault" and found.effects == (), found.sentence
+    assert "the sensor reads +" in found.sentence and "Nothing was added" in found.sentence
     (fault,) = [fault for fault in found.data_faults if "the sensor reads" in fault.why]
     told_percent = float(fault.why.split("reads ")[1].split(" %")[0])
     assert told_percent == pytest.approx(100.0 * GAIN_STEP, rel=0.1)
@@ -123,6 +124,7 @@ def gain_steps_within_a_run(columns: Columns) -> None:
         columns[name][STEP_ROW:] *= 1.0 + GAIN_STEP
 
 
+@pytest.mark.minutes
 def test_a_gain_may_step_within_a_run(tmp_path: Path, limb: Path) -> None:
     found = spoiled(tmp_path / "record", limb, gain_steps_within_a_run, values={})
     assert found.verdict == "data_fault", found.sentence
@@ -135,6 +137,7 @@ def zero_steps_twice(columns: Columns) -> None:
     columns["fx_n"][2 * STEP_ROW :] -= 1.0
 
 
+@pytest.mark.minutes
 def test_a_zero_may_step_twice(tmp_path: Path, limb: Path) -> None:
     """One after the other, steps look like a drift."""
     found = spoiled(tmp_path / "record", limb, zero_steps_twice, values={})
@@ -169,6 +172,7 @@ def test_a_clamp_that_slips_is_told_with_its_way(tmp_path: Path, limb: Path) -> 
     assert abs(int(told[3]) - (STEP_ROW + 1)) <= 2
 
 
+@pytest.mark.minutes
 def test_a_clamp_that_goes_back_is_a_burst_of_interference(tmp_path: Path, limb: Path) -> None:
     """Within one run both read alike; no clamp slips, and slips back to where it was."""
 
@@ -182,6 +186,7 @@ def test_a_clamp_that_goes_back_is_a_burst_of_interference(tmp_path: Path, limb:
     assert "slipped by" not in found.sentence and "the sensor's zero moved" in found.sentence
 
 
+@pytest.mark.minutes
 def test_a_frame_that_grows_is_no_clamp_that_slips(tmp_path: Path, limb: Path) -> None:
     """Several slips fit a slow growth nearly as well. The catalogue has no name for it, so the verdict is unknown."""
 
@@ -201,6 +206,7 @@ def noise_grows_with_the_load(columns: Columns) -> None:
         columns[name] += 0.06 * columns[name] * rng.standard_normal(columns[name].size)
 
 
+@pytest.mark.minutes
 def test_noise_under_load_is_no_single_readings(tmp_path: Path, limb: Path) -> None:
     found = spoiled(tmp_path / "record", limb, noise_grows_with_the_load, values={}, repeats=1)
     assert found.verdict == "none" and found.data_faults == (), found.sentence
@@ -212,6 +218,7 @@ def other_gain_at_one_posture(columns: Columns) -> None:
         columns[name][here] *= 1.0 + GAIN_STEP
 
 
+@pytest.mark.minutes
 def test_what_follows_a_posture_is_no_step_in_time(tmp_path: Path, limb: Path) -> None:
     found = spoiled(tmp_path / "record", limb, other_gain_at_one_posture, values={})
     assert not [fault for fault in found.data_faults if "the sensor reads" in fault.why], found.sentence
@@ -221,8 +228,10 @@ def test_what_follows_a_posture_is_no_step_in_time(tmp_path: Path, limb: Path) -
     ("what", "words"),
     [
         ("one axis", "the sensor had another gain along one axis"),
-        ("one posture", "the force at rest was another one at one of the postures"),
-        ("off its rest", "the tip stood off its rest"),
+        pytest.param(
+            "one posture", "the force at rest was another one at one of the postures", marks=pytest.mark.minutes
+        ),
+        pytest.param("off its rest", "the tip stood off its rest", marks=pytest.mark.minutes),
     ],
 )
 def test_what_begins_with_the_record_is_no_step(tmp_path: Path, limb: Path, what: str, words: str) -> None:
@@ -252,6 +261,7 @@ def test_a_late_sensor_is_a_lag_and_no_friction(tmp_path: Path, limb: Path) -> N
     assert found.model.number("joint.tibia.coulomb_n_mm") == 0.0
 
 
+@pytest.mark.minutes
 def test_a_lag_is_no_noise_of_a_record_without_repeats(tmp_path: Path, limb: Path) -> None:
     """The believed limb leaves the lag, and nothing else tells the noise. A play at the contact comes near, and would
     do as well if what the lag makes were noise."""
@@ -268,7 +278,7 @@ def times_rarer(time_s: float) -> float:
     return float(np.exp(0.5 * (3.0 * np.log10(max(time_s / 0.1, 1.0))) ** 2))
 
 
-@pytest.mark.parametrize(("wait_s", "play_mm"), [(0.2, PLAY_MM), (4.0, 0.05)])
+@pytest.mark.parametrize(("wait_s", "play_mm"), [(0.2, PLAY_MM), pytest.param(4.0, 0.05, marks=pytest.mark.minutes)])
 def test_play_reads_like_a_lag(tmp_path: Path, limb: Path, wait_s: float, play_mm: float) -> None:
     """Equal steps hide the difference: late by wait * half the play / step, a sensor reads the same in a rig that moves
     on. A lag of up to 0.1 s is as common as play. Half of the rigs that are said to wait for 0.3 s move on, and the
@@ -299,6 +309,7 @@ def test_a_lag_is_told_with_what_the_rig_is_said_to_do(tmp_path: Path, limb: Pat
     assert lag_in_words(record, 0.05, 0.002).startswith("the forces are read 50 ms (+-2) after the displacements; give")
 
 
+@pytest.mark.minutes
 def test_a_lag_beside_friction_is_no_play_beside_it(tmp_path: Path, limb: Path) -> None:
     """The search takes what the lag does for play at the contact, and adds the friction to it. No search for friction
     alone came that way."""
@@ -309,6 +320,7 @@ def test_a_lag_beside_friction_is_no_play_beside_it(tmp_path: Path, limb: Path) 
     assert set(said) == {"coulomb_friction@joint.tibia", "lag@sensor"}
 
 
+@pytest.mark.minutes
 def test_every_part_of_what_is_named_may_be_contested(tmp_path: Path, limb: Path) -> None:
     """Play reads like a lag and a base that yields like a rig that does: neither name stands for sure, and the report
     says how to tell each of them."""

@@ -43,6 +43,7 @@ def test_zeros_of_positions_are_the_record_s_own(tmp_path: Path) -> None:
         assert held.low < size < held.high and held.high - held.low < wide * size, (key, held)
 
 
+@pytest.mark.minutes
 def test_zeros_that_differ_by_less_than_the_swing_are_several(tmp_path: Path) -> None:
     """Of a swing of 40 mrad, by a tenth of it: one zero for both would leave the joint unexplained."""
     found = bench(tmp_path, (0.1, 0.104, 0.093, 0.1105), (GAP_RAD,) * 4)
@@ -61,6 +62,7 @@ def test_what_a_model_leaves_widens_play_and_friction() -> None:
     assert beside_what_is_left(FRICTION, told, 1e3, COMPLIANCE).low == 0.0
 
 
+@pytest.mark.minutes
 def test_intervals_hold_the_spread_between_positions(tmp_path: Path) -> None:
     """A gap of 0.018 to 0.022 rad: of a further position the record knows no more than that spread, widened for the
     few positions that it has (Student's t)."""
@@ -76,7 +78,7 @@ def test_intervals_hold_the_spread_between_positions(tmp_path: Path) -> None:
     assert one.high - one.low < 0.25 * (held.high - held.low)
 
 
-@pytest.mark.parametrize("small_n_mm", [500.0, 1500.0])
+@pytest.mark.parametrize("small_n_mm", [500.0, pytest.param(1500.0, marks=pytest.mark.minutes)])
 def test_a_test_without_small_torques_has_no_middle(tmp_path: Path, small_n_mm: float) -> None:
     """Of two tests the second has only readings beyond what the first reaches; in the first, friction holds the joint,
     or lets it slip."""

@@ -52,6 +52,7 @@ def test_an_encoder_of_12_bits_is_no_cogging(tmp_path: Path) -> None:
     assert found.verdict == "none", found.sentence
 
 
+@pytest.mark.minutes
 def test_travel_that_is_no_joint_withholds_names(tmp_path: Path) -> None:
     """Moves without load between the ramps: most of the torque is left by any model."""
     random = np.random.default_rng(2)

@@ -50,6 +50,7 @@ def small_ramps(folder: Path, gap_rad: float = GAP) -> Diagnosis:
     return found_in(folder, tests)
 
 
+@pytest.mark.minutes
 def test_play_may_take_nearly_all_of_a_small_swing(tmp_path: Path) -> None:
     found = small_ramps(tmp_path)
     play = [e for e in found.effects if e.name == "backlash"]
@@ -58,6 +59,7 @@ def test_play_may_take_nearly_all_of_a_small_swing(tmp_path: Path) -> None:
     assert found.model.number("joint.femur.compliance_rad_per_n_mm") == pytest.approx(COMPLIANCE, rel=0.25)
 
 
+@pytest.mark.minutes
 def test_without_a_model_limb_toml_has_play_and_friction_as_gears_do(tmp_path: Path) -> None:
     """Play was not named; limb.toml has the little that fits, and a note says why."""
     found = small_ramps(tmp_path, gap_rad=0.0)
@@ -173,7 +175,7 @@ def held_by_friction(load_n_mm: np.ndarray, fade_per_n_mm: float) -> np.ndarray:
     return np.asarray(700.0 + 0.4 * load_n_mm * (1.0 + fade_per_n_mm * load_n_mm) ** (-1.0 / 3.0))
 
 
-@pytest.mark.parametrize("fade_per_n_mm", [0.0, 1.0 / 800.0])
+@pytest.mark.parametrize("fade_per_n_mm", [pytest.param(0.0, marks=pytest.mark.minutes), 1.0 / 800.0])
 def test_limb_toml_has_a_friction_whose_growth_fades_where_it_does(tmp_path: Path, fade_per_n_mm: float) -> None:
     """Both commands find it, and say so; a share that stays is told as one."""
     random = np.random.default_rng(6)

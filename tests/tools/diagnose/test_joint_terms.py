@@ -56,6 +56,7 @@ def test_a_torque_that_is_read_late_is_a_lag_and_no_effect(tmp_path: Path) -> No
     assert found.model.number(SPRING) == pytest.approx(1.0 / STIFFNESS, rel=0.01)
 
 
+@pytest.mark.minutes
 def test_viscosity_is_no_creep(tmp_path: Path) -> None:
     """The joint stands at its reversals, so that creep would show, and moves at two speeds."""
 
@@ -90,6 +91,7 @@ def test_a_stop_on_one_side_is_no_hardening(tmp_path: Path) -> None:
     assert found.unexplained is not None and "side" in found.unexplained.description
 
 
+@pytest.mark.minutes
 def test_free_travel_in_series_with_a_slider_is_described(tmp_path: Path) -> None:
     """The slider follows when the free travel is used up and its spring has bent as far as friction holds."""
     travel, most = 0.4 * REACH_RAD, 1500.0

@@ -112,6 +112,7 @@ def test_what_the_model_has_already_is_not_missing(tmp_path: Path) -> None:
     assert found.model.values == load_limb(model).values
 
 
+@pytest.mark.minutes
 def test_the_same_again(tmp_path: Path) -> None:
     folder = joint_cases.case("coulomb_friction", np.random.default_rng(5)).write(tmp_path)
     first, second = found_in(folder), found_in(folder)
@@ -246,7 +247,7 @@ def test_a_soft_gearbox_gets_no_negative_spring_and_no_huge_play() -> None:
     assert found.model.number("joint.femur.gap_rad") < np.radians(3.0)
 
 
-@pytest.mark.parametrize("seed", (0, 3))
+@pytest.mark.parametrize("seed", [0, pytest.param(3, marks=pytest.mark.minutes)])
 def test_a_spring_that_is_softer_to_one_side_is_nothing_else(seed: int, tmp_path: Path) -> None:
     """Beside that shape an effect of the catalogue may take a per cent of the rest: rather not there, it is not named."""
     random = np.random.default_rng(seed)

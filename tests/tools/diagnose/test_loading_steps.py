@@ -278,7 +278,7 @@ def test_nothing_hidden_nothing_found(tmp_path: Path, believed: LimbModel) -> No
     ("key", "value", "label"),
     [
         ("joint.tibia.gap_rad", 1.5e-3, "backlash@joint.tibia"),
-        ("joint.femur.coulomb_n_mm", 40.0, "coulomb_friction@joint.femur"),
+        pytest.param("joint.femur.coulomb_n_mm", 40.0, "coulomb_friction@joint.femur", marks=pytest.mark.minutes),
         ("sensor.bias_z_n", 0.1, "sensor_bias@sensor"),
         ("contact.play_mm", 0.06, "contact_play@contact"),
     ],
@@ -327,6 +327,7 @@ def clock(data: Dataset) -> np.ndarray:
     return np.asarray(data["t_s"] / np.ptp(data["t_s"]))
 
 
+@pytest.mark.minutes
 def test_what_changes_during_the_record_is_not_in_the_catalogue(tmp_path: Path, believed: LimbModel) -> None:
     """A gain that grows by 6 % over the record, of 6 N rms in 544 rows: some 20 sigma after refitting, and a link that
     changes half way makes most of it; the words say what changes, and with what."""
@@ -350,11 +351,12 @@ def test_what_changes_during_the_record_is_not_in_the_catalogue(tmp_path: Path, 
     [
         ({}, "none"),
         ({"joint.femur.hardening_n_mm_per_rad3": 4e9}, "joint_hardening@joint.femur"),
-        ({"joint.tibia.gap_rad": 2e-3}, "backlash@joint.tibia"),
-        ({"sensor.drift_x_n_per_s": 2e-4}, "sensor_drift@sensor"),
-        (
+        pytest.param({"joint.tibia.gap_rad": 2e-3}, "backlash@joint.tibia", marks=pytest.mark.minutes),
+        pytest.param({"sensor.drift_x_n_per_s": 2e-4}, "sensor_drift@sensor", marks=pytest.mark.minutes),
+        pytest.param(
             {"joint.femur.coulomb_n_mm": 40.0, "sensor.bias_z_n": 0.1},
             "coulomb_friction@joint.femur + sensor_bias@sensor",
+            marks=pytest.mark.minutes,
         ),
         ({"change.link": "tibia", "change.at_s": 1100.0, "change.bending_factor": 1.4}, "link_change@link.tibia"),
     ],

@@ -86,6 +86,7 @@ def test_a_gauge_on_the_base_excludes_the_rig(tmp_path: Path, limb: Path) -> Non
     assert found.model.number("base.x_mm_per_n") == pytest.approx(0.05, rel=0.1)
 
 
+@pytest.mark.minutes
 def test_a_gauge_that_moves_as_believed_speaks_for_the_rig(tmp_path: Path, limb: Path) -> None:
     """Base and rig yield one after the other, and the gauge reads the base's share of it only: a base as calibrated,
     under the force that was read. No link is blamed."""
@@ -158,6 +159,7 @@ def test_a_turned_sensor_and_a_femur_turned_back_are_a_turned_rig(tmp_path: Path
     assert "turn the sensor" in found.sentence
 
 
+@pytest.mark.minutes
 @pytest.mark.parametrize("femur_rad", [TURNED_RAD, -0.5 * TURNED_RAD])
 def test_turns_that_do_not_match_are_two_effects(femur_rad: float, tmp_path: Path, limb: Path) -> None:
     """Turned the same way, or by half: no turned rig does that."""

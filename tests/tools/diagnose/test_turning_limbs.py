@@ -30,7 +30,10 @@ def test_the_weights_of_femur_and_knee_come_apart(tmp_path: Path) -> None:
     assert told_n.low > 30.0 and told_n.value == pytest.approx(60.0, abs=15.0)
 
 
-@pytest.mark.parametrize(("step_mm", "level_n"), [(0.635, 29.8), (1.2, 78.0), (1.2, 84.0)])
+@pytest.mark.parametrize(
+    ("step_mm", "level_n"),
+    [(0.635, 29.8), *(pytest.param(1.2, level_n, marks=pytest.mark.minutes) for level_n in (78.0, 84.0))],
+)
 def test_a_saturated_sensor_at_large_strokes(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, step_mm: float, level_n: float
 ) -> None:
