@@ -46,7 +46,7 @@ def read_all(
         raise UsageError(
             "--dbc, and no file is a log of CAN frames",
             where=", ".join(names),
-            why="a database decodes frames of candump's logs and of brace record's MCAP",
+            why="a database decodes frames of candump's logs, of .asc, .blf and .trc, and of brace record's MCAP",
             next_step="leave --dbc out, or give the log",
         )
     return parts

@@ -26,6 +26,15 @@ _MAGIC = (
     (b"TDSm", "a LabVIEW .tdms file", "export it as CSV from LabVIEW or Excel's TDM add-in"),
     (b"SQLite", "a database", "export the table of readings as CSV"),
     (b"\x1f\x8b", "a compressed file", "unpack it first"),
+    (b"BZh", "a compressed file", "unpack it first"),
+    (b"\x28\xb5\x2f\xfd", "a compressed file", "unpack it first"),
+    (b"#ROSBAG", "a ROS 1 bag", "convert it: rosbags-convert --src FILE.bag --dst FILE.mcap, or mcap convert"),
+    (b"MDF ", "an ASAM .mf4 or .mdf file", "export it as CSV, or as .asc or .blf of its frames"),
+    (b"ULog", "a log of PX4 (.ulg)", "ulog2csv FILE.ulg, then import the topics' CSV files"),
+    (b"PAR1", "a Parquet file", "in pandas: read_parquet(FILE).to_csv('record.csv')"),
+    (b"ARROW1", "a Feather file", "in pandas: read_feather(FILE).to_csv('record.csv')"),
+    (b"\x93NUMPY", "a NumPy array", "save it with its columns' names: numpy.savetxt with header, or pandas' to_csv"),
+    (b"WPILOG", "a log of WPILib", "export it as CSV with DataLogTool"),
 )
 
 
@@ -76,7 +85,7 @@ def _decoded(data: bytes, path: Path) -> tuple[str, str]:
             raise BadFileError(
                 f"this is {what}",
                 where=str(path),
-                why="brace import reads text, .xlsx, MCAP and candump's logs",
+                why="brace import reads text, .xlsx, MCAP and logs of CAN frames (candump, .asc, .blf, .trc)",
                 next_step=way,
             )
     for mark, encoding in ((b"\xef\xbb\xbf", "utf-8-sig"), (b"\xff\xfe", "utf-16"), (b"\xfe\xff", "utf-16")):

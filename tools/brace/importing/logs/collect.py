@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 import numpy as np
 
 from brace.ground.errors import BadFileError
+from brace.importing.logs import stamps
 from brace.importing.signal import Signal
 
 JUMP_BACK_S = 1.0  # within it, entries of several senders may be written out of order
@@ -17,7 +19,8 @@ class Collector:
 
     def __init__(self, path: Path) -> None:
         self._path = path
-        self._readings: dict[str, tuple[str, str, list[float], list[float]]] = {}
+        self._readings: dict[str, tuple[str, str, list[float], list[float], list[float]]] = {}
+        self._entries: dict[str, tuple[list[float], list[float]]] = {}  # of each stamped source
         self._latest_s = -float("inf")
         self._late = 0
 
@@ -33,23 +36,39 @@ class Collector:
         self._late += time_s < self._latest_s
         self._latest_s = max(self._latest_s, time_s)
 
-    def add(self, source: str, name: str, unit: str, time_s: float, value: float) -> None:
+    def stamped(self, source: str, time_s: float, stamp_s: float) -> None:
+        """One message of a source, and when its sample was taken by its own word (NaN: it does not say)."""
+        logged, stamp = self._entries.setdefault(source, ([], []))
+        logged.append(time_s)
+        stamp.append(stamp_s)
+
+    def add(
+        self, source: str, name: str, unit: str, time_s: float, value: float, stamp_s: float = math.nan
+    ) -> None:
         """One reading of a signal."""
         entry = self._readings.get(name)
         if entry is None:
-            entry = self._readings[name] = (source, unit, [], [])
+            entry = self._readings[name] = (source, unit, [], [], [])
         entry[2].append(time_s)
         entry[3].append(value)
+        entry[4].append(stamp_s)
+
+    def _chosen(self) -> tuple[frozenset[str], list[str]]:
+        used = {source for source, *_ in self._readings.values()}
+        entries = {source: entry for source, entry in self._entries.items() if source in used}
+        return stamps.chosen({source: (np.array(t), np.array(s)) for source, (t, s) in entries.items()})
 
     def signals(self) -> tuple[Signal, ...]:
         """All, in the order in which they first came, each by rising time."""
         found = []
-        for name, (source, unit, times, values) in self._readings.items():
-            t, v = np.array(times), np.array(values)
+        by_stamp, _ = self._chosen()
+        for name, (source, unit, times, values, own) in self._readings.items():
+            t, v = np.array(own if source in by_stamp else times), np.array(values)
             order = np.argsort(t, kind="stable")
             found.append(Signal(source, name, unit, t[order], v[order]))
         return tuple(found)
 
     def notes(self) -> list[str]:
         """What was mended."""
-        return [f"{self._late} entries stand out of order in the log: sorted by time"] if self._late else []
+        late = [f"{self._late} entries stand out of order in the log: sorted by time"] if self._late else []
+        return self._chosen()[1] + late

@@ -185,7 +185,12 @@ def _listed(texts: Sequence[str]) -> str:
 def _loaded(path: Path) -> list[Message]:
     from brace.ground.files import DATA_LIMIT_BYTES, read_bytes
 
-    return _parsed(read_bytes(path, DATA_LIMIT_BYTES, "CAN database").decode("cp1252", "replace"), str(path))
+    data = read_bytes(path, DATA_LIMIT_BYTES, "CAN database")
+    try:
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError:  # what most editors of databases write
+        text = data.decode("cp1252", "replace")
+    return _parsed(text, str(path))
 
 
 def _parsed(text: str, where: str) -> list[Message]:

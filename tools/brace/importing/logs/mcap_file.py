@@ -15,6 +15,7 @@ from brace.importing.logs.collect import Collector
 from brace.importing.logs.dbc import Databases, decode
 from brace.importing.logs.fields import LIST_MOST, numbers
 from brace.importing.logs.ros_units import unit_of_field
+from brace.importing.logs.stamps import stamp_s
 from brace.importing.signal import Log, Signal
 
 if TYPE_CHECKING:
@@ -151,12 +152,14 @@ class _Reading:
             self._frames.append(_Frame(time_s, entry))
             return
         self._collector.clock(time_s)
+        stamp = stamp_s(entry)
+        self._collector.stamped(channel.topic, time_s, stamp)
         found = False
         too_long: set[str] = set()
         for field, value in list(numbers(entry, too_long=too_long)):
             found = True
             full = f"{channel.topic}.{field}" if field else channel.topic
-            self._collector.add(channel.topic, full, unit_of_field(name, field), time_s, value)
+            self._collector.add(channel.topic, full, unit_of_field(name, field), time_s, value, stamp)
         self._too_long |= {f"{channel.topic}.{field}" if field else channel.topic for field in too_long}
         self._no_numbers[channel.topic] = self._no_numbers.get(channel.topic, True) and not found
 

@@ -75,7 +75,16 @@ def _table(path: Path, log: Log, roles: Mapping[str, str]) -> Part:
     clock = _clock(log, roles)
     rows = clock.times_s
     start = min(float(signal.times_s[0]) for signal in log.signals)
-    notes = [f"its rows are the readings of {clock.source} ({_rate(clock)})"]
+    if len(rows) > 1 and rows[0] == rows[-1]:
+        raise BadFileError(
+            f"all {len(rows)} readings of {clock.source} have one time",
+            where=str(path),
+            why="the log does not say when they were taken",
+            next_step="record anew with a clock that runs (candump -l, header.stamp, rosbag2's own time)",
+        )
+    apart = {id(signal): _apart(signal.times_s) for signal in log.signals if roles[signal.name] != UNUSED}
+    moments = apart[id(clock)]
+    notes = [f"its rows are the readings of {clock.source} ({_rate(clock)})", *_shared(log, roles)]
     if (begin := _day(start)) is not None:
         notes.append(f"t_s counts from {begin}")
     columns = [[repr(round(float(t - start), 9)) for t in rows]]
@@ -84,7 +93,8 @@ def _table(path: Path, log: Log, roles: Mapping[str, str]) -> Part:
         if role == UNUSED:
             columns.append([""] * len(rows))
             continue
-        joined = _interpolated(signal, rows) if role == MOVED else _held(signal, rows)
+        own = replace(signal, times_s=apart[id(signal)])
+        joined = _interpolated(own, moments) if role == MOVED else _held(own, moments)
         notes += _said(signal, clock, joined, role)
         columns.append([_cell(value) for value in joined.values.tolist()])
     return Part(
@@ -110,6 +120,35 @@ def _clock(log: Log, roles: Mapping[str, str]) -> Signal:
     """One signal of the source that has the fewest readings among those that move."""
     moved = [signal for signal in log.signals if roles[signal.name] == MOVED]
     return min(moved, key=lambda signal: len(signal.times_s))
+
+
+def _apart(times_s: np.ndarray) -> np.ndarray:
+    """Times at which readings that share a stamp stand evenly up to the next stamp, in the log's order: a clock of few
+    steps (10 ms, 1 s) stamps several with one time. They order the readings; the rows keep the stamps."""
+    first = np.searchsorted(times_s, times_s, "left")
+    count = np.searchsorted(times_s, times_s, "right") - first
+    if count.size == 0 or count.max() < 2:
+        return times_s
+    stamps = np.unique(times_s)
+    steps = np.diff(stamps)
+    width = np.append(steps, np.median(steps) if steps.size else 0.0)
+    usual = float(np.median(steps)) if steps.size else 0.0
+    within = np.minimum(width, GAP_PERIODS * usual)[np.searchsorted(stamps, times_s)]
+    return np.asarray(times_s + (np.arange(times_s.size) - first) / count * within)
+
+
+def _shared(log: Log, roles: Mapping[str, str]) -> list[str]:
+    """A line for each source of which several readings share a stamp."""
+    told = []
+    for source in dict.fromkeys(s.source for s in log.signals if roles[s.name] != UNUSED):
+        times = max((s.times_s for s in log.signals if s.source == source), key=len)
+        stamps, counts = np.unique(times, return_counts=True)
+        if counts.max() > 1 and stamps.size > 1:
+            told.append(
+                f"{source}: up to {counts.max()} readings share a stamp ({len(times)} readings, {stamps.size} stamps): "
+                "each keeps its value, and within a stamp they are taken as evenly apart"
+            )
+    return told
 
 
 @dataclass(frozen=True)
@@ -167,7 +206,7 @@ def _said(signal: Signal, clock: Signal, joined: _Joined, role: str) -> list[str
 
 
 def _period(signal: Signal) -> float:
-    steps = np.diff(signal.times_s)
+    steps = np.diff(_apart(signal.times_s))
     steps = steps[steps > 0.0]
     return float(np.median(steps)) if steps.size else 0.0
 
@@ -184,7 +223,7 @@ def _rates(log: Log) -> list[str]:
     told = []
     for source in dict.fromkeys(signal.source for signal in log.signals):
         signal = max((s for s in log.signals if s.source == source), key=lambda s: len(s.times_s))
-        steps = np.diff(signal.times_s)
+        steps = np.diff(_apart(signal.times_s))
         gaps = steps[steps > GAP_PERIODS * _period(signal)] if len(steps) > 2 else steps[:0]
         text = f", {len(gaps)} gap{'s' if len(gaps) > 1 else ''}, the longest {gaps.max():.3g} s" if gaps.size else ""
         told.append(f"{source}: {_rate(signal)}{text}")

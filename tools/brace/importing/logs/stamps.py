@@ -1,0 +1,83 @@
+"""When a message's sample was taken: the stamp in its header, where it has one. A recorder's time is when the recorder
+got it, which is later, and for each topic by another delay."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+import numpy as np
+
+OTHER_CLOCK_S = 10.0  # two topics' delays further apart than this are two clocks, and no delays
+TOLD_S = 1e-4  # smaller differences change nothing
+_SECONDS = ("sec", "secs", "seconds")
+_NANOSECONDS = ("nanosec", "nsec", "nsecs", "nanoseconds", "nanos")
+
+
+def stamp_s(message: object) -> float:
+    """Of a header (std_msgs/Header), or of the message itself; NaN where there is none, or only zeros."""
+    for holder in (_member(message, "header"), message):
+        stamp = _member(holder, "stamp")
+        seconds = next((value for name in _SECONDS if (value := _number(_member(stamp, name))) is not None), None)
+        if seconds is not None:
+            below = next((value for name in _NANOSECONDS if (value := _number(_member(stamp, name))) is not None), 0.0)
+            return seconds + 1e-9 * below if seconds or below else math.nan
+    return math.nan
+
+
+def _member(value: object, name: str) -> object:
+    return value.get(name) if isinstance(value, Mapping) else getattr(value, name, None)
+
+
+def _number(value: object) -> float | None:
+    return float(value) if isinstance(value, (int, float)) and not isinstance(value, bool) else None
+
+
+def chosen(topics: Mapping[str, tuple[np.ndarray, np.ndarray]]) -> tuple[frozenset[str], list[str]]:
+    """The topics whose stamps are their readings' times, and what is told of it. topics: times of the log and stamps,
+    s, one of each a message."""
+    told: list[str] = []
+    delays: dict[str, np.ndarray] = {}
+    for topic, (logged, stamps) in topics.items():
+        if np.isnan(stamps).all():
+            continue
+        if why := _unfit(logged, stamps):
+            told.append(f"{topic}: the stamps of its messages {why}: the times of the log are used")
+        else:
+            delays[topic] = logged - stamps
+    medians = {topic: float(np.median(delay)) for topic, delay in delays.items()}
+    others = [topic for topic in topics if topic not in delays]
+    all_of_them = [*medians.values(), *([0.0] if others else [])]
+    if medians and max(all_of_them) - min(all_of_them) > OTHER_CLOCK_S:
+        listed = ", ".join(f"{topic} by {_time(median)}" for topic, median in medians.items())
+        told.append(
+            f"the stamps of the messages are of several clocks (they differ from the times of the log: {listed}): the "
+            "times of the log are used"
+        )
+        return frozenset(), told
+    for topic, delay in delays.items():
+        if float(np.abs(delay).max()) > TOLD_S:
+            told.append(
+                f"{topic}: its stamps are used; the log has its {len(delay)} messages {_time(float(delay.min()))} to "
+                f"{_time(float(delay.max()))} later"
+            )
+    if delays and others:
+        told.append(f"without usable stamps, at the times of the log: {', '.join(others)}")
+    return frozenset(delays), told
+
+
+def _unfit(logged: np.ndarray, stamps: np.ndarray) -> str:
+    """Why a topic's stamps are no times of its samples; empty where they are."""
+    missing = int(np.isnan(stamps).sum())
+    if missing:
+        return f"are missing or 0 in {missing} of {len(stamps)}"
+    distinct, moments = len(np.unique(stamps)), len(np.unique(logged))
+    if 2 * distinct < moments:
+        return f"do not advance ({distinct} different ones in {len(stamps)} messages)"
+    if len(stamps) > 1 and not np.any(stamps % 1.0) and np.any(logged % 1.0):
+        return "are whole seconds"
+    return ""
+
+
+def _time(seconds: float) -> str:
+    return f"{seconds:.4g} s" if abs(seconds) >= 1.0 else f"{seconds * 1e3:.3g} ms"
