@@ -144,15 +144,17 @@ static void test_a_limb_in_space_is_told_as_the_core_finds_it(void)
     be_soft(true);
     for (int i = 0; i < 3; i++) {
         brace_loaded_joint_t springs[BRACE_LINK_COUNT];
-        model_place_t place;
+        model_place_t place = {0};
         model_rest_t rest;
         brace_loaded_space_t loaded;
         brace_space_rest_t at;
         brace_space_result_t found;
         memset(&rest, 0x55, sizeof rest);
         model_springs(&model, &parameters, no_load_n_mm, at_25_degc, springs);
-        TEST_ASSERT_EQUAL(BRACE_OK, model_loaded(&model, &parameters.limb, unbent_rad, springs, forces_n[i], down,
-                                                 &place, &rest));
+        for (int tick = 0; tick < 3; tick++) {
+            TEST_ASSERT_EQUAL(BRACE_OK, model_loaded(&model, &parameters.limb, unbent_rad, springs, forces_n[i], down,
+                                                     &place, &rest));
+        }
         const brace_space_load_t load = {
             .tip_n = forces_n[i], .down = down, .yaw = springs[0], .hip = springs[1], .knee = springs[2]};
         brace_loaded_space_collapse(&parameters.limb, &parameters.gravity, &loaded);
@@ -183,7 +185,7 @@ static void test_a_limb_in_space_is_told_as_the_core_finds_it(void)
     TEST_ASSERT_TRUE(far >= 1 && far < 3);
 }
 
-enum { FORCES = 34 };
+enum { FORCES = 34, TICKS_TO_REST = 8 };
 
 static brace_vec3_t towards_hip(int i)
 {
@@ -191,7 +193,8 @@ static brace_vec3_t towards_hip(int i)
     return (brace_vec3_t){-0.9f * force_n, 0.0f, -0.4f * force_n};
 }
 
-/* A force that folds the limb is refused, in one piece and in steps, and what was found before stays. */
+/* A force that folds the limb is refused, in one piece and in steps, and what was found before stays. In space ticks
+ * go on from one another, and may come to a rest that the steps of one question do not reach. */
 static void test_a_limb_that_its_load_folds_is_refused(void)
 {
     static const float unbent_rad[] = {0.0f, 1.0f, 1.4f};
@@ -199,7 +202,7 @@ static void test_a_limb_that_its_load_folds_is_refused(void)
     for (int is_spatial = 0; is_spatial < 2; is_spatial++) {
         brace_loaded_joint_t springs[BRACE_LINK_COUNT];
         brace_status_t whole[FORCES];
-        model_place_t place;
+        model_place_t place = {0};
         model_rest_t rest, untouched;
         static model_work_t work;
         be_soft(is_spatial != 0);
@@ -208,9 +211,14 @@ static void test_a_limb_that_its_load_folds_is_refused(void)
         int told = 0, refused_late = 0;
         for (int i = 0; i < FORCES; i++) {
             rest = untouched;
-            whole[i] = model_loaded(&model, &parameters.limb, unbent_rad, springs, towards_hip(i), down, &place, &rest);
+            place = (model_place_t){0};
+            whole[i] = BRACE_E_SINGULAR;
+            for (int tick = 0; tick < TICKS_TO_REST && whole[i] != BRACE_OK; tick++) {
+                whole[i] = model_loaded(&model, &parameters.limb, unbent_rad, springs, towards_hip(i), down, &place,
+                                        &rest);
+                TEST_ASSERT_TRUE(whole[i] == BRACE_OK || memcmp(&untouched, &rest, sizeof rest) == 0);
+            }
             told += whole[i] == BRACE_OK;
-            TEST_ASSERT_TRUE(whole[i] == BRACE_OK || memcmp(&untouched, &rest, sizeof rest) == 0);
         }
         for (int i = 0; i < FORCES; i++) {
             rest = untouched;
@@ -219,7 +227,7 @@ static void test_a_limb_that_its_load_folds_is_refused(void)
                 status = model_loaded_go_on(&model, &parameters.limb, &work, &rest);
                 refused_late += status < BRACE_OK;
             }
-            TEST_ASSERT_EQUAL(whole[i], status);
+            TEST_ASSERT_TRUE(whole[i] == status || (is_spatial != 0 && whole[i] == BRACE_OK));
             TEST_ASSERT_FALSE(work.is_under_way);
             TEST_ASSERT_TRUE(status == BRACE_OK || memcmp(&untouched, &rest, sizeof rest) == 0);
         }
@@ -238,7 +246,7 @@ static void test_a_limb_in_its_plane_is_told_as_the_core_finds_it(void)
     be_soft(false);
     for (int i = 0; i < 3; i++) {
         brace_loaded_joint_t springs[BRACE_LINK_COUNT];
-        model_place_t place;
+        model_place_t place = {0};
         model_rest_t rest;
         memset(&rest, 0x55, sizeof rest);
         model_springs(&model, &parameters, no_load_n_mm, at_25_degc, springs);

@@ -5,6 +5,7 @@
 #define NEWTON_STEPS 2
 #define DEFLECTION_MOST_RAD 8.0f  /* no spring is wound further than a joint turns */
 #define LOAD_MOST_N_MM 1e9f
+#define STEPS_TO_REST_MOST 4u /* ticks that go on towards a rest before the search begins anew */
 
 void model_configure_loaded(model_t *model, const brace_limb_t *limb, const brace_gravity_t *weights, bool is_spatial)
 {
@@ -237,14 +238,16 @@ brace_status_t model_loaded(const model_t *model, const brace_limb_t *limb, cons
     }
     const brace_space_load_t load = space_load(springs, tip_n, down);
     brace_space_result_t found;
-    brace_status_t status = brace_loaded_space_settle(&model->loaded_space, unbent_rad[BRACE_FEMUR],
-                                                      unbent_rad[BRACE_TIBIA], &load, &place->at);
+    brace_status_t status = brace_loaded_space_follow(&model->loaded_space, unbent_rad[BRACE_FEMUR],
+                                                      unbent_rad[BRACE_TIBIA], &load, place->is_there, &place->at);
     for (int i = 0; i < BRACE_LINK_COUNT; i++) {
         place->springs[i] = springs[i];
     }
     if (status == BRACE_OK) {
         status = brace_loaded_space_stiffness(&model->loaded_space, &place->at, &found);
     }
+    place->ticks_without = status == BRACE_OK ? 0u : (uint8_t)(place->ticks_without % STEPS_TO_REST_MOST + 1u);
+    place->is_there = place->ticks_without < STEPS_TO_REST_MOST;
     return status == BRACE_OK ? tell_space(limb, &found, rest) : status;
 }
 

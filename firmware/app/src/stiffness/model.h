@@ -84,9 +84,11 @@ typedef struct {
     float buckling_factor;    /* NaN: of a limb in space (stiffness/softening.h) */
 } model_rest_t;
 
-/* Where a limb in space rests. */
+/* Where a limb in space rests. All zero before the first tick. */
 typedef struct {
     brace_space_rest_t at;
+    uint8_t ticks_without; /* so many after one another have not come near a rest */
+    bool is_there;         /* the next tick goes on from `at` */
     brace_loaded_joint_t springs[BRACE_LINK_COUNT]; /* there */
 } model_place_t;
 
@@ -94,9 +96,11 @@ typedef struct {
  *   unbent_rad: angles without what the load turns
  *   tip_n: force of the ground; down: where the weight pulls. Frame: x outwards, y to the left, z up; a limb in its
  *     plane does not feel y
- *   place (out): of a limb in space; rest (out): after BRACE_OK
- * returns BRACE_OK, or as brace_loaded_stiffness, brace_loaded_space_settle and brace_loaded_space_stiffness. At most
- *   2,600 instructions in the plane, 6,200 in space. */
+ *   place (in, out): of a limb in space, from the tick before: the search goes on from there, a step a tick, so that a
+ *     load that comes at once may need some ticks. So a limb that stands comes to its rest within rounding
+ *   rest (out): after BRACE_OK
+ * returns BRACE_OK, or as brace_loaded_stiffness, brace_loaded_space_follow and brace_loaded_space_stiffness. At most
+ *   2,600 instructions in the plane, 7,400 in space. */
 brace_status_t model_loaded(const model_t *model, const brace_limb_t *limb, const float unbent_rad[BRACE_LINK_COUNT],
                             const brace_loaded_joint_t springs[BRACE_LINK_COUNT], brace_vec3_t tip_n,
                             brace_vec3_t down, model_place_t *place, model_rest_t *rest);

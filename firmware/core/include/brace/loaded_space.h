@@ -44,12 +44,23 @@ brace_status_t brace_loaded_space_settle(const brace_loaded_space_t *loaded, flo
  * Cost on a Cortex-M4F: mostly 3,500 instructions, at most 800,000. Not for the tick; stack at most 1,500 bytes. */
 brace_status_t brace_loaded_space_settle_on(const brace_loaded_space_t *loaded, brace_space_rest_t *rest);
 
+/* The same for who follows a limb from tick to tick: takes one step from the rest of the tick before, and leaves what
+ * that does not reach to the next tick. So the rest of a standing limb is exact to rounding after a few ticks. Where
+ * is_rest is false, or the load has changed by more than half of itself, two steps are taken from the straight limb.
+ * is_rest: `rest` is of the same limb at a posture nearby, as this call or brace_loaded_space_settle has left it; after
+ *         BRACE_E_SINGULAR too. rest (in, out): else room to work in.
+ * returns as brace_loaded_space_settle, for these steps: BRACE_E_SINGULAR also where the next ones may come near.
+ * Cost on a Cortex-M4F: at most 3,500 instructions; stack at most 900 bytes. */
+brace_status_t brace_loaded_space_follow(const brace_loaded_space_t *loaded, float theta1_rad, float theta2_rad,
+                                         const brace_space_load_t *load, bool is_rest, brace_space_rest_t *rest);
+
 /* K at an equilibrium, and how the limb stands there.
  * loaded, rest: what brace_loaded_space_settle was given and left. result: written on success only.
  * returns BRACE_OK, or BRACE_E_SINGULAR: the equilibrium is not stable, or nothing yields in some direction.
  * Accuracy: where the buckling factor is at least 2 and the tip moves by at most a fifth of the reach, K within 1 %
  *         (Frobenius norm; median 0.01 %) without a flag after brace_loaded_space_settle_on; after
- *         brace_loaded_space_settle alone in all but one of 5,700 random limbs, that one within 1.1 %. The displacement
+ *         brace_loaded_space_settle alone in all but one of 5,700 random limbs, that one within 1.1 %, as after
+ *         brace_loaded_space_follow. The displacement
  *         within 2 mm. result->flags has BRACE_FLAG_NEAR_SINGULAR where a link bends by more than 0.3 rad within itself,
  *         or where the steps have left more than 0.005 rad. At a tenth of such a load K within 0.08 %, at no load within 2e-7 of itself
  *         for each unit of C's condition number (3e-5 for random limbs).

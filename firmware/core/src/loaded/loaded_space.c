@@ -19,6 +19,7 @@
 #define SHARE_FIRST 0.125f
 #define SHARE_LEAST 0.002f
 #define ROUNDS_A_SHARE 3
+#define FOLLOWED_RATIO2 0.25f /* square of the load's change over the load, beyond which a rest is not followed */
 #define STEP_MOST_RAD2 1.44f    /* square of 1.2 rad: a longer step is shortened to it */
 #define SMALL_TURN_RAD2 1.0f /* squares: what brace_small_turn() takes, */
 #define LINKS_RAD2 2.25f      /* and of links, which turn half way on either side */
@@ -240,12 +241,58 @@ brace_status_t brace_loaded_space_settle(const brace_loaded_space_t *loaded, flo
     return rest_found(rest);
 }
 
+/* Bends the limb anew to its pose, under the load that it has now. */
+static void begin_again(const brace_loaded_space_t *loaded, brace_space_rest_t *rest, settling_t *settling)
+{
+    settling->shrinks_ratio2 = 1.0f;
+    settling->curls = (curls_t){curl_of(&rest->coxa, rest->pose.coxa), curl_of(&rest->femur, rest->pose.femur)};
+    bend_to(loaded, rest, true, settling);
+}
+
+/* One step from where the limb is bent to. What it leaves are the steps that would follow. */
+static void take_one_step(const brace_loaded_space_t *loaded, brace_space_rest_t *rest)
+{
+    settling_t settling;
+    brace_space_pose_t next;
+    begin_again(loaded, rest, &settling);
+    begin_round_bent(loaded, rest, &settling);
+    first_step(rest, &settling);
+    bend_to(loaded, rest, true, &settling);
+    const commanded_t commanded = {settling.hip, settling.knee};
+    solve_straight(&settling.factors, &settling.drives, &rest->pose, &commanded, &next);
+    const float first2 = dot_of_poses(&settling.first, &settling.first), next2 = dot_of_poses(&next, &next);
+    const float all = over_second_step(dot_of_poses(&next, &settling.first), first2);
+    rest->left_rad2 = all * all * next2;
+}
+
+static bool is_near(vec3_t load_n, vec3_t before_n)
+{
+    const vec3_t change_n = vec3_plus_scaled(load_n, before_n, -1.0f);
+    return vec3_dot(change_n, change_n) <= FOLLOWED_RATIO2 * vec3_dot(load_n, load_n);
+}
+
+brace_status_t brace_loaded_space_follow(const brace_loaded_space_t *loaded, float theta1_rad, float theta2_rad,
+                                         const brace_space_load_t *load, bool is_rest, brace_space_rest_t *rest)
+{
+    settling_t settling;
+    const vec3_t before_n = rest->whole_n;
+    const brace_status_t status = take(loaded, theta1_rad, theta2_rad, load, rest);
+    if (status != BRACE_OK) {
+        return status;
+    }
+    if (is_rest && is_near(rest->whole_n, before_n)) {
+        take_one_step(loaded, rest);
+    } else {
+        take_round(loaded, rest, true, &settling);
+    }
+    return rest_found(rest);
+}
+
 /* Rounds from where the limb is bent to, one at least. */
 static brace_status_t go_on(const brace_loaded_space_t *loaded, brace_space_rest_t *rest, int most)
 {
-    settling_t settling = {.shrinks_ratio2 = 1.0f};
-    settling.curls = (curls_t){curl_of(&rest->coxa, rest->pose.coxa), curl_of(&rest->femur, rest->pose.femur)};
-    bend_to(loaded, rest, true, &settling);
+    settling_t settling;
+    begin_again(loaded, rest, &settling);
     int rounds = 0;
     do {
         take_round(loaded, rest, false, &settling);
