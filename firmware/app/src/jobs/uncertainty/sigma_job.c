@@ -5,8 +5,8 @@
 #define CAUSES_FROM 1u
 #define LOADS_FROM (CAUSES_FROM + BRACE_CAUSE_COUNT)
 #define KS_OF_A_ROUND (LOADS_FROM + (uint32_t)(SIGMA_SIDES * BRACE_LINK_COUNT))
-#define WAITS_TICKS_MOST 3u  /* so a round of 260 steps ends within 1,040 ticks where questions never end, and within
-                              * 1,300 in a flood of commands, which leaves it each fifth tick, */
+#define WAITS_TICKS_MOST 3u  /* so a round of 300 steps ends within 1,200 ticks where questions never end, and within
+                              * 1,500 in a flood of commands, which leaves it each fifth tick, */
 #define OLDEST_TICKS 3000u   /* and what it tells holds until the next has ended */
 #define MOVED_MOST_RAD 0.05f /* of all joints together, since the samples that sigma comes from */
 #define STIFFER_MOST 0.15f   /* K's change since then, as a share of K */
@@ -164,18 +164,16 @@ static void find_base(sigma_job_t *job)
 void sigma_job_step(sigma_job_t *job, const brace_parameters_t *parameters)
 {
     model_rest_t rest;
-    const bool was_prepared = job->is_prepared;
     job->ticks_waited = 0;
     if (job->is_to_find) {
         find_base(job);
         return;
     }
     if (!job->work.is_under_way) {
-        if (!job->is_prepared) {
-            prepare_next(job, parameters);
-        }
-        if (job->is_prepared && (job->inputs.is_spatial || was_prepared)) { /* in space this costs next to nothing */
+        if (job->is_prepared) {
             begin_next(job);
+        } else {
+            prepare_next(job, parameters);
         }
         return;
     }

@@ -2,7 +2,7 @@
  *
  * The job takes the inputs of one tick's K, and works K out anew with one of them changed at a time, as
  * brace/uncertainty_causes.h describes. A K under a load costs a fifth of a tick, so such a round takes about 60 steps
- * in the plane and 250 in space. Then the next round begins.
+ * in the plane and 290 in space. Then the next round begins.
  *
  * What the joints' loads may be off by changes within a tick, much faster than a round ends. So a round finds how K
  * changes with each joint's load and with its square, and each tick puts in how far its own loads may be off.
