@@ -12,7 +12,7 @@
 #define GUARDED_WORDS_PER_MS 8u
 #define GUARDED_WORDS_FEWER 3u
 #define TOLD_MOST 3u /* a tick in which the wires have done more (wire/wire.h) has no room for a job's step */
-#define TOLD_FULL 6u /* nor for a step that has waited for long; where commands flood in, each fifth tick is emptier */
+#define TOLD_FULL 5u /* nor for a step that has waited for long; where commands flood in, each fifth tick is emptier */
 #define STEPS_IN_A_QUIET_TICK 2u
 #define UNWATCHED_MOST 17u /* ticks after one another in which a job works and the sensors' watch waits */
 #define LISTENED_US 20000u /* a tick that comes later has not listened meanwhile, and has not moved the limb either */

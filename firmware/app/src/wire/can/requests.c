@@ -24,9 +24,9 @@ static void tell(can_answers_t *answers, const wire_tick_t *tick, uint32_t code,
 static const brace_seal_t *seals_for(can_requests_t *requests, uint32_t token)
 {
     brace_seal_t *first = NULL;
-    for (uint32_t i = 0; i < (uint32_t)BRACE_SEALS_MOST; i++) {
+    for (uint32_t i = 0; i < requests->seal_count; i++) { /* at most BRACE_SEALS_MOST */
         brace_seal_t *seal = &requests->seal[i];
-        if (seal->is_there && seal->counter == token) {
+        if (seal->counter == token) {
             seal->next = first;
             first = seal;
         }
@@ -38,6 +38,7 @@ static const brace_seal_t *seals_for(can_requests_t *requests, uint32_t token)
 static void keep_seal(can_requests_t *requests, const brace_seal_t *seal)
 {
     requests->seal[requests->oldest_seal] = *seal;
+    requests->seal_count = (uint8_t)(requests->seal_count + (requests->seal_count < (uint32_t)BRACE_SEALS_MOST));
     requests->oldest_seal = (uint8_t)((requests->oldest_seal + 1u) % (uint32_t)BRACE_SEALS_MOST);
 }
 

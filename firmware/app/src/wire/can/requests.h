@@ -18,6 +18,7 @@ typedef struct {
     uint8_t storing_token;
     brace_seal_t seal[BRACE_SEALS_MOST]; /* that have come, each for the command with its token */
     uint8_t refusals_left;  /* of questions too many, in this tick */
+    uint8_t seal_count;     /* that have come, at most BRACE_SEALS_MOST */
     uint8_t oldest_seal;    /* the next one to be given up */
     bool waits;             /* the queue's question is being worked out: it is asked again in each tick */
 } can_requests_t;
