@@ -23,7 +23,7 @@ from brace.importing.meaning import target_of
         ("(lbf)", "force", 4.4482216152605),
         ("kg", "force", 9.80665),
         ("\u00b0", "angle", math.pi / 180),
-        ("Grad", "angle", math.pi / 180),
+        ("degrees", "angle", math.pi / 180),
         ("arcmin", "angle", math.pi / 10800),
         ("sec", "time", 1.0),
         ("ms", "time", 1e-3),

@@ -127,7 +127,7 @@ def test_without_a_terminal_the_missing_options_are_named(brace: Brace, tmp_path
         ("--femur-joint", "0.00002", "is the unit right"),
         ("--femur-play", "0.5", "in which unit"),
         ("--femur-play", "20deg", "20arcmin"),
-        ("--femur-play", "20arcsec", "'arcsec' is not a unit of angle"),
+        ("--femur-play", "20mas", "'mas' is not a unit of angle"),
         ("--femur-joint", "unbekannt", "e.g. '60 N m/rad', or: unknown"),
         ("--femur-play", "20,5arcmin", "point"),
         ("--femur-travel", ("-60", "90"), "in which unit"),

@@ -48,12 +48,24 @@ def _choice(prompt: str, allowed: list[str]) -> str:
         sys.stderr.write(f"  {text!r} is not one of them{f'; did you mean {near}?' if near else ''}\n")
 
 
+def _number(prompt: str) -> str:
+    """A number that is not negative, as text."""
+    while True:
+        text = _line(prompt)
+        try:
+            if float(text) >= 0.0:
+                return repr(float(text))
+        except ValueError:
+            pass
+        sys.stderr.write(f"  {text!r} is no such number\n")
+
+
 def _unit(prompt: str, quantity: str) -> str:
     from brace.ground.units import UNITS, unit_of
 
     while True:
         text = _line(f"{prompt} ({', '.join(unit.text for unit in UNITS.values() if unit.quantity == quantity)}): ")
-        unit = unit_of(text)
+        unit = unit_of(text, quantity)
         if unit is not None and unit.quantity == quantity:
             return unit.text
         sys.stderr.write(f"  {text!r} is not one of them\n")
@@ -71,6 +83,8 @@ def _column(use: ColumnUse, kind: str) -> ColumnUse:
     if use.used and use.sign == OPEN:
         sys.stderr.write(f"{use.name!r}: {use.why}\n")
         use = replace(use, sign="-1" if _choice("Turn its sign?", ["yes", "no"]) == "yes" else "1")
+    if use.used and use.wrap == OPEN:
+        use = replace(use, wrap=_number(f"{use.name!r}: {use.why}. wrap = "))
     if use.used and use.relative == OPEN:
         sys.stderr.write(f"{use.questions[-1]}\n")
         use = replace(use, relative=_choice("Subtract each run's first entry?", ["yes", "no"]))

@@ -24,14 +24,15 @@ class Unit:
 
 _TABLE: dict[str, dict[str, float]] = {
     "length": {
-        "mm": 1.0, "cm": 10.0, "m": 1e3, "um": 1e-3, "in": 25.4, "mil": 0.0254, "ft": 304.8,
+        "mm": 1.0, "cm": 10.0, "m": 1e3, "um": 1e-3, "nm": 1e-6, "in": 25.4, "mil": 0.0254, "ft": 304.8,
     },
     "force": {
         "N": 1.0, "kN": 1e3, "mN": 1e-3, "cN": 1e-2, "daN": 10.0, "lbf": LBF_N, "ozf": LBF_N / 16, "kgf": G_M_PER_S2,
         "gf": G_M_PER_S2 * 1e-3,
     },
     "angle": {
-        "rad": 1.0, "mrad": 1e-3, "deg": math.pi / 180, "arcmin": math.pi / 10800, "gon": math.pi / 200,
+        "rad": 1.0, "mrad": 1e-3, "deg": math.pi / 180, "arcmin": math.pi / 10800, "arcsec": math.pi / 648000,
+        "gon": math.pi / 200,
         "rev": 2 * math.pi,
     },
     "time": {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9, "min": 60.0, "h": 3600.0},
@@ -60,7 +61,7 @@ OWN = {
 _EXACT = {
     "n": "N", "kn": "kN", "KN": "kN", "C": "degC", "F": "degF", "k": "K", '"': "in", "''": "in", "'": "arcmin",
     "\u00b0": "deg", "M": "m", "S": "s", "MM": "mm", "CM": "cm", "RAD": "rad", "DEG": "deg", "Nm": "N m", "NM": "N m",
-    "Nmm": "N mm", "NMM": "N mm", "nmm": "N mm", "nm": "N m", "mNm": "mN m", "kNm": "kN m", "Ncm": "N cm",
+    "Nmm": "N mm", "NMM": "N mm", "nmm": "N mm", "mNm": "mN m", "kNm": "kN m", "Ncm": "N cm",
     "kg": "kgf", "g": "gf", "lb": "lbf", "lbs": "lbf", "oz": "ozf", "h": "h", "H": "h",
 }  # fmt: skip
 _SPELLED = {
@@ -71,7 +72,7 @@ _SPELLED = {
     "newton": "N", "newtons": "N", "kilonewton": "kN", "millinewton": "mN", "lb-f": "lbf", "lb_f": "lbf",
     "pound": "lbf", "pounds": "lbf", "kp": "kgf", "kg-f": "kgf", "kilopond": "kgf", "gramm": "gf", "gram": "gf",
     "grams": "gf", "kilogramm": "kgf", "dan": "daN",
-    "radian": "rad", "radians": "rad", "radiant": "rad", "degree": "deg", "degrees": "deg", "grad": "deg",
+    "radian": "rad", "radians": "rad", "radiant": "rad", "degree": "deg", "degrees": "deg",
     "grados": "deg", "gradi": "deg", "graus": "deg", "grader": "deg",
     "\u00b0deg": "deg", "milliradian": "mrad", "minofarc": "arcmin", "arcminutes": "arcmin", "turn": "rev",
     "turns": "rev", "revolution": "rev", "revolutions": "rev", "umdrehung": "rev", "umdrehungen": "rev",
@@ -83,11 +84,27 @@ _SPELLED = {
     "kelvin": "K", "\u00b0f": "degF", "fahrenheit": "degF", "deg f": "degF", "deg_f": "degF",
     "newtonmeter": "N m", "newtonmetre": "N m", "newton meter": "N m", "newton metre": "N m",
 }  # fmt: skip
+# Written by some for one unit and by others for another; what the column is decides, or it is asked.
+TWO_MEANINGS: dict[str, tuple[str, ...]] = {
+    "grad": ("deg", "gon"), "nm": ("nm", "N m"), "'": ("arcmin", "ft"), '"': ("in", "arcsec"), "mil": ("mil", "mrad"),
+    "mils": ("mil", "mrad"),
+}  # fmt: skip
 _JOINTS_OF_UNITS = re.compile(r"[\u00b7\u22c5*.\u2219\u2022_ -]+")
 
 
-def unit_of(text: str) -> Unit | None:
-    """The unit that a text means, or None."""
+def meanings_of(text: str) -> tuple[Unit, ...]:
+    """The units of a text that has two meanings, whatever its case but for Nm; empty for any other text."""
+    bare = text.strip().strip("[](){}<>").strip()
+    found = TWO_MEANINGS.get(bare if bare.lower() == "nm" else bare.lower(), ())
+    return tuple(UNITS[each] for each in found)
+
+
+def unit_of(text: str, quantity: str = "") -> Unit | None:
+    """The unit that a text means, or None. Of two meanings the one that is of the quantity; None if both are, or none
+    is given."""
+    if meanings := meanings_of(text):
+        fit = [unit for unit in meanings if unit.quantity == quantity]
+        return fit[0] if len(fit) == 1 else None
     text = text.strip().strip("[](){}<>").strip()
     if text.lower().startswith("in ") and text[3:4].lower() not in ("l", "o"):  # (in mm); in lb is a torque
         text = text[3:].strip()

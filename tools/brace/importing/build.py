@@ -15,10 +15,12 @@ from brace.ground.errors import BadFileError
 from brace.ground.units import OWN, UNITS, unit_of
 from brace.importing import numerals
 from brace.importing.loading import assembled as assembled_loading
+from brace.importing.logs.can_formats import are_distances
 from brace.importing.logs.one_clock import settled
 from brace.importing.mapping import ColumnUse, MappingTable
 from brace.importing.meaning import TARGETS
 from brace.importing.part import Part, Table
+from brace.importing.wraps import unwrapped
 
 MAY_BE_BLANK = {"fx_n", "fz_n", "f_n", "weight_n", "enc1_rad", "enc2_rad", "base_x_mm", "base_z_mm", "temp_degc"}
 MUST_BE_THERE = {
@@ -76,13 +78,15 @@ def _conversions(mapping: MappingTable) -> dict[str, str]:
         if not use.used:
             continue
         text = f"column {use.name!r}"
-        unit = unit_of(use.unit) if use.unit else None
+        unit = unit_of(use.unit, _quantity(use.targets[0])) if use.unit else None
         if unit is not None:
             text += f" in {unit.text}"
             factor = unit.factor * (-1 if use.sign == "-1" else 1)
             text += f", times {factor:.12g}" if factor != 1.0 else ", as it is"
             offset = use.offset + unit.offset
             text += f", plus {offset:.12g}" if offset else ""
+        if use.wrap and float(use.wrap) > 0.0:
+            text += f", entries above half of {use.wrap} less by it before"
         if use.relative == "yes":
             text += ", minus the first entry of each run"
         for target in use.targets:
@@ -166,7 +170,7 @@ def _converted(part: Part, mapping: MappingTable, notes: list[str]) -> Table:
 def _refuse_other_unit(part: Part, index: int, use: ColumnUse) -> None:
     """A mapping knows columns by their names; a unit in a row of its own may be another in the next file."""
     stated = unit_of(part.units[index]) if part.units and part.log is None else None
-    meant = unit_of(use.unit) if use.unit else None
+    meant = unit_of(use.unit, _quantity(use.targets[0])) if use.unit else None
     if stated is not None and meant is not None and stated != meant:
         raise BadFileError(
             f"column {use.name!r} is in {stated.text} by the file's row of units, and in {meant.text} by the mapping",
@@ -191,9 +195,17 @@ def _numbers(part: Part, use: ColumnUse, cells: Sequence[str], target: str) -> t
     values = np.array([numerals.number(cell, part.decimal) for cell in cells])
     if target == "t_s" and np.isnan(values).all():
         values = _clocks(part, use, cells)
+    if target == "t_s" and are_distances(values[np.isfinite(values)]):
+        raise BadFileError(
+            f"column {use.name!r} is no clock: it neither rises nor falls over the file",
+            where=part.where,
+            why="its entries are distances from reading to reading, or no times",
+            next_step='sum them up in your file; or is = "ignore", and --set dwell=4s if they are even',
+        )
     values = _without_marks(values)
+    values = unwrapped(values, float(use.wrap or 0.0))
     unread = np.array([math.isnan(value) and not numerals.is_missing(cell) for value, cell in zip(values, cells)])
-    unit = UNITS.get(use.unit) or unit_of(use.unit)
+    unit = UNITS.get(use.unit) or unit_of(use.unit, _quantity(target))
     if unit is None:
         raise BadFileError(
             f"column {use.name!r} has no unit",
@@ -203,6 +215,11 @@ def _numbers(part: Part, use: ColumnUse, cells: Sequence[str], target: str) -> t
         )
     sign = -1.0 if use.sign == "-1" else 1.0
     return sign * (unit.factor * values + unit.offset) + use.offset, unread
+
+
+def _quantity(target: str) -> str:
+    """Of one of our columns; a name means the same in every kind of record."""
+    return next((of[target] for of in TARGETS.values() if target in of), "")
 
 
 def _clocks(part: Part, use: ColumnUse, cells: Sequence[str]) -> np.ndarray:

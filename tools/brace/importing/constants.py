@@ -11,10 +11,10 @@ from brace.ground.errors import BadFileError, UsageError, did_you_mean
 from brace.ground.units import unit_of
 from brace.importing import names, numerals
 from brace.importing.mapping import CONSTANTS, Constant, MappingTable
-from brace.importing.meaning import OPEN, OPEN_ANGLES, TARGETS, UNKNOWN_NAME, target_of
+from brace.importing.meaning import OPEN, OPEN_ANGLES, TARGETS, target_of
 from brace.importing.part import Part
+from brace.importing.questions import PERHAPS_ANGLE
 
-PERHAPS_ANGLE = f"an angle of the posture? {UNKNOWN_NAME}"
 SAME_RAD, SAME_DEGC = 1e-3, 0.05  # two ways to write one angle or temperature
 AXES = {"x": "x", "z": "z", "horizontal": "x", "vertical": "z", "waagrecht": "x", "waagerecht": "x", "senkrecht": "z",
         "vertikal": "z", "hor": "x", "ver": "z", "vert": "z", "h": "x", "v": "z"}  # fmt: skip
@@ -105,7 +105,7 @@ def from_remarks(part: Part, target: str, kind: str) -> Constant | None:
         is_it = target_of(name, kind)[0] == target
         if not is_it and match and target.startswith("theta"):  # 'Femur: 42.5 deg'
             joint = {"theta1_rad": "femur", "theta2_rad": "tibia"}[target]
-            unit = unit_of(match.group(2))
+            unit = unit_of(match.group(2), "angle")
             is_it = (
                 joint in name.words and unit is not None and unit.quantity == "angle" and not name.words & {"encoder"}
             )
@@ -114,7 +114,7 @@ def from_remarks(part: Part, target: str, kind: str) -> Constant | None:
         written = match.group(1)
         sign = numerals.decimal_sign([written])[0]
         value = numerals.number(written, sign if sign in (".", ",") else part.decimal)
-        unit = unit_of(match.group(2)) or name.unit
+        unit = unit_of(match.group(2), TARGETS[kind][target]) or (name.unit if not match.group(2).strip() else None)
         if math.isfinite(value):
             fits = unit is not None and unit.quantity == TARGETS[kind][target]
             return Constant(target, repr(value), unit.text if fits and unit else OPEN, file, f"{key}: {text}")

@@ -4,6 +4,7 @@ open."""
 from __future__ import annotations
 
 import math
+import re
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
@@ -12,14 +13,23 @@ import numpy as np
 
 from brace.ground.units import OWN
 from brace.importing import names, numerals
-from brace.importing.constants import AXES, PERHAPS_ANGLE, constants_of
+from brace.importing.constants import AXES, constants_of
 from brace.importing.mapping import ColumnUse, MappingTable
-from brace.importing.meaning import IGNORE, OPEN, TARGETS, UNKNOWN_NAME, quantity_of, target_of
+from brace.importing.logs.can_formats import are_distances
+from brace.importing.meaning import IGNORE, OPEN, TARGETS, quantity_of, target_of
 from brace.importing.part import Part
+from brace.importing.questions import (
+    BENT_BACK, CLOCKS, FALLS, FORMULAS_FAILED, GROWS_WITH_WEIGHT, NO_CLOCK, NO_NUMBERS, NO_RESULTS, NUMBERED_ANGLES,
+    PERHAPS_ANGLE, POINTS_DOWN, TWO_MEANINGS, UNKNOWN_NAME, WHICH_ANGLE,
+)  # fmt: skip
+from brace.importing.wraps import wraps
 
+WRAPPED = ("fx_n", "fz_n", "f_n", "torque_n_mm", "command_n_mm", "angle_rad", "enc1_rad", "enc2_rad", "dx_mm", "dz_mm",
+           "d_mm", "theta1_rad", "theta2_rad")  # fmt: skip
 FULL_TURN = 2 * math.pi
-BENT_BACK = "all its entries are negative, and theta2 is the femur's angle from +x minus the tibia's"
 CLOCK_UNITS = "h: hours and minutes; min: minutes and seconds"
+_FORMULA = re.compile(r"\s*[=+@][A-Za-z$('(].*|\s*=.*")
+_FAILED = re.compile(r"#(?:VALUE|REF|DIV/0|NAME\?|WERT|BEZUG|N/A|NV|NUM|ZAHL)!?", re.IGNORECASE)
 NAMED_MOST = 4  # rivals of a column in its question
 RAW = ("v", "mv", "volt", "volts", "mv/v", "ma", "a", "counts", "count", "ticks", "lsb", "%", "digits", "raw")
 
@@ -60,8 +70,10 @@ def _columns(layout: Sequence[Part], kind: str, file: str) -> list[ColumnUse]:
     for index, header in enumerate(first.names):
         cells = [cell for part in layout for cell in part.cells(index)]
         found.append(_one(index, header, first, cells, kind, file))
-    found = _perhaps_resultants(_without_rivals(found, first, kind))
+    found = _numbered_joints(found, first)
+    found = _perhaps_resultants(_without_rivals(_one_clock(found, layout), first, kind))
     found = _angles_by_size(found, layout)
+    found = _wrapped(found, layout)
     found = _perhaps_angles(found, layout) if kind == "loading" else found
     return found if kind == "stiffness_table" else _signs_and_zeros(found, layout, kind)
 
@@ -86,16 +98,32 @@ def _one(index: int, header: str, part: Part, cells: list[str], kind: str, file:
         if clocks:
             unit = "min" if numerals.clocks_are_minutes(cells) else "s"
             return replace(use, unit=unit, why="clock times", span=span)
+    if target == "t_s" and are_distances(values[readable]):
+        return replace(use, targets=(OPEN,), why=NO_CLOCK)
+    if quantity and (why := _unreadable(cells, readable.any())):
+        return replace(use, targets=(OPEN,), why=why, span=next(cell for cell in cells if cell.strip()))
     if quantity and not readable.any():
         return replace(use, targets=(IGNORE,), why="it holds no numbers")
     if not quantity:
-        return use
+        return replace(use, unit=name.unit.text) if target == OPEN and name.unit is not None else use
     unit, why_unit = _unit(name, quantity, values[readable], label)
     if "down" in name.words and target in ("dz_mm", "fz_n", "base_z_mm"):
-        return replace(use, unit=unit, sign=OPEN, why="its name says down, and z is up")
+        return replace(use, unit=unit, sign=OPEN, why=POINTS_DOWN)
     if target == "theta2_rad" and readable.any() and values[readable].max() < 0.0:
         return replace(use, unit=unit, sign=OPEN, why=BENT_BACK)
     return replace(use, unit=unit, why=why_unit or why)
+
+
+def _unreadable(cells: Sequence[str], any_number: bool) -> str:
+    """Why a column that may be a measurement cannot be read; empty where it can, or where nothing stands in it."""
+    if any(_FORMULA.fullmatch(cell) for cell in cells):
+        return NO_RESULTS
+    if any_number:
+        return ""
+    if any(_FAILED.fullmatch(cell.strip()) for cell in cells):
+        return FORMULAS_FAILED
+    text = next((cell for cell in cells if not numerals.is_missing(cell)), "")
+    return NO_NUMBERS.format(repr(text[:30])) if text else ""
 
 
 def _unit(name: names.Name, quantity: str, values: np.ndarray, label: str) -> tuple[str, str]:
@@ -104,6 +132,8 @@ def _unit(name: names.Name, quantity: str, values: np.ndarray, label: str) -> tu
         return name.unit.text, ""
     if name.unit is not None:
         return OPEN, f"{name.unit_text!r} is not a unit of {quantity}"
+    if name.meanings:
+        return OPEN, TWO_MEANINGS.format(repr(name.unit_text), " or ".join(f'unit = "{m.text}"' for m in name.meanings))
     if name.unit_text.lower() in RAW:
         return OPEN, f"{name.unit_text} is what the instrument gives: convert it to {OWN[quantity]} in your file first"
     if name.unit_text:
@@ -126,6 +156,73 @@ def _axis_column(use: ColumnUse, cells: Sequence[str]) -> ColumnUse:
         use, targets=(OPEN,), span=", ".join(texts[:6]),
         why=f"an axis column with {', '.join(texts[:4])}: say is = \"axis\", and in values which are x and which z",
     )  # fmt: skip
+
+
+def _numbered_joints(columns: list[ColumnUse], part: Part) -> list[ColumnUse]:
+    """Angles that are known by numbers alone. 1 and 2 are femur and tibia, 0 to 2 coxa, femur, tibia; of any others
+    nobody knows which is which."""
+    of: dict[int, int] = {}
+    units: dict[int, str] = {}
+    for at, use in enumerate(columns):
+        name = names.read(use.name, part.units[at] if part.units else "")
+        if name.number is None or name.words & {"femur", "tibia", "coxa"}:
+            continue
+        if {"theta1_rad", "theta2_rad", "enc1_rad", "enc2_rad"} & set(use.targets) or quantity_of(name) == "angle":
+            of[at] = name.number
+            units[at] = name.unit.text if name.unit is not None else ""
+    numbers = set(of.values())
+    if numbers in ({1, 2}, {0, 1, 2}) or len(numbers) < 2:
+        return columns
+    return [
+        replace(use, targets=(OPEN,), unit=units[at], why=NUMBERED_ANGLES)
+        if at in of and use.why != WHICH_ANGLE and (use.targets != (IGNORE,) or of[at] == 0)
+        else replace(use, why=NUMBERED_ANGLES)
+        if at in of and use.targets == (OPEN,)
+        else use
+        for at, use in enumerate(columns)
+    ]
+
+
+def _one_clock(columns: list[ColumnUse], layout: Sequence[Part]) -> list[ColumnUse]:
+    """Of several times, the stamp of a message's header; else the first, if they run alike: one that lags by more
+    than half a reading, or by a varying time, makes the rows' time another."""
+    rivals = [at for at, use in enumerate(columns) if use.targets == ("t_s",)]
+    if len(rivals) < 2:
+        return columns
+    stamps = [at for at in rivals if {"header", "stamp"} <= names.read(columns[at].name).words]
+    times = {}
+    for at in rivals:
+        cells = [cell for part in layout for cell in part.cells(at)]
+        numbers = np.array([numerals.number(cell, layout[0].decimal) for cell in cells])
+        times[at] = numbers if np.isfinite(numbers).any() else np.array(numerals.clocks_s(cells))
+    first = stamps[0] if len(stamps) == 1 else rivals[0]
+    if len(stamps) != 1 and not all(_run_alike(times[first], times[at]) for at in rivals[1:]):
+        return [replace(use, targets=(OPEN,), why=CLOCKS) if at in rivals else use for at, use in enumerate(columns)]
+    return [
+        replace(use, targets=(IGNORE,), why=f"{columns[first].name!r} is the t_s") if at in rivals and at != first else use
+        for at, use in enumerate(columns)
+    ]
+
+
+def _run_alike(a: np.ndarray, b: np.ndarray) -> bool:
+    """Whether one clock is the other but for unit and beginning."""
+    both = np.isfinite(a) & np.isfinite(b)
+    if np.count_nonzero(both) < 3 or np.ptp(a[both]) == 0.0 or np.ptp(b[both]) == 0.0:
+        return False
+    a, b = a[both] - a[both][0], b[both] - b[both][0]
+    slope = float(a @ b) / float(a @ a)
+    return bool(np.abs(b - slope * a).max() <= 0.5 * abs(slope) * float(np.median(np.abs(np.diff(a)))))
+
+
+def _wrapped(columns: list[ColumnUse], layout: Sequence[Part]) -> list[ColumnUse]:
+    """Readings of two clusters, at zero and at the top: negative numbers read unsigned, or an angle beyond its turn."""
+    changed = list(columns)
+    for at, use in enumerate(columns):
+        if use.used and use.targets[0] in WRAPPED:
+            values = np.array([numerals.number(cell, part.decimal) for part in layout for cell in part.cells(at)])
+            if why := wraps(values[np.isfinite(values)]):
+                changed[at] = replace(use, wrap=OPEN, why=why)
+    return changed
 
 
 def _without_rivals(columns: list[ColumnUse], part: Part, kind: str) -> list[ColumnUse]:
@@ -237,6 +334,8 @@ def _signs_and_zeros(columns: list[ColumnUse], layout: Sequence[Part], kind: str
                 changed[place[moved]] = replace(changed[place[moved]], relative=OPEN)
         if moved not in place or pushed not in place:
             continue
+        if OPEN in (changed[place[moved]].wrap, changed[place[pushed]].wrap):
+            continue  # once that is said, the sign is none of the questions
         a, b = values(moved), values(pushed)
         both = np.isfinite(a) & np.isfinite(b)
         if np.count_nonzero(both) > 3 and np.ptp(a[both]) > 0 and np.ptp(b[both]) > 0:
@@ -247,7 +346,7 @@ def _signs_and_zeros(columns: list[ColumnUse], layout: Sequence[Part], kind: str
                 other = columns[place[moved]].name
                 changed[at] = replace(
                     changed[at], sign=OPEN,
-                    why=f"it falls as {other!r} grows",
+                    why=FALLS.format(repr(other)),
                 )  # fmt: skip
     if kind == "loading" and "weight_n" in place and "dz_mm" in place:
         down, weight = values("dz_mm"), np.abs(values("weight_n"))
@@ -255,7 +354,7 @@ def _signs_and_zeros(columns: list[ColumnUse], layout: Sequence[Part], kind: str
         if np.count_nonzero(both) > 2 and np.ptp(weight[both]) > 0 and np.ptp(down[both]) > 0:
             if float(np.corrcoef(down[both], weight[both])[0, 1]) > 0.3:
                 at = place["dz_mm"]
-                changed[at] = replace(changed[at], sign=OPEN, why="it grows with the weight, and z is up")
+                changed[at] = replace(changed[at], sign=OPEN, why=GROWS_WITH_WEIGHT)
     return changed
 
 

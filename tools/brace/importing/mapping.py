@@ -9,7 +9,7 @@ from pathlib import Path
 
 from brace import toml
 from brace.ground.errors import BadFileError, UsageError, did_you_mean
-from brace.ground.units import OWN, UNITS, Unit, unit_of
+from brace.ground.units import OWN, UNITS, Unit, meanings_of, unit_of
 from brace.importing.meaning import IGNORE, OPEN, TARGETS
 
 WHAT = "mapping file"
@@ -34,6 +34,7 @@ class ColumnUse:
     sign: str = "1"  # 1, -1, ?
     offset: float = 0.0  # added after sign and unit, in our unit
     relative: str = "no"  # yes: less the first reading of each run; ?
+    wrap: str = ""  # a number in the file's unit: taken off the readings above half of it; ?
     values: Mapping[str, str] = field(default_factory=dict)  # of an axis column
     why: str = ""
     span: str = ""  # least and greatest entry, for the person
@@ -51,7 +52,9 @@ class ColumnUse:
         elif self.used:
             if self.unit == OPEN:
                 told.append(
-                    f"{self.name!r}: in which unit?" + (f" Its entries go from {self.span}" if self.span else "")
+                    f"{self.name!r}: in which unit?"
+                    + (f" {self.why}." if "two meanings" in self.why else "")
+                    + (f" Its entries go from {self.span}" if self.span else "")
                 )
             if self.sign == OPEN:
                 told.append(
@@ -63,6 +66,8 @@ class ColumnUse:
                         ". The force on a limb grows with its displacement, but many sensors read the force of the "
                         "limb on them. If the displacement has the wrong sign, turn that one"
                     )
+            if self.wrap == OPEN:
+                told.append(f"{self.name!r}: has it gone round? {self.why}")
             if self.relative == OPEN:
                 told.append(
                     f"{self.name!r}: does 0 mean unloaded? It begins far from 0; relative = true subtracts each run's "
@@ -142,6 +147,7 @@ def to_toml(table: MappingTable) -> str:
         "# unit: as written, e.g. " + ", ".join(f"{unit.text}" for unit in list(UNITS.values())[:60:3]),
         "# sign: -1 turns it. x is outwards, z up; a force is the one on the limb; theta2 is 0 for the straight knee.",
         "# offset: added afterwards, in our unit. relative = true: minus the first entry of each run.",
+        "# wrap: taken off the entries above half of it, in the file's unit (65536.0 for 16 bits; 0.0: none went round).",
         "format = 1",
         f'kind = "{table.kind}"',
     ]
@@ -160,6 +166,8 @@ def to_toml(table: MappingTable) -> str:
             lines.append(f"offset = {use.offset!r}")
         if use.relative != "no":
             lines.append(f"relative = {_value(OPEN) if use.relative == OPEN else 'true'}")
+        if use.wrap:
+            lines.append(f"wrap = {_value(OPEN) if use.wrap == OPEN else use.wrap}")
         if use.values:
             lines.append("values = { " + ", ".join(f"{_value(k)} = {_value(v)}" for k, v in use.values.items()) + " }")
     for each in table.constants:
@@ -183,7 +191,7 @@ def _value(value: object) -> str:
     return repr(value)
 
 
-_COLUMN_KEYS = ("name", "number", "file", "is", "unit", "sign", "offset", "relative", "values")
+COLUMN_KEYS = ("name", "number", "file", "is", "unit", "sign", "offset", "relative", "wrap", "values")
 _CONSTANT_KEYS = ("is", "value", "unit", "file")
 
 
@@ -233,7 +241,7 @@ def _known(document: toml.Document, entry: Mapping[str, object], keys: tuple[str
 
 
 def _column(document: toml.Document, at: str, entry: dict[str, object], kind: str) -> ColumnUse:
-    _known(document, entry, _COLUMN_KEYS, at + ".")
+    _known(document, entry, COLUMN_KEYS, at + ".")
     given = entry.get("is", OPEN)
     targets = tuple(given) if isinstance(given, list) else (given,)
     for target in targets:
@@ -257,6 +265,10 @@ def _column(document: toml.Document, at: str, entry: dict[str, object], kind: st
         )
     if relative not in (True, False, OPEN):
         raise _bad(document, f"{at}.relative", f"relative = {relative!r}", "true or false")
+    wrap = entry.get("wrap", "")
+    is_wrap = isinstance(wrap, (int, float)) and not isinstance(wrap, bool) and 0.0 <= wrap < math.inf
+    if wrap not in ("", OPEN) and not is_wrap:
+        raise _bad(document, f"{at}.wrap", f"wrap = {wrap!r} is no full range", "65536.0 for 16 bits, 360.0 for a turn")
     if not isinstance(values, dict) or any(value not in ("x", "z") for value in values.values()):
         raise _bad(document, f"{at}.values", "values says x or z for each entry", '{ "horizontal" = "x" }')
     return ColumnUse(
@@ -268,6 +280,7 @@ def _column(document: toml.Document, at: str, entry: dict[str, object], kind: st
         sign=sign,
         offset=float(offset),
         relative="yes" if relative is True else "no" if relative is False else OPEN,
+        wrap=str(wrap),
         values={str(k): str(v) for k, v in values.items()},
     )
 
@@ -297,7 +310,13 @@ def checked_constant(target: str, value: str, unit: str = "", file: str = "") ->
             raise ValueError
     except ValueError:
         raise UsageError(f"{target} = {value!r} is not a number", why="", next_step="e.g. 42.5") from None
-    found = unit_of(unit)
+    found = unit_of(unit, WORDS[target])
+    if both := meanings_of(unit) if found is None else ():
+        raise UsageError(
+            f"{unit!r} has two meanings: {' and '.join(each.text for each in both)}",
+            why="which of them is meant changes the number",
+            next_step=f"{value}{both[0].text}, or {value}{both[-1].text}",
+        )
     if unit and unit != OPEN and (found is None or found.quantity != WORDS[target]):
         raise UsageError(
             f"{unit!r} is no unit of {target}",
@@ -321,7 +340,10 @@ def _target(document: toml.Document, at: str, target: object, allowed: Sequence[
 
 
 def _unit(document: toml.Document, at: str, text: str, quantity: str) -> Unit:
-    unit = unit_of(text)
+    unit = unit_of(text, quantity)
+    if both := meanings_of(text) if unit is None else ():
+        told = " or ".join(f'"{each.text}"' for each in both)
+        raise _bad(document, at, f"unit = {text!r} has two meanings", f"unit = {told}")
     if unit is None or unit.quantity != quantity:
         known = ", ".join(each.text for each in UNITS.values() if each.quantity == quantity)
         raise _bad(document, at, f"unit = {text!r} is no unit of {_article(quantity)}", known)

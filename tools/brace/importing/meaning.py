@@ -2,7 +2,13 @@
 
 from __future__ import annotations
 
+import re
+
 from brace.importing.names import Name
+from brace.importing.questions import (
+    CURRENT, FILTERED, FROM_VERTICAL, INNER_ANGLE, NUMBERED_ANGLES, SHANKS_ANGLE, SUMMARY, TWO_MEANINGS, UNKNOWN_NAME,
+    WHICH_ANGLE, Y_FORCE, Y_LENGTH,
+)  # fmt: skip
 
 # Names of our columns that a column of somebody's file may be, with the quantity that they hold.
 TARGETS: dict[str, dict[str, str]] = {
@@ -24,15 +30,14 @@ TARGETS: dict[str, dict[str, str]] = {
     },
 }  # fmt: skip
 IGNORE, OPEN = "ignore", "?"
-UNKNOWN_NAME = "the name says nothing that is known here"
-WHICH_ANGLE = "which joint's angle?"
-INNER_ANGLE = "an inner angle is 180 deg for a straight leg: then is = theta2_rad, sign = -1, offset = 3.14159265"
-FROM_VERTICAL = "an angle from the vertical: theta1 counts from +x, so sign and offset must be said"
-SHANKS_ANGLE = (
-    "the knee's angle, or the shank's own? The knee's: is = theta2_rad. A record has no column for the shank's "
-    "own: theta2 is the thigh's angle minus the shank's; compute it in your file"
-)
-OPEN_ANGLES = (WHICH_ANGLE, INNER_ANGLE, FROM_VERTICAL, SHANKS_ANGLE)  # questions that stand for one of both angles
+_RATE = re.compile(r"(?:/|\bper\b)\s*(?:s|sec|min|h)\b|/s\S?2|\bs\^?-[12]|rpm", re.IGNORECASE)
+# Words of a quantity beside a unit of another, and the unit is right: 'position [deg]', 'load [Nm]', 'T [degC]'.
+_UNIT_WINS = frozenset(
+    (("length", "angle"), ("force", "torque"), ("time", "temperature"), ("time", "torque"), ("temperature", "torque"),
+     ("time", "length"), ("time", "force"), ("temperature", "length"), ("force", "temperature"))
+)  # fmt: skip
+# Questions that stand for one of both angles.
+OPEN_ANGLES = (NUMBERED_ANGLES, WHICH_ANGLE, INNER_ANGLE, FROM_VERTICAL, SHANKS_ANGLE)
 _QUANTITIES = ("force", "length", "angle", "torque", "time", "temperature", "stiffness")
 
 
@@ -42,11 +47,16 @@ def quantity_of(name: Name) -> str:
     if "mass" in words and (name.unit is None or name.unit.quantity == "force"):
         return "mass"
     unit = name.unit.quantity if name.unit else ""
+    if name.meanings:
+        among = {each.quantity for each in name.meanings}
+        unit = among.pop() if len(among) == 1 else ""
+        if not unit and not set(_QUANTITIES) & words:
+            return OPEN
     said = [quantity for quantity in _QUANTITIES if quantity in words]
     if unit and (unit in said or not said):
         return unit
     if unit:  # the unit contradicts the words: 'position [deg]' is an angle, 'tip angle [mm]' nobody knows
-        return unit if set(said) <= {"length", "force", "temperature", "time"} and unit != "stiffness" else OPEN
+        return unit if all((each, unit) in _UNIT_WINS for each in said) else OPEN
     if {"time", "temperature"} <= set(said):
         return OPEN
     if len(said) > 1:
@@ -60,11 +70,27 @@ def target_of(name: Name, kind: str) -> tuple[str, str]:
     words, quantity = name.words, quantity_of(name)
     if "noise" in words or "date" in words and "time" not in words:
         return IGNORE, "no column of a dataset"
-    if kind == "joint_test":
-        return _of_joint_test(name, quantity)
-    if kind == "stiffness_table":
-        return _of_table(name, quantity)
-    return _of_loading(name, quantity)
+    if name.unit is None and _RATE.search(name.unit_text):
+        return IGNORE, f"{name.unit_text} is a rate: no column of a dataset"
+    if quantity == OPEN and name.meanings:
+        return OPEN, _either(name)
+    of_kind = {"joint_test": _of_joint_test, "stiffness_table": _of_table}.get(kind, _of_loading)
+    target, why = of_kind(name, quantity)
+    if "current" in words and name.unit is None and name.unit_text:
+        return IGNORE, f"an electric current, {name.unit_text}"
+    if target in (IGNORE, OPEN) or not TARGETS[kind].get(target) or "eigen" in words:
+        return target, why
+    if "current" in words and name.unit is None:
+        return OPEN, CURRENT
+    if words & {"min", "max", "mean"}:
+        return OPEN, SUMMARY
+    return (OPEN, FILTERED) if "filtered" in words else (target, why)
+
+
+def _either(name: Name) -> str:
+    """The two meanings of a name's unit, as a question."""
+    told = " or ".join(f'{each.quantity} (unit = "{each.text}")' for each in name.meanings)
+    return TWO_MEANINGS.format(repr(name.unit_text), told)
 
 
 def _axis(words: frozenset[str]) -> str:
@@ -103,13 +129,13 @@ def _of_loading(name: Name, quantity: str) -> tuple[str, str]:
         return "weight_n", "hung weights"
     if quantity == "force":
         if axis == "y":
-            return OPEN, "a force along y: a limb's plane has x outwards and z up; which of them is it, or neither?"
+            return OPEN, Y_FORCE
         return {"x": ("fx_n", "name"), "z": ("fz_n", "name"), "": ("f_n", "name: force along the motion")}.get(
             axis, (OPEN, "several axes in one name")
         )
     if quantity == "length":
         if axis == "y":
-            return OPEN, "a displacement along y: a limb's plane has x outwards and z up; which is it, or neither?"
+            return OPEN, Y_LENGTH
         if "base" in words:
             return (f"base_{axis}_mm", "name") if axis in ("x", "z") else (OPEN, "which axis of the base?")
         if "command" in words:

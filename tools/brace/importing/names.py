@@ -6,7 +6,7 @@ import re
 import unicodedata
 from dataclasses import dataclass
 
-from brace.ground.units import Unit, unit_of
+from brace.ground.units import UNITS, Unit, meanings_of, unit_of
 
 _BRACKETS = re.compile(r"[\[({<]([^\])}>]*)[\])}>]")
 _LAST_BRACKETS = re.compile(r"[\[({<]([^\])}>]*)[\])}>]\s*$")
@@ -17,6 +17,7 @@ LABVIEW_TIME = "x_value"  # of its .lvm files: neither a place nor along x
 _CAMEL = re.compile(r"(?<=[a-zA-Z0-9])([A-Z][a-z]*)$")  # tSec, thetaFemurDeg, forceXN
 _CAMEL_UNITS = {"Sec": "s", "Ms": "ms", "Deg": "deg", "Rad": "rad", "Mm": "mm", "N": "N", "Lbf": "lbf", "Inch": "in",
                 "Nm": "N m", "Nmm": "N mm"}  # fmt: skip
+_NO_TAILS = ("h", "F", "C", "k", "K", "n_")
 _PREFIX_MOST = 2  # letters before a unit: k, m, da
 
 # word of a name -> what it means
@@ -47,13 +48,14 @@ _WORDS: dict[str, tuple[str, ...]] = {
     "axis": ("axis", "achse", "direction", "richtung", "dir"),
     "command": ("command", "commanded", "cmd", "soll", "setpoint", "target", "demand", "reference", "ref", "sollwert",
                 "goal"),
-    "actual": ("actual", "measured", "ist", "gemessen", "meas", "istwert", "act"),
+    "actual": ("actual", "measured", "present", "ist", "gemessen", "meas", "istwert", "act"),
     "encoder": ("encoder", "enc", "output", "abtrieb", "drehgeber"),
     "base": ("base", "basis", "sockel", "gestell", "frame", "mount"),
     "reach": ("r", "reach", "radius", "abstand", "distance", "reichweite"),
     "eigen": ("lambda", "eig", "eigenvalue", "eigenwert"),
     "min": ("min", "minimum", "smaller", "kleinster"),
-    "max": ("max", "maximum", "larger", "groesster"),
+    "max": ("max", "maximum", "larger", "groesster", "peak"),
+    "mean": ("mean", "average", "avg", "mittel", "mittelwert"),
     "femur": ("femur", "hip", "hueft", "huefte", "hueftgelenk", "thigh", "oberschenkel", "hanche",
               "cadera", "quadril", "upper", "theta1", "q1"),
     "tibia": ("tibia", "knee", "knie", "kniegelenk", "shank", "unterschenkel", "genou", "rodilla", "joelho",
@@ -64,10 +66,14 @@ _WORDS: dict[str, tuple[str, ...]] = {
     "y": ("y",),
     "z": ("z", "vertical", "vert", "senkrecht", "vertikal", "ver"),
     "interior": ("interior", "inner", "included", "innenwinkel", "inside"),
-    "down": ("down", "downward", "downwards", "unten", "abwaerts"),
+    "down": ("down", "downward", "downwards", "unten", "abwaerts", "depth", "sag", "indentation", "absenkung"),
     "joint": ("joint", "gelenk", "motor", "servo", "output", "gear", "getriebe"),
-    "noise": ("std", "sigma", "stdev", "error", "raw", "filtered", "setting", "voltage", "current", "spannung", "strom",
-              "velocity", "speed", "geschwindigkeit", "status", "valid"),
+    "noise": ("std", "sigma", "stdev", "error", "setting", "voltage", "spannung", "strom", "velocity", "speed",
+              "geschwindigkeit", "status", "valid", "acceleration", "accel", "acc", "beschleunigung", "imu"),
+    "current": ("current",),  # electric, or the present reading
+    "filtered": ("raw", "filtered", "smoothed", "smooth", "lowpass", "roh", "gefiltert"),
+    "stamp": ("stamp",),
+    "header": ("header",),
     "date": ("date", "datum", "day"),
     "test": ("test",),
 }  # fmt: skip
@@ -76,7 +82,7 @@ for _meaning, _spellings in _WORDS.items():
     for _spelling in _spellings:
         _MEANING.setdefault(_spelling, []).append(_meaning)
 _GLUED = re.compile(r"([fdukxt])([xyz]{1,2})")  # fx, dz, uz, kxx
-_NUMBERED = re.compile(r"(theta|th|q|joint|angle|winkel|gelenk|enc|encoder|j|alpha|phi|servo|motor|a)_?([0123])")
+_NUMBERED = re.compile(r"(theta|th|q|joint|angle|winkel|gelenk|enc|encoder|j|alpha|phi|servo|motor|a)_?([0-9]{1,2})")
 _COMPOUND = tuple(sorted((word for word in _MEANING if len(word) >= 4), key=len, reverse=True))
 
 
@@ -89,6 +95,11 @@ class Name:
     number: int | None  # of a joint
     entry: str = ""  # "xx", "xz" of a stiffness
     unit_text: str = ""  # as it stands in the name, understood or not
+    meanings: tuple[Unit, ...] = ()  # of a unit that may be one of two
+
+
+# Words of a name in German, where Grad is the degree.
+_GERMAN = re.compile(r"winkel|gelenk|knie|h\u00fcft|hueft|schenkel|drehung|drehgeber|abtrieb|stellung", re.IGNORECASE)
 
 
 def read(name: str, units_row: str = "") -> Name:
@@ -99,13 +110,29 @@ def read(name: str, units_row: str = "") -> Name:
     if bare.strip().lower() == LABVIEW_TIME:
         return Name(frozenset({"time"}), unit, None, "", text)
     words, number, entry = _meanings(bare)
-    return Name(frozenset(words), unit, number, entry, text)
+    both = meanings_of(text)
+    if both and text.lower() == "grad" and _GERMAN.search(bare):
+        both = (UNITS["deg"],)
+    if "temperature" in words and "angle" not in words and unit is not None and unit.text == "deg":
+        unit, both = None, (UNITS["degC"], UNITS["degF"])
+    fit = [each for each in both if each.quantity in words] if len(both) > 1 else list(both)
+    if len(fit) == 1:
+        unit, both = fit[0], ()
+    return Name(frozenset(words), unit, number, entry, text, both if unit is None else ())
+
+
+def _known(text: str, name: str = "") -> bool:
+    """Whether the text is a unit, or may be one of two. name: behind which it stands; Fx_min is the least Fx."""
+    if text.lower() == "min" and name and not re.search(r"time|zeit|elapsed|\bt\b", name.replace("_", " "), re.IGNORECASE):
+        return False
+    return unit_of(text) is not None or bool(meanings_of(text))
 
 
 def _without_unit(name: str) -> tuple[str, Unit | None, str]:
     for found in _BRACKETS.finditer(name):
-        if unit := unit_of(found.group(1)):
-            return name[: found.start()] + " " + name[found.end() :], unit, found.group(1)
+        if _known(found.group(1)):
+            bare = name[: found.start()] + " " + name[found.end() :]
+            return bare, unit_of(found.group(1)), found.group(1).strip()
     last = _LAST_BRACKETS.search(name)
     if last and any(c.isalpha() or c in "%\u00b0" for c in last.group(1)):
         return name[: last.start()], None, last.group(1).strip()
@@ -116,14 +143,14 @@ def _without_unit(name: str) -> tuple[str, Unit | None, str]:
             if len(pieces) > count and (count == 1 or pieces[-count].lower() != "in"):
                 text = "_".join(pieces[-count:])
                 spoken = text.replace("_per_", "/").replace("_", " ")
-                if (unit := unit_of(spoken)) and not (count == 1 and text in ("h", "F", "C", "k", "K", "n_")):
-                    return "_".join(pieces[:-count]), unit, text
+                if _known(spoken, name) and not (count == 1 and text in _NO_TAILS):
+                    return "_".join(pieces[:-count]), unit_of(spoken), text
     if behind := _BEHIND.search(name):
         text = behind.group(1)
-        if (unit := unit_of(text)) and name[: behind.start()].strip():
-            return name[: behind.start()], unit, text
+        if _known(text, name) and name[: behind.start()].strip():
+            return name[: behind.start()], unit_of(text), text
         end = text.split()[-1]
-        if (unit := unit_of(end)) and name[: name.rfind(end)].strip():
+        if (unit := unit_of(end)) and _known(end, name) and name[: name.rfind(end)].strip():
             return name[: name.rfind(end)], unit, end
     camel = _CAMEL.search(name)
     if camel and camel.group(1) in _CAMEL_UNITS:
@@ -183,7 +210,7 @@ def _meanings(name: str) -> tuple[set[str], int | None, str]:
             continue
         if token.isdigit():
             if found & {"joint", "angle", "encoder"}:
-                number = int(token) if len(token) == 1 else number
+                number = int(token) if len(token) <= 2 else number
             continue
         known = token if token in _MEANING else token.rstrip("0123456789")  # F1
         if known in _MEANING:

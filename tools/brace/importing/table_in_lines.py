@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from brace.ground.errors import BadFileError
-from brace.ground.units import unit_of
+from brace.ground.units import meanings_of, unit_of
 from brace.importing import names as names_of, numerals
 from brace.importing.part import Part
 
@@ -246,7 +246,7 @@ def _header(lines: Sequence[Line], first: int, width: int, short: str) -> tuple[
 
 
 # Behind the last name: nothing, or the column of remarks of which LabVIEW writes the name alone.
-_COMMENT = ("", "comment", "comments", "remark", "remarks", "note", "notes", "bemerkung", "kommentar", "commentaire")
+REMARKS = ("", "comment", "comments", "remark", "remarks", "note", "notes", "bemerkung", "kommentar", "commentaire")
 
 
 def _header_cells(line: Line, width: int, short: str) -> list[str] | None:
@@ -257,7 +257,7 @@ def _header_cells(line: Line, width: int, short: str) -> list[str] | None:
         cells[0] = re.sub(r"^\s*(?:#+|%+|//+)\s*", "", cells[0])
         if not cells[0] and len(cells) == width + 1:
             cells = cells[1:]
-    while len(cells) > width and cells[-1].strip().lower() in _COMMENT:
+    while len(cells) > width and cells[-1].strip().lower() in REMARKS:
         cells.pop()
     if len(cells) == width - 1 and short:
         cells = [*cells, ""] if short == "last" else ["", *cells]
@@ -271,7 +271,7 @@ def _header_cells(line: Line, width: int, short: str) -> list[str] | None:
 
 def _are_units(cells: Sequence[str]) -> bool:
     """Every cell is a unit or says that there is none, and one at least is."""
-    known = [unit_of(cell) is not None for cell in cells if cell.strip() not in _NO_UNIT]
+    known = [unit_of(cell) is not None or bool(meanings_of(cell)) for cell in cells if cell.strip() not in _NO_UNIT]
     return bool(known) and all(known)
 
 

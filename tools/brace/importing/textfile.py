@@ -9,7 +9,7 @@ from pathlib import Path
 
 from brace.ground.errors import BadFileError
 from brace.ground.files import DATA_LIMIT_BYTES, read_bytes
-from brace.importing import numerals
+from brace.importing import labview, numerals
 from brace.importing.part import Part
 from brace.importing.table_in_lines import Line, parts, width_of
 
@@ -52,6 +52,8 @@ def read(path: Path, *, decimal: str = "", separator: str = "") -> list[Part]:
         )
     chosen = separator or _separator([line for _, line in numbered], path)
     cut = [Line(number, line, cells(line, chosen)) for number, line in numbered]
+    if lines[0].lstrip("\ufeff").startswith(labview.FIRST):
+        cut = labview.without_headers(str(path), cut)
     if chosen == " ":
         cut = _names_with_blanks(cut)
     how = f"{encoding}, {SEPARATORS.get(chosen, repr(chosen))} between columns"

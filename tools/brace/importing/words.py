@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from brace.ground.units import unit_of
+from brace.ground.units import UNITS, unit_of
 from brace.importing.mapping import ColumnUse, MappingTable
 from brace.importing.meaning import OPEN
 from brace.importing.part import Part
@@ -53,7 +53,7 @@ def _row(use: ColumnUse) -> tuple[str, str, str, str, str]:
     name = use.name + (f" ({use.file})" if use.file else "")
     if not use.used:
         return name, "ignore", "", use.span, use.why
-    unit = unit_of(use.unit) if use.unit not in ("", OPEN) else None
+    unit = UNITS.get(use.unit) or unit_of(use.unit) if use.unit not in ("", OPEN) else None
     written = "?" if use.unit == OPEN else unit.text if unit else ""
     written = ("-" if use.sign == "-1" else "") + written
     return name, " ".join(use.targets), written, use.span, use.why

@@ -7,6 +7,7 @@ import io
 import math
 import zipfile
 from collections.abc import Sequence
+from itertools import zip_longest
 from pathlib import Path
 from typing import TypeAlias
 
@@ -73,6 +74,7 @@ def read(path: Path, *, sheet: str = "", decimal: str = "") -> list[Part]:
             next_step=f"--sheet {next(iter(tables))!r}",
         )
     name, rows = next(iter(tables.items()))
+    rows = _with_formulas(data, name, rows)
     texts = [cell for row in rows for cell in row if isinstance(cell, str)]
     sign = decimal or decimal_sign(path, texts)
     how = "Excel workbook" + (", decimal comma in its texts" if sign == "," else "")
@@ -97,6 +99,23 @@ def _sheets(path: Path, data: bytes) -> dict[str, list[Row]]:
             next_step="open it in a spreadsheet program and save it as .xlsx, or export the sheet as CSV",
         ) from None
     return sheets
+
+
+def _with_formulas(data: bytes, name: str, rows: list[Row]) -> list[Row]:
+    """Empty cells that have a formula get its text: a program that computes nothing stores no result."""
+    if not any(cell is None for row in rows for cell in row):
+        return rows
+    import openpyxl
+
+    sheet = openpyxl.load_workbook(io.BytesIO(data), read_only=True, data_only=False)[name]
+    sheet.reset_dimensions()
+    return [
+        tuple(
+            written if cell is None and isinstance(written, str) and written.startswith("=") else cell
+            for cell, written in zip_longest(row, formulas)
+        )
+        for row, formulas in zip(rows, sheet.iter_rows(values_only=True))
+    ]
 
 
 def _has_sheets(data: bytes) -> bool:

@@ -44,7 +44,7 @@ def _no_angle(text: str, unit_text: str) -> str:
 def length_mm(text: str) -> float:
     """A length; mm where no unit is said."""
     value, unit_text = _split(text, "185 or 0.185m")
-    unit = unit_of(unit_text) if unit_text else unit_of("mm")
+    unit = unit_of(unit_text, "length") if unit_text else unit_of("mm")
     if unit is None or unit.quantity != "length":
         raise refusal(f"{text!r}: {unit_text!r} is not a unit of length", "mm, cm, m or in", "e.g. 185 or 0.185m")
     found = unit.factor * value
@@ -58,7 +58,7 @@ def length_mm(text: str) -> float:
 def offset_mm(text: str) -> float:
     """A distance that may be small or none."""
     value, unit_text = _split(text, "57")
-    unit = unit_of(unit_text) if unit_text else unit_of("mm")
+    unit = unit_of(unit_text, "length") if unit_text else unit_of("mm")
     if unit is None or unit.quantity != "length" or not 0.0 <= unit.factor * value <= LENGTH_MM[1]:
         raise refusal(f"{text!r} is not a distance between axes", f"0 to {LENGTH_MM[1]:g} mm", "e.g. 57")
     return unit.factor * value
@@ -69,7 +69,7 @@ def play_rad(text: str) -> float:
     if text.strip().lower() in ("none", "0"):
         return 0.0
     value, unit_text = _split(text, "20arcmin")
-    unit = unit_of(unit_text)
+    unit = unit_of(unit_text, "angle")
     if unit is None or unit.quantity != "angle":
         raise refusal(
             _no_angle(text, unit_text), "a play is told in arcmin, deg or rad",
@@ -88,7 +88,7 @@ def play_rad(text: str) -> float:
 def angle_rad(text: str) -> float:
     """A joint's angle; its unit must be said."""
     value, unit_text = _split(text, "-60deg")
-    unit = unit_of(unit_text)
+    unit = unit_of(unit_text, "angle")
     if unit is None or unit.quantity != "angle":
         raise refusal(
             _no_angle(text, unit_text), "an angle is told in deg or rad",
