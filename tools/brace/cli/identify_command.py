@@ -74,7 +74,7 @@ def add(commands: Subcommands) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Executes the subcommand."""
     from brace.dataset import load_dataset
-    from brace.ground.files import check_file, write_file
+    from brace.ground.files import check_file, marked, refuse_written, write_file
     from brace.identify import report
     from brace.identify.run import Options, identify
     from brace.identify.table import Weight
@@ -82,6 +82,7 @@ def run(arguments: argparse.Namespace) -> int:
 
     inputs = [arguments.model, arguments.dataset / "data.csv", arguments.dataset / "meta.toml"]
     check_file(arguments.out, inputs)  # before the work, not after
+    refuse_written(arguments.out)
     options = Options(
         mode=arguments.mode or "",
         extra_keys=tuple(_keys_of("--fit", arguments.fit)),
@@ -98,7 +99,7 @@ def run(arguments: argparse.Namespace) -> int:
         result = identify(dataset, model, options, advance)
     for text in result.done_to_data:
         common.say(f"data: {text}")
-    write_file(arguments.out, result.model.to_toml(report.header(result)), inputs)
+    write_file(arguments.out, marked(result.model.to_toml(report.header(result))), inputs)
     if arguments.json:
         common.print_json({**report.as_json(result), "out": arguments.out})
     else:

@@ -18,11 +18,17 @@ from brace.diagnose.diagnosis import Diagnosis, GapPair, Interval, NamedEffect
 from brace.diagnose.export import export
 from brace.diagnose.provenance import Provenance, provenance
 from brace.ground import files
-from brace.ground.files import OutputSet
+from brace.ground.files import OutputSet, is_unchanged, marked, refuse_written
 from brace.model import LimbModel
 
 JSON, MODEL, REPORT = "diagnosis.json", "limb.toml", "report.html"
 _DIGITS = 9
+# By what a file of an earlier diagnosis is known, which the next may replace.
+_OWN = {
+    JSON: lambda data: data.startswith(b'{\n "format": 1,\n "verdict": "'),
+    MODEL: is_unchanged,
+    REPORT: lambda data: b'<meta name="generator" content="brace diagnose">' in data[:2000],
+}
 
 
 @dataclass(frozen=True)
@@ -60,7 +66,7 @@ def contents(
     data = as_json(found, origin, is_exported)
     files = {
         JSON: (json.dumps(data, indent=1, ensure_ascii=False) + "\n").encode(),
-        MODEL: exported.text.encode(),
+        MODEL: marked(exported.text).encode(),
     }
     if report:
         files[REPORT] = page(dataset, believed, found, origin, processes).encode()
@@ -78,6 +84,8 @@ def write(out: Path, written: Written, inputs: tuple[Path, ...] = ()) -> None:
 def check_folder(out: Path, inputs: tuple[Path, ...]) -> None:
     """Refuses a folder that cannot take the files, before any work is done."""
     files.check_folder(out, (JSON, MODEL, REPORT), inputs)
+    for name, is_own in _OWN.items():
+        refuse_written(out / name, is_own)
 
 
 def as_json(found: Diagnosis, origin: Provenance, exported: bool) -> dict[str, Any]:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import hashlib
 import os
+import re
 import stat
 import tempfile
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
 from brace.ground.errors import BadFileError, UsageError
@@ -105,21 +107,22 @@ def _nearby(path: Path) -> str:
 class OutputSet:
     """Files that appear together or not at all.
 
-    `add` stages content beside its destination; `commit` puts everything in place by renaming. Leaving the
-    `with` block without `commit` removes what was staged and touches nothing else. A destination that is one of
-    the `inputs` is refused.
+    `add` stages content in the folder of its destination, without a name where the system can (a killed run leaves
+    nothing then); `commit` puts everything in place by renaming. Leaving the `with` block without `commit` touches
+    nothing. A destination that is one of the `inputs` is refused.
     """
 
     def __init__(self, inputs: Iterable[Path] = ()) -> None:
-        self._staged: list[tuple[Path, Path]] = []
+        self._staged: list[_Staged] = []
         self._inputs = tuple(inputs)
 
     def __enter__(self) -> OutputSet:
         return self
 
     def __exit__(self, *_: object) -> None:
-        for temporary, _final in self._staged:
-            temporary.unlink(missing_ok=True)
+        for staged in self._staged:
+            staged.drop()
+        self._staged.clear()
 
     def add(self, final: Path, content: bytes | str) -> None:
         """Stage one file; an existing destination is replaced at commit."""
@@ -127,14 +130,9 @@ class OutputSet:
         data = content.encode() if isinstance(content, str) else content
         anchor = _existing_parent(final)
         try:
-            handle, name = tempfile.mkstemp(prefix=f".{final.name}.", dir=anchor)
-            temporary = Path(name)
-            self._staged.append((temporary, final))
-            with os.fdopen(handle, "wb") as file:
-                file.write(data)
-                file.flush()
-                os.fsync(file.fileno())
-            os.chmod(temporary, 0o666 & ~_umask())
+            staged = _Staged(final, anchor)
+            self._staged.append(staged)
+            staged.write(data)
         except OSError as error:
             raise UsageError(
                 "the output cannot be written",
@@ -146,9 +144,9 @@ class OutputSet:
     def commit(self) -> None:
         """Put every staged file in place."""
         try:
-            for temporary, final in self._staged:
-                final.parent.mkdir(parents=True, exist_ok=True)
-                os.replace(temporary, final)
+            for staged in self._staged:
+                staged.final.parent.mkdir(parents=True, exist_ok=True)
+                staged.put()
         except OSError as error:
             raise UsageError(
                 "the output cannot be put in place",
@@ -156,7 +154,94 @@ class OutputSet:
                 why=error.strerror or str(error),
                 next_step="choose another --out",
             ) from None
+        for staged in self._staged:
+            staged.drop()
         self._staged.clear()
+
+
+class _Staged:
+    """One file's content, on the disk and not in its place yet."""
+
+    def __init__(self, final: Path, anchor: Path) -> None:
+        self.final = final
+        self._temporary: Path | None = None
+        try:
+            if not os.path.isdir("/proc/self/fd"):
+                raise OSError
+            self._handle = os.open(anchor, os.O_TMPFILE | os.O_WRONLY, 0o600)
+        except (AttributeError, OSError):  # not Linux, or a file system without files that have no name
+            self._handle, name = tempfile.mkstemp(prefix=f".{final.name}.", dir=anchor)
+            self._temporary = Path(name)
+
+    def write(self, data: bytes) -> None:
+        """The content, on the disk."""
+        with os.fdopen(os.dup(self._handle), "wb") as file:
+            file.write(data)
+            file.flush()
+            os.fsync(file.fileno())
+        os.fchmod(self._handle, 0o666 & ~_umask())
+
+    def put(self) -> None:
+        """In its place."""
+        if self._temporary is None:
+            name = self.final.with_name(f".{self.final.name}.new")
+            name.unlink(missing_ok=True)  # of a run that was killed between the two calls below
+            handles = os.open("/proc/self/fd", os.O_RDONLY)  # linkat follows the link only from a folder that is open
+            try:
+                os.link(str(self._handle), name, src_dir_fd=handles, follow_symlinks=True)
+            finally:
+                os.close(handles)
+            self._temporary = name
+        os.replace(self._temporary, self.final)
+        self._temporary = None
+
+    def drop(self) -> None:
+        """Nothing is left of it outside its place."""
+        if self._temporary is not None:
+            self._temporary.unlink(missing_ok=True)
+            self._temporary = None
+        if self._handle >= 0:
+            os.close(self._handle)
+            self._handle = -1
+
+
+_MARK = re.compile(rb"\n# brace wrote this file; sha256 of what is above: ([0-9a-f]{64})\n$")
+
+
+def marked(text: str) -> str:
+    """The text of a TOML file with a last line by which `refuse_written` knows it again."""
+    body = "\n".join(line for line in text.splitlines() if not line.startswith("# brace wrote this file;"))
+    return f"{body}\n# brace wrote this file; sha256 of what is above: {hashlib.sha256(body.encode()).hexdigest()}\n"
+
+
+def is_unchanged(data: bytes) -> bool:
+    """Whether `marked` wrote a file's content, and nobody has changed it since."""
+    found = _MARK.search(data)
+    return found is not None and hashlib.sha256(data[: found.start()]).hexdigest().encode() == found[1]
+
+
+def refuse_written(path: Path, is_own: Callable[[bytes], bool] = is_unchanged) -> None:
+    """Refuses an output that would replace what a person wrote: a file that is there and that `is_own` does not know."""
+    final = checked_destination(path)
+    try:
+        if is_own(final.read_bytes()):
+            return
+    except FileNotFoundError:
+        return
+    except OSError as error:
+        raise UsageError(
+            "the output cannot be written",
+            where=str(path),
+            why=error.strerror or str(error),
+            next_step="choose another --out",
+        ) from None
+    raise UsageError(
+        "the output would replace a file that somebody wrote or changed",
+        where=str(path),
+        why="brace replaces only what it wrote itself and nobody has changed since: a model that it writes has a sum in "
+        "its last line",
+        next_step="choose another --out, or move the file away",
+    )
 
 
 def write_file(path: Path, content: bytes | str, inputs: Iterable[Path] = ()) -> None:
