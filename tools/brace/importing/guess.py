@@ -247,10 +247,10 @@ def _without_rivals(columns: list[ColumnUse], part: Part, kind: str) -> list[Col
                         columns[at], targets=(IGNORE,), why=f"{columns[wanted[0]].name!r} is the {target}"
                     )
                 continue
-            rest = [other for other in rivals if other != at]
-            told = [f"{columns[other].name!r} (column {columns[other].number})" for other in rest[:NAMED_MOST]]
-            others = ", ".join(told)
-            others += f" and {len(rest) - NAMED_MOST} more" if len(rest) > NAMED_MOST else ""
+            rest = [other for other in rivals[: NAMED_MOST + 1] if other != at][:NAMED_MOST]
+            others = ", ".join(f"{columns[other].name!r} (column {columns[other].number})" for other in rest)
+            more = len(rivals) - 1 - len(rest)
+            others += f" and {more} more" if more else ""
             changed[at] = replace(columns[at], targets=(OPEN,), why=f"it may be {target}, and so may {others}")
     return changed
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -110,9 +111,17 @@ class MappingTable:
         of_columns = [text for use in self.columns for text in use.questions]
         return of_columns + [text for each in self.constants for text in each.questions]
 
+    @functools.cached_property
+    def _of_name(self) -> dict[str, list[ColumnUse]]:
+        """Each name's entries: a file may have thousands of columns, and each is looked up several times."""
+        found: dict[str, list[ColumnUse]] = {}
+        for use in self.columns:
+            found.setdefault(use.name, []).append(use)
+        return found
+
     def column(self, file: str, name: str, number: int) -> ColumnUse | None:
         """The entry of a file's column."""
-        found = [use for use in self.columns if use.name == name and use.file in ("", file)]
+        found = [use for use in self._of_name.get(name, ()) if use.file in ("", file)]
         return next((use for use in found if use.number == number), found[0] if len(found) == 1 else None)
 
     def constant(self, places: Sequence[str], target: str) -> Constant | None:
@@ -220,10 +229,12 @@ def read(path: Path) -> MappingTable:
 
 
 def _refuse_twice(document: toml.Document, name: str, keys: Sequence[tuple[object, ...]]) -> None:
+    seen: set[tuple[object, ...]] = set()
     for number, key in enumerate(keys):
-        if key in keys[:number]:
+        if key in seen:
             told = " ".join(str(part) for part in key if part)
             raise _bad(document, f"{name}.{number}", f"a second [[{name}]] for {told}", "delete one of the two")
+        seen.add(key)
 
 
 def _tables(content: Mapping[str, object], name: str) -> list[dict[str, object]]:

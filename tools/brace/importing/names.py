@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import re
 import unicodedata
 from dataclasses import dataclass
@@ -102,6 +103,7 @@ class Name:
 _GERMAN = re.compile(r"winkel|gelenk|knie|h\u00fcft|hueft|schenkel|drehung|drehgeber|abtrieb|stellung", re.IGNORECASE)
 
 
+@functools.lru_cache(maxsize=4096)
 def read(name: str, units_row: str = "") -> Name:
     """The name's meanings; its unit from the row of units, else from the name."""
     bare, unit, text = _without_unit(name)

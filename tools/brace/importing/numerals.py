@@ -98,7 +98,7 @@ def number(text: str, decimal: str) -> float:
 
 def clock_s(text: str) -> float:
     """Seconds of a clock time or a date with time, since midnight or since the calendar's beginning; NaN otherwise."""
-    return clocks_s([text])[0]
+    return clocks_s([text])[0] if ":" in text else math.nan
 
 
 def clocks_s(texts: Sequence[str]) -> list[float]:

@@ -13,6 +13,9 @@ from brace.ground.units import meanings_of, unit_of
 from brace.importing import names as names_of, numerals
 from brace.importing.part import Part
 
+ROWS_MOST = 2_000_000  # a test of half an hour at 1 kHz
+COLUMNS_MOST = 16_384  # of Excel
+CELLS_MOST = 20_000_000
 HEADER_MOST = 3  # lines of names and units
 _REMARK = re.compile(r"\s*([^:=\t;]{2,60}?)\s*(?::|=|\t|;)\s*(.{1,200})")
 _NO_UNIT = frozenset(("", "-", "--", "[-]", "(-)", "1", "none", "[]", "n/a"))
@@ -23,6 +26,20 @@ _SUMMARIES = frozenset(
 )
 _TITLE_MOST = 200  # characters
 _TITLES = frozenset(("run", "rep", "config", "axis", "test"))
+
+
+def refuse_large(path: Path, rows: int, columns: int) -> None:
+    """Refuses a file that is no record by its size, before it is read cell by cell."""
+    for count, most, what in (
+        (rows, ROWS_MOST, "rows"), (columns, COLUMNS_MOST, "columns"), (rows * columns, CELLS_MOST, "cells")
+    ):  # fmt: skip
+        if count > most:
+            raise BadFileError(
+                f"{count} {what} in this file",
+                where=str(path),
+                why=f"at most {most} are imported: a record of a limb has fewer",
+                next_step="cut it to the rows and columns of the test, or take every tenth reading",
+            )
 
 
 @dataclass(frozen=True)

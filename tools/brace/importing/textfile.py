@@ -11,11 +11,12 @@ from brace.ground.errors import BadFileError
 from brace.ground.files import DATA_LIMIT_BYTES, read_bytes
 from brace.importing import labview, numerals
 from brace.importing.part import Part
-from brace.importing.table_in_lines import Line, parts, width_of
+from brace.importing.table_in_lines import Line, parts, refuse_large, width_of
 
 WHAT = "table of readings"
 csv.field_size_limit(DATA_LIMIT_BYTES)  # a long line is text, and no reason to end
 HEADER_LINES = 60
+_HEAD_BYTES = 1 << 23
 SAMPLE_LINES = 400
 SEPARATORS = {";": "semicolons", "\t": "tabs", ",": "commas", "|": "bars", " ": "blanks"}
 _MAGIC = (
@@ -40,7 +41,9 @@ _MAGIC = (
 
 def read(path: Path, *, decimal: str = "", separator: str = "") -> list[Part]:
     """The tables of a text file."""
-    text, encoding = _decoded(read_bytes(path, DATA_LIMIT_BYTES, WHAT), path)
+    data = read_bytes(path, DATA_LIMIT_BYTES, WHAT)
+    refuse_large(path, data.count(b"\n") + data.count(b"\r") - data.count(b"\r\n"), _widest(data))
+    text, encoding = _decoded(data, path)
     lines = _whole_lines(re.split(r"\r\n|\n|\r", text))
     start = 0
     if found := re.fullmatch(r"\"?sep=(.)\"?", lines[0].strip("\ufeff ")):
@@ -58,6 +61,12 @@ def read(path: Path, *, decimal: str = "", separator: str = "") -> list[Part]:
         cut = _names_with_blanks(cut)
     how = f"{encoding}, {SEPARATORS.get(chosen, repr(chosen))} between columns"
     return parts(path, cut, decimal=decimal, how=how)
+
+
+def _widest(data: bytes) -> int:
+    """Cells of the longest of the first lines, by the separator that it has most of."""
+    longest = max(re.split(rb"[\r\n]+", data[:_HEAD_BYTES], maxsplit=HEADER_LINES)[:HEADER_LINES], key=len)
+    return max(longest.count(separator.encode()) for separator in SEPARATORS if separator != " ") + 1
 
 
 def cells(line: str, separator: str) -> list[str]:

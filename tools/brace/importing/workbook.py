@@ -6,7 +6,7 @@ import datetime
 import io
 import math
 import zipfile
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from itertools import zip_longest
 from pathlib import Path
 from typing import TypeAlias
@@ -16,9 +16,13 @@ from brace.ground.files import DATA_LIMIT_BYTES, read_bytes
 from brace.importing import numerals
 from brace.importing.numerals import DAY_S
 from brace.importing.part import Part
-from brace.importing.table_in_lines import Line, decimal_sign, parts, width_of
+from brace.importing.table_in_lines import (
+    CELLS_MOST, COLUMNS_MOST, ROWS_MOST, Line, decimal_sign, parts, refuse_large, width_of,
+)  # fmt: skip
 
 WHAT = "workbook"
+UNPACKED_MOST_BYTES = 1 << 29
+_BLOCK_BYTES = 1 << 20
 Row: TypeAlias = tuple[object, ...]
 
 
@@ -86,11 +90,14 @@ def _sheets(path: Path, data: bytes) -> dict[str, list[Row]]:
     import openpyxl
 
     sheets = {}
+    _refuse_large(path, data)
     try:
         book = openpyxl.load_workbook(io.BytesIO(data), read_only=True, data_only=True)
         for sheet in book.worksheets:
             sheet.reset_dimensions()
-            sheets[sheet.title] = list(sheet.iter_rows(values_only=True))
+            sheets[sheet.title] = _rows(path, sheet.iter_rows(values_only=True))
+    except BadFileError:
+        raise
     except Exception as error:  # openpyxl lets through whatever its parsers raise
         raise BadFileError(
             "this workbook cannot be read",
@@ -116,6 +123,44 @@ def _with_formulas(data: bytes, name: str, rows: list[Row]) -> list[Row]:
         )
         for row, formulas in zip(rows, sheet.iter_rows(values_only=True))
     ]
+
+
+def _rows(path: Path, rows: Iterable[Row]) -> list[Row]:
+    """Rows of a sheet. Gaps between the numbers of its rows and cells are filled by openpyxl, whatever they are."""
+    found: list[Row] = []
+    cells = 0
+    for row in rows:
+        found.append(row)
+        cells += len(row)
+        if cells > CELLS_MOST:
+            refuse_large(path, len(found), -(-cells // len(found)))
+        if len(found) > ROWS_MOST or len(row) > COLUMNS_MOST:
+            refuse_large(path, len(found), len(row))
+    return found
+
+
+def _refuse_large(path: Path, data: bytes) -> None:
+    """Counts rows and cells in the packed sheets, which may unpack to a thousand times their size."""
+    with zipfile.ZipFile(io.BytesIO(data)) as archive:
+        for entry in archive.infolist():
+            if entry.file_size > UNPACKED_MOST_BYTES:
+                raise BadFileError(
+                    f"this workbook unpacks to {entry.file_size} bytes ({entry.filename[:80]})",
+                    where=str(path),
+                    why=f"at most {UNPACKED_MOST_BYTES} are read: a record of a limb has fewer",
+                    next_step="save the sheet of the readings alone, or export it as CSV",
+                )
+            if not entry.filename.startswith("xl/worksheets/"):
+                continue
+            rows = cells = 0
+            try:
+                with archive.open(entry) as sheet:
+                    while block := sheet.read(_BLOCK_BYTES):
+                        rows += block.count(b"<row") + block.count(b":row") // 2
+                        cells += block.count(b"<c ") + block.count(b"<c>") + block.count(b":c ") // 2
+                        refuse_large(path, rows, max(1, cells // max(1, rows)))
+            except zipfile.BadZipFile:
+                return  # openpyxl says what is damaged
 
 
 def _has_sheets(data: bytes) -> bool:

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from brace.ground.errors import BadFileError, MissingLibraryError
-from brace.importing.logs import our_frames
+from brace.importing.logs import mcap_records, our_frames
 from brace.importing.logs.collect import Collector
 from brace.importing.logs.dbc import Databases, decode
 from brace.importing.logs.fields import LIST_MOST, numbers
@@ -109,20 +109,23 @@ class _Reading:
         return Log(signals, f"MCAP log{by}", tuple(notes + self._collector.notes()))
 
     def _messages(self) -> list[str]:
-        from mcap.exceptions import EndOfFile, McapError
-        from mcap.reader import NonSeekingReader
+        from mcap.exceptions import RecordLengthLimitExceeded
 
         count = 0
         try:
             with self._path.open("rb") as file:
                 try:
-                    for schema, channel, message in NonSeekingReader(file).iter_messages(log_time_order=False):
+                    for schema, channel, message in mcap_records.messages(self._path, file):
                         try:
                             self._one(schema, channel, message)
                         except _UNREADABLE:
                             self._broken[channel.topic] += 1
                         count += 1
-                except (EndOfFile, McapError, struct.error, ValueError, KeyError, TypeError, AttributeError) as error:
+                except RecordLengthLimitExceeded as error:
+                    raise mcap_records.too_large(self._path, str(error)) from None
+                except BadFileError:
+                    raise
+                except Exception as error:  # the libraries that unpack chunks have classes of their own
                     if count and not file.read(1):
                         return [f"the log ends in the middle of an entry (it was not closed) after {count} messages"]
                     raise BadFileError(
