@@ -11,6 +11,7 @@ from brace.ground.errors import BadFileError
 from brace.ground.files import DATA_LIMIT_BYTES, read_bytes
 from brace.importing import labview, numerals
 from brace.importing.part import Part
+from brace.importing.stamps_in_two import joined
 from brace.importing.table_in_lines import Line, parts, refuse_large, width_of
 
 WHAT = "table of readings"
@@ -60,7 +61,7 @@ def read(path: Path, *, decimal: str = "", separator: str = "") -> list[Part]:
     if chosen == " ":
         cut = _names_with_blanks(cut)
     how = f"{encoding}, {SEPARATORS.get(chosen, repr(chosen))} between columns"
-    return parts(path, cut, decimal=decimal, how=how)
+    return [joined(part) for part in parts(path, cut, decimal=decimal, how=how)]
 
 
 def _widest(data: bytes) -> int:
