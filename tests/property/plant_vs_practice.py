@@ -63,6 +63,10 @@ def model_of(truth: dict[str, Any]) -> Any:
         for name, key in parameters.items():
             if name in applied.get(effect, {}):
                 model[key] = applied[effect][name]
+    if "link_damage" in applied:  # there the link is that of before, and the factor acts from then on
+        factor = applied["link_damage"]["factor"]
+        model["link.tibia.bending_mm_per_n"] *= factor
+        model["change.bending_factor"] = 1.0 / factor
     return model
 
 

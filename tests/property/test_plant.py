@@ -359,14 +359,18 @@ def test_contact_drags_the_tip() -> None:
 
 
 def test_link_changes_at_its_time() -> None:
-    """From at_s on, that row included, the link's bending is multiplied; before, nothing."""
+    """From at_s on, that row included, the link is as the model has it; before, its bending is multiplied. Without a
+    time it never changed."""
     for link in ("femur", "tibia"):
         changed = PAPER | {f"link.{link}.bending_mm_per_n": 2 * PAPER[f"link.{link}.bending_mm_per_n"]}
         model = limb(PAPER | {"change.at_s": 8.0, "change.link": {"femur": 1, "tibia": 2}[link],
                               "change.bending_factor": 2.0})
         f = forces(play(model, *POSE, np.ones(4), 0.0))
-        for row, keys in enumerate((PAPER, PAPER, changed, changed)):
+        for row, keys in enumerate((changed, changed, PAPER, PAPER)):
             np.testing.assert_allclose(f[row], np.linalg.inv(compliance(limb(keys)))[:, 0], rtol=1e-12)
+        never = limb(PAPER | {"change.link": {"femur": 1, "tibia": 2}[link], "change.bending_factor": 2.0})
+        np.testing.assert_array_equal(forces(play(never, *POSE, np.ones(4), 0.0)),
+                                      forces(play(limb(PAPER), *POSE, np.ones(4), 0.0)))
 
 
 def test_sensor_in_its_order() -> None:

@@ -81,8 +81,11 @@ class Unmade(Exception):
 
 
 def _parameters(p: Array) -> dict[str, Any]:
+    """As limb.toml has them: a link that changed is the link of after the record, and the factor is that of before."""
     out: dict[str, Any] = {key: float(p[INDEX[key]]) for key in IN_LIMB_TOML}
     out["change.link"] = LINKS[int(out["change.link"])]
+    out[f"link.{out['change.link']}.bending_mm_per_n"] *= out["change.bending_factor"]
+    out["change.bending_factor"] = 1.0 / out["change.bending_factor"]
     return {key: value for key, value in out.items() if not (isinstance(value, float) and math.isinf(value))}
 
 

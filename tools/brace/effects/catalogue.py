@@ -285,14 +285,20 @@ EFFECTS: tuple[Effect, ...] = (
         LINKS,
         words="a link that changed",
         meaning="the link became softer or stiffer in the middle of the record",
-        law="bending compliance times bending_factor from at_s on",
+        law="bending compliance is today's from at_s on, and times bending_factor before",
         told_by="the limb is one limb before a moment, and another after it",
         numbers=(
             Number("bending_factor", 0.1, between(0.05, 50.0), tried_at(1.05), table="change", still=True),
             Number("at_s", 100.0, change_limits, change_tries, table="change", stepwise=True, still=True),
             Number("link", 1.0, table="change", still=True),
         ),
-        ways=(Way(("bending_factor", "at_s"), lambda where: {"link": LINK_INDEX[where]}),),
+        ways=(
+            Way(
+                ("bending_factor", "at_s"),
+                lambda where: {"link": LINK_INDEX[where]},
+                multiplies={"bending_factor": "bending_mm_per_n"},
+            ),
+        ),
         loading_seen=lambda size, where: len(size.run_starts_s) > 1
         and size.believed[f"{where}.bending_mm_per_n"] > 0.0,
         follows_time=True,

@@ -59,12 +59,15 @@ class Number:
 class Way:
     """One way for an effect to show in a loading record: the numbers that are fitted and those that are set.
     `stands_for` maps a fitted leaf to another that the record tells only in sum with it, and how much of the other
-    makes the same readings. `seen`: whether a record of this size shows more of this way than of those before it."""
+    makes the same readings. `seen`: whether a record of this size shows more of this way than of those before it.
+    `multiplies` maps a leaf to the leaf of the place that changes by it: a fit turns the factor from the change on,
+    over what was believed; limb.toml has what the place is today, and the factor by which it was another one before."""
 
     fitted: tuple[str, ...]
     fixed: Callable[[str], Mapping[str, float]] = lambda where: {}  # leaf to value, by place
     stands_for: Mapping[str, tuple[str, float]] = field(default_factory=dict)
     seen: Callable[[LoadingSize], bool] = lambda size: True
+    multiplies: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)

@@ -25,13 +25,15 @@ class Freedom:
 @dataclass(frozen=True)
 class Variant:
     """One way for an effect to show. `settings` are keys that are set and not fitted. `stands_for` maps a fitted key to
-    another that the record tells only in sum with it, and how much of the other makes the same readings."""
+    another that the record tells only in sum with it, and how much of the other makes the same readings. `multiplies`
+    maps a fitted factor of a change to the key that changes by it."""
 
     effect: str
     where: str
     freedoms: tuple[Freedom, ...]
     settings: Mapping[str, float] = field(default_factory=dict)
     stands_for: Mapping[str, tuple[str, float]] = field(default_factory=dict)
+    multiplies: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def label(self) -> str:
@@ -65,6 +67,7 @@ def _variants(effect: Effect, size: LoadingSize) -> Iterator[Variant]:
                     effect.key(leaf, where): (effect.key(other, where), ratio)
                     for leaf, (other, ratio) in way.stands_for.items()
                 },
+                {effect.key(leaf, where): f"{where}.{changed}" for leaf, changed in way.multiplies.items()},
             )
 
 

@@ -492,17 +492,17 @@ PARAMETERS: tuple[Parameter, ...] = (
     Parameter(
         96, 94, "change.at_s", "slow.change_at_s",
         unit="s", low=-inf, high=inf, default=inf, safe=inf, infinite=True,
-        description="the time at which a link's bending changes",
+        description="the time at which a link's bending changed; inf: it did not change",
     ),
     Parameter(
         97, 95, "change.link", "slow.change_link",
         unit="", low=0, high=2, default="tibia", safe=2, type="u32", texts=("coxa", "femur", "tibia",),
-        description="the link that changes",
+        description="the link that changed",
     ),
     Parameter(
         98, 96, "change.bending_factor", "slow.change_bending_factor",
         unit="", low=0.0, high=1000.0, default=1.0, safe=1.0, open_low=True,
-        description="the factor on that link's bending compliance from then on",
+        description="the factor on that link's bending compliance before then: [link] has today's",
     ),
     Parameter(
         99, 97, "controller.node_id", "controller.node_id",

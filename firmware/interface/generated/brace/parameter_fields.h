@@ -75,11 +75,11 @@ typedef struct {
     float reference_degc;
     /* the full clearance of the tip's ball joint, per axis [mm, 0 to 1000] */
     float contact_play_mm;
-    /* the time at which a link's bending changes [s, -inf to inf] */
+    /* the time at which a link's bending changed; inf: it did not change [s, -inf to inf] */
     float change_at_s;
-    /* the link that changes [0 coxa, 1 femur, 2 tibia] */
+    /* the link that changed [0 coxa, 1 femur, 2 tibia] */
     uint32_t change_link;
-    /* the factor on that link's bending compliance from then on [above 0 to 1000] */
+    /* the factor on that link's bending compliance before then: [link] has today's [above 0 to 1000] */
     float change_bending_factor;
 } brace_slow_effects_t;
 

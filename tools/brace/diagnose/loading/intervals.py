@@ -10,6 +10,7 @@ from brace.identify.information import half_width_90
 from brace.identify.record import Record
 from brace.diagnose.loading.screen import Remover
 from brace.model.keys import KEY_BY_NAME
+from brace.native.plant_batch import number_index
 
 Z_90 = 1.6449
 TIMES_AT_ONCE = 100
@@ -25,6 +26,7 @@ def intervals(record: Record, fitted: Fit, keys: tuple[str, ...]) -> dict[str, I
     weight = np.where(np.isinf(space.sigma), 0.0, fitted.scale / space.sigma)
     normal = fitted.jacobian.T @ fitted.jacobian + np.diag(weight**2)
     inside = (fitted.x > space.low) & (fitted.x < space.high)
+    of_changes = {factor for factor, _ in space.changing}
     found: dict[str, Interval] = {}
     for key in keys:
         place = space.keys.index(key)
@@ -41,6 +43,8 @@ def intervals(record: Record, fitted: Fit, keys: tuple[str, ...]) -> dict[str, I
         low, high = value - width * sigma, value + width * sigma
         entry = KEY_BY_NAME.get(key)  # none for a size of the rig
         least, most = (entry.low, entry.high) if entry else (space.low[place], space.high[place])
+        if entry and number_index()[key] in of_changes:  # limb.toml has how it was before
+            value, low, high = 1.0 / value, 1.0 / high, 1.0 / low if low > 0.0 else np.inf
         found[key] = Interval(value, max(low, least), min(high, most))
     return found
 

@@ -52,7 +52,7 @@ class RivalSpace(Space):
         """The limbs without the rival."""
         models = self.numbers[np.newaxis].repeat(len(points), axis=0)
         models[:, self.places] = points[:, : self.places.size]
-        return models
+        return self.of_today(models)
 
     def models(self, points: np.ndarray) -> np.ndarray:
         """The limbs that read as the limbs with the rival do."""
@@ -347,6 +347,7 @@ def _fitted(
         plain.own + len(way),
         plain.stepwise,
         (*plain.variants, Variant(cause.name, cause.where, tuple(Freedom(s.key, s.low, s.high) for s in way))),
+        plain.changing,
         turn=TURNS[cause.label],
     )
     of_disputed = {key for variant in chosen.space.variants if variant.label in disputed for key in variant.keys}

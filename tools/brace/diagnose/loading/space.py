@@ -48,7 +48,8 @@ def trust_of(believed: LimbModel, *, turns: bool) -> Trust:
 @dataclass(frozen=True)
 class Space:
     """Trusted keys first, then the effects' freedoms (`own` of them). `sigma` is inf where no prior holds; `stepwise`
-    are places of times at which readings jump."""
+    are places of times at which readings jump. `changing` are places among a model's numbers, of a factor from a change
+    on and of what changes by it: the calibration knew that number as it was before the change."""
 
     numbers: np.ndarray
     keys: tuple[str, ...]
@@ -60,6 +61,7 @@ class Space:
     own: int
     stepwise: tuple[int, ...] = ()
     variants: tuple[Variant, ...] = field(default=())
+    changing: tuple[tuple[int, int], ...] = ()
 
     @property
     def size(self) -> int:
@@ -74,6 +76,14 @@ class Space:
         """Points (points x size) to plant models (points x numbers)."""
         models = self.numbers[np.newaxis].repeat(len(points), axis=0)
         models[:, self.places] = points
+        return self.of_today(models)
+
+    def of_today(self, models: np.ndarray) -> np.ndarray:
+        """The models (points x numbers) with what a fit turns of a change in the terms of limb.toml: the limb after the
+        change, and the factor by which it was another one before."""
+        for factor, changed in self.changing:
+            models[:, changed] *= models[:, factor]
+            models[:, factor] = 1.0 / models[:, factor]
         return models
 
     def residuals(self, record: Record, points: np.ndarray) -> np.ndarray:
@@ -89,10 +99,26 @@ def space_of(trust: Trust, variants: Sequence[Variant]) -> Space:
     """The hypothesis that these variants together are what the believed limb lacks. A key that an effect frees has no
     prior any more."""
     index = number_index()
-    numbers = trust.numbers.copy()
+    numbers, mean, sigma, low, high = (values.copy() for values in (
+        trust.numbers, trust.mean, trust.sigma, trust.low, trust.high
+    ))  # fmt: skip
+    changing = tuple(
+        (index[factor], index[changed]) for variant in variants for factor, changed in variant.multiplies.items()
+    )
     for variant in variants:
-        for key, value in variant.settings.items():
-            numbers[index[key]] = value
+        settings = {index[key]: value for key, value in variant.settings.items()}
+        for factor, changed in variant.multiplies.items():
+            if any(numbers[place] != value for place, value in settings.items()):
+                numbers[index[factor]] = 1.0  # another link is believed to have changed
+            before = numbers[index[factor]]
+            numbers[index[changed]] *= before
+            numbers[index[factor]] = 1.0 / before
+            for place in (i for i, key in enumerate(trust.keys) if key == changed):
+                mean[place], sigma[place], low[place], high[place] = (
+                    values[place] * before for values in (trust.mean, trust.sigma, trust.low, trust.high)
+                )
+        for place, value in settings.items():
+            numbers[place] = value
     freed = {freedom.key: freedom for variant in variants for freedom in variant.freedoms}
     kept = [i for i, key in enumerate(trust.keys) if key not in freed]
     keys = (*(trust.keys[i] for i in kept), *freed)
@@ -102,13 +128,14 @@ def space_of(trust: Trust, variants: Sequence[Variant]) -> Space:
         numbers,
         keys,
         places,
-        np.concatenate([trust.mean[kept], [_start(numbers[index[item.key]], item.low, item.high) for item in own]]),
-        np.concatenate([trust.sigma[kept], np.full(len(own), math.inf)]),
-        np.concatenate([trust.low[kept], [item.low for item in own]]),
-        np.concatenate([trust.high[kept], [item.high for item in own]]),
+        np.concatenate([mean[kept], [_start(numbers[index[item.key]], item.low, item.high) for item in own]]),
+        np.concatenate([sigma[kept], np.full(len(own), math.inf)]),
+        np.concatenate([low[kept], [item.low for item in own]]),
+        np.concatenate([high[kept], [item.high for item in own]]),
         len(own),
         tuple(len(kept) + place for place, item in enumerate(own) if item.stepwise),
         tuple(variants),
+        changing,
     )
 
 
