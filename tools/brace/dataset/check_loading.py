@@ -10,7 +10,7 @@ import numpy as np
 
 from brace.dataset import check_clock, check_copies, check_poses, check_readings, check_runs, check_slopes
 from brace.dataset.check_copies import row_keys
-from brace.dataset.check_runs import MAX_LISTED, run_starts
+from brace.dataset.check_runs import MAX_LISTED, in_other_runs, run_starts
 from brace.dataset.columns import ANGLE_LIMIT_RAD, FULL_TURN_RAD
 from brace.dataset.faults import DataFault
 from brace.dataset.meta import Meta
@@ -226,6 +226,8 @@ def _slipped_decimals(columns: Columns, meta: Meta) -> Iterator[DataFault]:
         typical = max(float(np.median(off[~np.isnan(off)])) if not np.isnan(off).all() else 0.0, floor_n)
         large = np.maximum(np.abs(force), np.abs(expected)) > 12 * typical
         for row in np.flatnonzero((off > 12 * typical) & large & (off > _wild_beside(columns, moved, force)))[:200]:
+            if in_other_runs(np.nan_to_num(force - expected), typical, run, columns["axis"], int(row)):
+                continue
             near = max(4 * typical, 0.02 * abs(expected[row]))
             for factor in (0.1, 10.0, 0.01, 100.0):
                 if abs(force[row] * factor - expected[row]) < near and abs(force[row] * factor) > 8 * typical:

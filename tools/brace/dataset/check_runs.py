@@ -29,6 +29,22 @@ def run_starts(run: np.ndarray) -> np.ndarray:
     return np.concatenate([[0], np.flatnonzero(np.diff(run)) + 1, [run.size]])
 
 
+ALIKE, APART = 0.3, 5.0  # of how far a reading stands aside, and of what readings usually do
+
+
+def in_other_runs(aside: np.ndarray, typical: float, run: np.ndarray, axis: np.ndarray, row: int) -> bool:
+    """Whether another run along the same axis stands aside to the same side at the same place of its pass. What comes
+    again is of the limb, as a friction's turn after each reversal is, and no slip of one entry. `aside` is how far each
+    row stands from what is due there, `typical` how far rows usually do."""
+    starts = run_starts(run)[:-1]
+    place = row - int(starts[starts <= row][-1])
+    rows = starts + place
+    rows = rows[rows < run.size]
+    same = (run[rows] == run[rows - place]) & (run[rows] != run[row]) & (axis[rows] == axis[row])
+    least = max(ALIKE * abs(float(aside[row])), APART * typical)
+    return bool(np.any(aside[rows[same]] * np.sign(aside[row]) > least))
+
+
 def span(values: np.ndarray, starts: np.ndarray) -> np.ndarray:
     """Largest less smallest value of each run."""
     return np.asarray(np.maximum.reduceat(values, starts[:-1]) - np.minimum.reduceat(values, starts[:-1]))

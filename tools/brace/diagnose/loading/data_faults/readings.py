@@ -9,7 +9,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from brace.dataset import DataFault
-from brace.dataset.check_runs import MAX_LISTED
+from brace.dataset.check_runs import MAX_LISTED, in_other_runs
 from brace.identify.noise import FORCES
 from brace.diagnose.loading.data_faults.judge import Judge
 
@@ -63,6 +63,8 @@ def _slips(judge: Judge) -> Iterator[DataFault]:
             value, expected = measured[row], measured[row] - aside[row]
             near = max(QUIET * typical, 0.02 * abs(expected))
             if agree[row] > max(QUIET * typical, 0.25 * abs(aside[row])):
+                continue
+            if in_other_runs(aside, typical, run, judge.dataset["axis"], int(row)):
                 continue
             for factor, what in ((-1.0, "its sign is turned"), (10.0, _DECIMAL), (0.1, _DECIMAL), (0.01, _DECIMAL),
                                  (100.0, _DECIMAL)):  # fmt: skip
