@@ -4,8 +4,8 @@
 
 A limb that is off within its calibration's trust and has one effect is loaded by the simulated rig. `brace diagnose`
 names the effect, and K of what it exports is compared with K of the limb of now, at postures all over the workspace. A
-link that changed is, now, simply another link. Encoders behind the gears and a gauge on the base are read, so that no two
-effects leave one trace; what the diagnosis leaves open all the same, and does not export, counts as not nearer."""
+link that changed is, now, simply another link. A gauge on the base is read. What the diagnosis leaves open, as a knee's
+spring and a tibia's bending, and therefore does not export, counts as not nearer."""
 
 from __future__ import annotations
 
@@ -121,10 +121,8 @@ step_mm = 0.6
 steps = 4
 repeats = 2
 [sensor]
-noise_n = 0.05
+noise_n = 0.1
 resolution_n = 0.03125
-encoders = true
-encoder_noise_rad = 2e-5
 base_gauge = true
 base_noise_mm = 0.003
 """
