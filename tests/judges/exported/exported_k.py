@@ -1,4 +1,5 @@
-"""Is K of the exported model nearer to the truth than K of the believed one? Every effect that changes K, on random limbs.
+"""Is K of the exported model nearer to the truth than K of the believed one? Every effect that changes K, on limbs at
+random.
 
     .venv/bin/python tests/judges/exported/exported_k.py [--each 12] [--seed 520317] [--only link_change]
 
@@ -170,8 +171,9 @@ def case(label: str, number: int, seed: int, folder: Path) -> Judged:
     (folder / "found.toml").write_bytes(written.files[MODEL])
     exported = load_limb(folder / "found.toml")
     theta = np.column_stack([rng.uniform(-0.3, 1.7, POSTURES), rng.uniform(0.4, 2.6, POSTURES)])
+    said = f"{found.verdict}: {' + '.join(effect.label for effect in found.effects)}"
     return Judged(
-        label, f"{found.verdict}: {' + '.join(effect.label for effect in found.effects)}", exported.values != believed.values,
+        label, said, exported.values != believed.values,
         _off(believed, truth, theta), _off(exported, truth, theta),
     )  # fmt: skip
 
@@ -211,7 +213,8 @@ def table(judged: list[Judged]) -> tuple[str, bool]:
         some = [one for one in judged if one.label == label]
         near = sum(one.nearer for one in some)
         reached &= near >= WORST * len(some)
-        before, after = (np.median([getattr(one, f"{which}_off") for one in some]) for which in ("believed", "exported"))
+        before = np.median([one.believed_off for one in some])
+        after = np.median([one.exported_off for one in some])
         rows.append(
             f"| {label} | {near} | {len(some)} | {sum(one.exported for one in some)} | {before:.2%} | {after:.2%} |"
         )
