@@ -16,6 +16,7 @@ TYPED = {
     "tests/judges/bench": "tools:tests/judges/bench:tests/property",
     "tests/judges/blind": "tools:tests/judges/blind",
     "tests/judges/engine": "tools:tests/judges/engine:tests/judges/blind",
+    "tests/judges/exported": "tools:tests/judges/exported",
     "tests/judges/foreign": "tools:tests/judges/foreign:tests/judges/blind:tests/judges/engine",
     "tests/property": "tools:tests/property",
     "tests/tools": "tools:tests/tools:tests/tools/diagnose:tests/tools/importing:tests/tools/new:tests/judges/bench",
