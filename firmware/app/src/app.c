@@ -56,6 +56,8 @@ static void take_guard(controller_t *controller)
     controller->memory_is_wrong = false;
 }
 
+enum { CONFIGURE_MODEL = BRACE_LINK_COUNT + 2 };
+
 /* One step of putting parameters in force. What is worked out from the parameters is worked out anew, one part in each
  * step, because all parts together cost more than a tick may. returns whether that was the last part */
 static bool configure_step(controller_t *controller)
@@ -70,14 +72,18 @@ static bool configure_step(controller_t *controller)
     case BRACE_LINK_COUNT:
         tip_force_configure(&controller->tip_force, controller->hal, &parameters->sensor);
         return false;
-    case BRACE_LINK_COUNT + 1:
+    case BRACE_LINK_COUNT + 1: gravity_configure(&controller->gravity, &parameters->gravity); return false;
+    case CONFIGURE_MODEL:
         question_job_forget(&controller->question);
         sigma_job_forget(&controller->sigma);
         softening_start(&controller->softening);
-        model_configure(&controller->model, parameters, is_spatial);
+        model_configure(&controller->model, parameters, is_spatial, MODEL_LOADED);
         return false;
-    case BRACE_LINK_COUNT + 2: gravity_configure(&controller->gravity, &parameters->gravity); return false;
-    case BRACE_LINK_COUNT + 3: take_guard(controller); return false;
+    case CONFIGURE_MODEL + MODEL_PLANAR:
+    case CONFIGURE_MODEL + MODEL_GENERAL:
+        model_configure(&controller->model, parameters, is_spatial, (model_part_t)(part - CONFIGURE_MODEL));
+        return false;
+    case CONFIGURE_MODEL + MODEL_PARTS: take_guard(controller); return false;
     default:
         drift_job_configure(&controller->drift, parameter_job_is_fresh(&controller->parameters));
         controller->parameters.comes_in_force = false;
@@ -264,10 +270,10 @@ static void take_force(const controller_t *controller, brace_snapshot_t *snapsho
     snapshot->force_z_n = tip_n.z;
 }
 
-/* K of these samples. In CONFIGURATION there is none, because the model may be in the making. */
+/* K of these samples. There is none in CONFIGURATION, nor while a set comes into force: the model is in the making. */
 static void take_stiffness(controller_t *controller, brace_snapshot_t *snapshot)
 {
-    if (controller->mode.now == BRACE_MODE_CONFIGURATION) {
+    if (controller->mode.now == BRACE_MODE_CONFIGURATION || controller->parameters.comes_in_force) {
         posture_settle(&controller->posture, NULL);
         stiffness_unknown(snapshot, BRACE_FLAG_STALE);
     } else {

@@ -18,7 +18,7 @@ void setUp(void)
         parameters.drive[i].hardening_n_mm_per_rad3 = hardening[i];
     }
     memset(&model, 0, sizeof model);
-    model_configure(&model, &parameters, false);
+    bench_model(&model, &parameters, false);
     TEST_ASSERT_TRUE(model.springs_change);
 }
 
@@ -81,7 +81,7 @@ static void test_rigid_and_endlessly_soft_springs(void)
     parameters.limb.joint[BRACE_FEMUR].compliance_rad_per_n_mm = 0.0f;
     parameters.limb.joint[BRACE_TIBIA].compliance_rad_per_n_mm = 1.0f;
     parameters.drive[BRACE_TIBIA].hardening_n_mm_per_rad3 = 1e-3f;
-    model_configure(&model, &parameters, false);
+    bench_model(&model, &parameters, false);
     for (int way = -1; way <= 1; way += 2) {
         const float load_n_mm[] = {1000.0f, 1000.0f, (float)way * 1e6f};
         for (int i = 0; i < 10; i++) {
@@ -105,7 +105,7 @@ static void test_k_takes_each_spring_at_its_joint(void)
         other.drive[i].hardening_n_mm_per_rad3 = 0.0f;
     }
     static model_t linear;
-    model_configure(&linear, &other, false);
+    bench_model(&linear, &other, false);
     TEST_ASSERT_TRUE(linear.is_collapsed);
     brace_stiffness_t changing, fixed;
     float across_n_per_mm = 0.0f;
@@ -129,7 +129,7 @@ static void be_soft(bool is_spatial)
         parameters.limb.joint[i].compliance_rad_per_n_mm = 1e-5f * (float)(i + 1);
         parameters.drive[i].hardening_n_mm_per_rad3 = 0.0f;
     }
-    model_configure(&model, &parameters, is_spatial);
+    bench_model(&model, &parameters, is_spatial);
 }
 
 /* The application tells the core's equilibrium by its own conventions: its knee turns with the sense of theta2, the

@@ -42,6 +42,14 @@ static inline brace_parameters_t bench_parameters(void)
     return p;
 }
 
+/* The model of a set, every part of it. */
+static inline void bench_model(model_t *model, const brace_parameters_t *p, bool is_spatial)
+{
+    for (int part = 0; part < MODEL_PARTS; part++) {
+        model_configure(model, p, is_spatial, (model_part_t)part);
+    }
+}
+
 /* Puts a set into the fake's memory, as a controller that was configured long ago would have it. */
 static inline void bench_store(const brace_parameters_t *p)
 {

@@ -55,20 +55,34 @@ static brace_status_t plane_stiffness(const model_loaded_limb_t *limb, const mod
 #endif
 }
 
-void model_configure(model_t *model, const brace_parameters_t *parameters, bool is_spatial)
+static bool springs_change(const brace_parameters_t *parameters)
+{
+    bool change = parameters->slow.joint_compliance_per_degc != 0.0f;
+    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
+        change = change || parameters->drive[i].hardening_n_mm_per_rad3 != 0.0f;
+    }
+    return change;
+}
+
+void model_configure(model_t *model, const brace_parameters_t *parameters, bool is_spatial, model_part_t part)
 {
     const brace_limb_t *limb = &parameters->limb;
-    *model = (model_t){0};
-    model_configure_loaded(model, limb, &parameters->gravity, is_spatial);
-    model->springs_change = parameters->slow.joint_compliance_per_degc != 0.0f;
-    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
-        model->springs_change = model->springs_change || parameters->drive[i].hardening_n_mm_per_rad3 != 0.0f;
-    }
-    if (is_spatial) {
-        (void)brace_spatial_collapse(limb, &model->spatial);
-    } else {
-        model->is_collapsed = !model->springs_change && brace_planar_collapse(limb, &model->planar) == BRACE_OK;
-        brace_general_collapse(limb, &model->general);
+    switch (part) {
+    case MODEL_LOADED:
+        *model = (model_t){.springs_change = springs_change(parameters)};
+        model_configure_loaded(model, limb, &parameters->gravity, is_spatial);
+        break;
+    case MODEL_PLANAR:
+        model->is_collapsed =
+            !is_spatial && !model->springs_change && brace_planar_collapse(limb, &model->planar) == BRACE_OK;
+        break;
+    default:
+        if (is_spatial) {
+            (void)brace_spatial_collapse(limb, &model->spatial);
+        } else {
+            brace_general_collapse(limb, &model->general);
+        }
+        break;
     }
 }
 

@@ -41,10 +41,14 @@ typedef struct {
     float deflection_rad[BRACE_LINK_COUNT]; /* of hardening springs, followed from tick to tick */
 } model_t;
 
-/* Prepares the model when parameters are put in force.
+/* What is prepared of a model, in this order. Each part has its own tick, because they cost the tick most where floats
+ * are computed in software. */
+typedef enum { MODEL_LOADED, MODEL_PLANAR, MODEL_GENERAL, MODEL_PARTS } model_part_t;
+
+/* Prepares one part of the model when parameters are put in force. The model gives no K before its last part is there.
  *   is_spatial: the limb has a coxa joint
- * At most 4,000 instructions. */
-void model_configure(model_t *model, const brace_parameters_t *parameters, bool is_spatial);
+ * At most 2,000 instructions. */
+void model_configure(model_t *model, const brace_parameters_t *parameters, bool is_spatial, model_part_t part);
 
 /* The same for K under a load alone. At most 800 instructions. */
 void model_configure_loaded(model_t *model, const brace_limb_t *limb, const brace_gravity_t *weights, bool is_spatial);

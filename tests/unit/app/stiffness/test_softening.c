@@ -29,7 +29,7 @@ void setUp(void)
 {
     parameters = bench_parameters();
     parameters.limb = sample_limb[SAMPLE_BEAM];
-    model_configure(&model, &parameters, true);
+    bench_model(&model, &parameters, true);
     softening_start(&softening);
     rest_under(1.0f);
 }

@@ -200,7 +200,7 @@ static void test_the_drift_check_s_K(void)
     static model_work_t work;
     brace_parameters_t p = bench_parameters();
     p.slow.joint_compliance_per_degc = 0.01f;
-    model_configure(&model, &p, false);
+    bench_model(&model, &p, false);
     inputs.parameters = &p, inputs.model = &model, inputs.work = &work;
     joints.joint[BRACE_FEMUR].sample.temp_degc = joints.joint[BRACE_TIBIA].sample.temp_degc =
         p.slow.reference_degc + 50.0f;
@@ -228,7 +228,7 @@ static void test_the_drift_check_s_K(void)
         TEST_ASSERT_EQUAL_FLOAT(test.model.k_xx_n_per_mm, test.at_reference.k_xx_n_per_mm);
     }
     p.slow.joint_compliance_per_degc = 0.0f;
-    model_configure(&model, &p, false);
+    bench_model(&model, &p, false);
     test.at_reference.k_xx_n_per_mm = 77.0f;
     TEST_ASSERT_TRUE(reading_model_at_reference(&test, &inputs));
     TEST_ASSERT_EQUAL_FLOAT(77.0f, test.at_reference.k_xx_n_per_mm);
