@@ -244,7 +244,7 @@ def test_a_drift_is_told_in_words() -> None:
     assert "drift: drifted: The limb has changed" in text
     assert "likeliest cause: tibia_link_or_knee_joint: The tibia's bending" in text
     assert "could also be: femur_joint_or_base" in text and "tibia_link_or_knee_joint," not in text
-    assert "evidence 34.2, the alarm is at 20" in text and "stiffness lost 12.5 % +- 1.0 %" in text
+    assert "evidence 34.2, the alarm is at 20" in text and "stiffness lost 12.5 % +- 1.0 % (one sigma)" in text
     assert "began 24 readings ago, of 900" in text and "next: Run a loading test at another posture" in text
     measured = {f"drift_{name}{'_ratio' if name.startswith('loss') else ''}": v for name, v in CHANGED.items()}
     assert drift_of(measured, "drift_", "_ratio") == drift

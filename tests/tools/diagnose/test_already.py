@@ -49,7 +49,7 @@ def test_without_a_model_nothing_was_given(made: Made) -> None:
     dataset, _, found = made
     written = contents(dataset, None, "", replace(found, verdict="none", effects=()))
     page = written.files["report.html"].decode()
-    assert "gap of a spring alone, fitted" in page and "odel as given" not in page
+    assert "A spring alone, fitted, misses" in page and "odel as believed" not in page
     assert "# no model was given: only the tested joint is of the record" in written.files["limb.toml"].decode()
 
 

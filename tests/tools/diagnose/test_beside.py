@@ -91,11 +91,11 @@ def test_the_second_process_plans_and_draws_while_the_first_loads_and_draws(
     loading: list[int] = []
     monkeypatch.setattr(figure, "load", lambda: loading.append(os.getpid()))
     monkeypatch.setattr(outcome, "next_experiment", lambda *_: NextExperiment(str(os.getpid()), (), 1.0, 1.0))
-    for name in ("disagreement", "gap"):
-        monkeypatch.setattr(pictures, name, lambda *_: f"{os.getpid()}")
+    for name in ("disagreement", "misfit"):
+        monkeypatch.setattr(pictures, name, lambda *_: [f"{os.getpid()}"])
     here = str(os.getpid())
     found, written = diagnosed(load(record, paper_limb), Options(processes=2))
     assert found.next_experiment is not None and found.next_experiment.action != here
     assert loading == [os.getpid()]
     drawn = re.findall(r"<div class=\"pic\">(\d+)", written.files["report.html"].decode())
-    assert drawn[0] == here and drawn[-1] != here and len(drawn) == 2, drawn
+    assert drawn[:-1] == [here, here] and drawn[-1] != here and len(drawn) == 3, drawn

@@ -301,12 +301,15 @@ def test_a_lag_is_told_with_what_the_rig_is_said_to_do(tmp_path: Path, limb: Pat
     slowly. No sensor settles before the force comes, so that early forces have no time constant."""
     record = cast(Record, SimpleNamespace(dataset=load_dataset(loading_record(tmp_path / "record", limb))))
     late, early = lag_in_words(record, 1.2, 0.05), lag_in_words(record, -1.2, 0.05)
-    assert late.startswith("the forces are read 1200 ms (+-50) after the displacements if the rig did not wait 4 s")
+    assert late.startswith(
+        "the forces are read 1200 ms (+- 50, one sigma) after the displacements if the rig did not wait 4 s"
+    )
     assert f"settles with a time constant of {4.0 / np.log(4.0 / 1.2):.2g} s" in late
     assert "before the displacements if the rig did not wait 4 s" in early and "settles" not in early
     quick = loading_record(tmp_path / "quick", limb, rig=QUICK)
     record = cast(Record, SimpleNamespace(dataset=load_dataset(quick)))
-    assert lag_in_words(record, 0.05, 0.002).startswith("the forces are read 50 ms (+-2) after the displacements; give")
+    at_once = lag_in_words(record, 0.05, 0.002)
+    assert at_once.startswith("the forces are read 50 ms (+- 2, one sigma) after the displacements; give")
 
 
 @pytest.mark.minutes

@@ -92,7 +92,7 @@ def test_one_file_in_balance_without_scripts_or_anything_from_elsewhere(
 
 
 @pytest.mark.skipif(BROWSER is None, reason="no chromium here")
-@pytest.mark.parametrize("width_px", [800, 1000])
+@pytest.mark.parametrize("width_px", [400, 800, 1000, 1200])
 def test_no_table_is_wider_than_the_page(
     made: tuple[Dataset, LimbModel, Diagnosis], tmp_path: Path, width_px: int
 ) -> None:
@@ -126,7 +126,7 @@ def test_what_it_says_in_order(made: tuple[Dataset, LimbModel, Diagnosis], limb:
         "What was missing",
         "joint.tibia.gap_rad",
         "0.0057 to 0.0065",
-        "The gap before and after",
+        "The misfit before and after",
         "held out, before",
         "held out, after",
         "What stays unexplained",

@@ -63,7 +63,7 @@ class Drift:
             parts.append(f"evidence {self.evidence:.1f}, the alarm is at {ALARM_EVIDENCE:g}")
         if self.loss_ratio is not None:
             way = "stiffness lost" if self.loss_ratio >= 0 else "stiffness gained"
-            sigma = "" if self.loss_sigma_ratio is None else f" +- {100 * self.loss_sigma_ratio:.1f} %"
+            sigma = "" if self.loss_sigma_ratio is None else f" +- {100 * self.loss_sigma_ratio:.1f} % (one sigma)"
             parts.append(f"{way} {100 * abs(self.loss_ratio):.1f} %{sigma}")
         since = f"{MANY_READINGS} or more" if self.since_readings >= MANY_READINGS else str(self.since_readings)
         return [*parts, f"began {since} readings ago, of {self.readings}"]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from brace.diagnose import plain_words as words
 from brace.diagnose.diagnosis import Diagnosis, Interval, NamedEffect
+from brace.diagnose.digits import number
 from brace.model import LimbModel
 from brace.model.keys import KEY_BY_NAME
 
@@ -39,7 +40,7 @@ def sentences(believed: LimbModel | None, found: Diagnosis) -> list[str]:
     return [
         f"The model has {words.effect(effect.name)} at {effect.where} already: the record shows "
         + ", ".join(
-            f"{_compared(held.value, size)} of it, {key} = {words.number(held.value)} and not "
+            f"{_compared(held.value, size)} of it, {key} = {number(held.value)} and not "
             f"{words.value_with_unit(key, size)}"
             for key, (size, held) in sizes.items()
         )

@@ -44,11 +44,12 @@ class NamedEffect:
 @dataclass(frozen=True)
 class Localised:
     """A disagreement said in words ('only when unloading, near zero force'), its family-wise p, its rms size [N]
-    (joint tests: [N mm])."""
+    (joint tests: [N mm]). `share` [0, 1] is what it takes of the misfit beyond those before it; None: not counted."""
 
     where: str
     p: float
     size: float
+    share: float | None = None
 
 
 @dataclass(frozen=True)
@@ -71,10 +72,12 @@ class GapPair:
 
 @dataclass(frozen=True)
 class GapStep:
-    """The gap after one thing more was added to the model."""
+    """The gap after one thing more was added to the model. `pull_sigma`: how far the calibrated numbers of that model
+    are from their calibration, all together; None: not known."""
 
     added: str
     gap: GapPair
+    pull_sigma: float | None = None
 
 
 @dataclass(frozen=True)
@@ -138,6 +141,14 @@ class StiffnessAt:
 
 
 @dataclass(frozen=True)
+class StiffnessChange:
+    """K of the model as believed and as it is exported, at the posture of the record where they differ most."""
+
+    believed: StiffnessAt
+    exported: StiffnessAt
+
+
+@dataclass(frozen=True)
 class Alternative:
     """One of the explanations that the record leaves open: `label` (joined by ' + ' where it takes several effects) as
     `--take` asks for it, its probability, and the K that its limb gives where the explanations differ most in it."""
@@ -193,6 +204,7 @@ class Diagnosis:
     joint: JointSizes | None = None
     held_out: tuple[HeldOut, ...] = ()
     took: str = ""
+    stiffness: StiffnessChange | None = None
 
     @property
     def exit_code(self) -> int:

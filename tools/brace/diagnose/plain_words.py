@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from brace.diagnose.diagnosis import Diagnosis, GapPair, HeldOut, Interval, JointSizes, NamedEffect
+from brace.diagnose.digits import number, unit
 from brace.effects import BY_NAME
 from brace.effects.rivals import RIVAL_BY_NAME, RIVAL_UNITS
 from brace.model.keys import KEY_BY_NAME
@@ -33,7 +34,6 @@ _VERDICTS = {
     "unknown": "Something is missing that has no name here, or the record shows too little",
     "data_fault": "The record itself is faulty",
 }
-_UNITS = {"n": "N", "n_mm": "N mm", "n_per_mm": "N/mm"}
 LEAST_SHARE_OF_LOAD = 1e-3  # friction that grows less with the load is not worth a word
 _ARCMIN = 60.0 * 180.0 / math.pi
 
@@ -41,11 +41,6 @@ _ARCMIN = 60.0 * 180.0 / math.pi
 def verdict(diagnosis: Diagnosis) -> str:
     """The verdict as a headline."""
     return _VERDICTS[diagnosis.verdict]
-
-
-def unit(gap_unit: str) -> str:
-    """`n_mm` as N mm."""
-    return _UNITS.get(gap_unit, gap_unit)
 
 
 def effect(name: str) -> str:
@@ -83,18 +78,6 @@ def named(found: NamedEffect) -> str:
 def key_unit(key: str) -> str:
     """The unit of a key of limb.toml."""
     return KEY_BY_NAME[key].unit if key in KEY_BY_NAME else RIVAL_UNITS.get(key, "")
-
-
-def number(value: float) -> str:
-    """Three or four digits, as a person writes them."""
-    if not math.isfinite(value):
-        return "any" if math.isnan(value) else ("-∞" if value < 0 else "∞")
-    if value == 0.0:
-        return "0"
-    if abs(value) >= 1e4 or abs(value) < 1e-3:
-        mantissa, _, exponent = f"{value:.2e}".partition("e")
-        return f"{mantissa}e{int(exponent)}"
-    return f"{value:.4g}" if abs(value) >= 1000 else f"{value:.3g}"
 
 
 def value_with_unit(key: str, value: float) -> str:
@@ -152,14 +135,3 @@ def held_out(found: HeldOut, gap_unit: str) -> str:
     sizes = f"{number(found.off)} {unit(gap_unit)} (expected {number(found.expected)} {unit(gap_unit)})"
     told = "are predicted to" if found.holds else "are NOT predicted: off by"
     return f"by {found.by}: {found.words} {told} {sizes}"
-
-
-def percent(share: float) -> str:
-    """`97 %`; never 100 % of what is not certain."""
-    if not math.isfinite(share):
-        return "unknown"
-    if 0.995 <= share < 1.0:
-        return "over 99 %"
-    if 0.0 < share < 0.005:
-        return "under 1 %"
-    return f"{100 * share:.0f} %"

@@ -17,6 +17,7 @@ from brace.diagnose.already import sentences
 from brace.diagnose.diagnosis import Diagnosis, GapPair, Interval, NamedEffect
 from brace.diagnose.export import export
 from brace.diagnose.provenance import Provenance, provenance
+from brace.diagnose.stiffness_change import stiffness_change
 from brace.ground import files
 from brace.ground.files import OutputSet, is_unchanged, marked, refuse_written
 from brace.model import LimbModel
@@ -61,6 +62,7 @@ def contents(
         model=exported.model,
         sentence=" ".join([found.sentence, *sentences(believed, found)]),
         notes=(*found.notes, *exported.notes),
+        stiffness=None if believed is None else stiffness_change(dataset, believed, exported.model),
     )
     is_exported = believed is None or exported.model.values != believed.values
     data = as_json(found, origin, is_exported)
@@ -104,7 +106,13 @@ def as_json(found: Diagnosis, origin: Provenance, exported: bool) -> dict[str, A
             {"take": one.label, "probability": one.probability, **asdict(one.k)} for one in found.members
         ],
         "localised": [
-            {"where": spot.where, "p": spot.p, f"size_{unit}": spot.size} for spot in found.localised
+            {
+                "where": spot.where,
+                "p": spot.p,
+                f"size_{unit}": spot.size,
+                **({} if spot.share is None else {"share": spot.share}),
+            }
+            for spot in found.localised
         ],
         "unexplained": left
         and {f"rms_{unit}": left.rms, "structured": bool(left.structured), "description": left.description},
@@ -114,7 +122,14 @@ def as_json(found: Diagnosis, origin: Provenance, exported: bool) -> dict[str, A
             "noise_floor": found.gap.noise_floor,
             "before": _pair(found.gap.before),
             "after": _pair(found.gap.after),
-            "steps": [{"added": step.added, **_pair(step.gap)} for step in found.gap.steps],
+            "steps": [
+                {
+                    "added": step.added,
+                    **_pair(step.gap),
+                    **({} if step.pull_sigma is None else {"pull_sigma": step.pull_sigma}),
+                }
+                for step in found.gap.steps
+            ],
         },
         "held_out": [
             {
@@ -136,6 +151,8 @@ def as_json(found: Diagnosis, origin: Provenance, exported: bool) -> dict[str, A
             "minutes": after.minutes,
             "rig_toml": after.rig_toml,
         },
+        "stiffness": found.stiffness
+        and {"believed": asdict(found.stiffness.believed), "exported": asdict(found.stiffness.exported)},
         "joint": found.joint
         and {
             "parameters": _intervals(found.joint.parameters),

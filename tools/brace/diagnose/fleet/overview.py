@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from brace.diagnose import plain_words as words
+from brace.diagnose.digits import number, unit
 from brace.diagnose.fleet.job import Outcome
 from brace.diagnose.report import html
 from brace.diagnose.report.html import text
@@ -73,7 +74,7 @@ def as_lines(outcomes: Sequence[Outcome]) -> list[str]:
         for line in lines
     ]
     head = (
-        [f"{'limb':{width}}  {'verdict':10}  {'x noise':>8}  {'gap before -> after':28}  first"]
+        [f"{'limb':{width}}  {'verdict':10}  {'x noise':>8}  {'misfit before -> after':28}  first"]
         if shown
         else []
     )
@@ -107,7 +108,7 @@ def page(outcomes: Sequence[Outcome]) -> str:
         ]
         for line in lines
     ]
-    head = ("limb", "verdict", "", "gap in noise floors", "gap before → after", "first", "in words")
+    head = ("limb", "verdict", "", "misfit in noise floors", "misfit before → after", "first", "in words")
     errors = html.table(("dataset", "why"), [[text(o.name), f"<pre>{text(o.error)}</pre>"] for o in broken])
     body = (
         f"<header><h1>Fleet</h1><p class='lead'>{text(_sentence(lines, len(broken)))}</p>"
@@ -153,12 +154,11 @@ def _change(data: Mapping[str, Any]) -> str:
     gap = data["gap"]
     if gap is None:
         return ""
-    unit = words.unit(gap["unit"])
-    return f"{words.number(_end(gap['before']))} -> {words.number(_end(gap['after']))} {unit}"
+    return f"{number(_end(gap['before']))} -> {number(_end(gap['after']))} {unit(gap['unit'])}"
 
 
 def _times(distance: float) -> str:
-    return words.number(distance) if math.isfinite(distance) else "faulty"
+    return number(distance) if math.isfinite(distance) else "faulty"
 
 
 def _link(name: str) -> str:

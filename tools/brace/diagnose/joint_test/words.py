@@ -119,13 +119,13 @@ def sentence(
     if verdict == "effect":
         return (
             f"The joint lacks {listed([effect.name for effect in effects])}; with "
-            f"{'it' if len(effects) == 1 else 'them'} the gap falls from {before:.4g} to {after:.4g} N mm "
+            f"{'it' if len(effects) == 1 else 'them'} the misfit falls from {before:.4g} to {after:.4g} N mm "
             f"(noise {noise:.3g} N mm)."
             + rest
         )
     if verdict == "none":
         return (
-            f"Nothing is missing that this record can show: the gap is {before:.4g} N mm, noise {noise:.3g}"
+            f"Nothing is missing that this record can show: the misfit is {before:.4g} N mm, noise {noise:.3g}"
             " N mm."
         )
     return (

@@ -459,7 +459,7 @@ def _notes(
         alike, all_rows = (max(float(np.std(torque[rows])), 1e-9) for rows in (kept, whole))
         with_limit = float(np.sqrt(np.mean(off[whole] ** 2)))
         notes.append(
-            f"held out: {record.held_words}; the gap there is {gap.after.held_out / alike:.1%} of the"
+            f"held out: {record.held_words}; the misfit there is {gap.after.held_out / alike:.1%} of the"
             f" torque's standard deviation ({alike:.4g} N mm) without rows in which the drive is at its limit or does"
             f" not follow its command, {with_limit / all_rows:.1%} with them ({with_limit:.4g} of {all_rows:.4g} N mm)"
         )

@@ -17,12 +17,15 @@ from brace.diagnose.loading.structure import slopes
 FLIPS = 999
 FAMILY_WISE_P = 0.01
 MOST_NAMED = 6
+LEAST_SHARE = 0.05  # of the squared misfit: less is a trace that the shape of an effect leaves in many contrasts
+NEW = 0.3  # length of a unit contrast beyond those named before; shorter ones say the same in other words
+TIME_OWN = 0.1  # of the time's variance that the postures must leave for time to be named
 AXES = ("x", "z")
 
 
 def localise(record: Record, fitted: Fit, seed: int) -> list[Localised]:
-    """The contrasts that stand out of the noise, strongest first; sizes are rms over the rows that they speak of,
-    in N."""
+    """The contrasts that stand out of the noise, strongest first, each after those before it are taken out: of many
+    that are alike, one is named. Sizes are rms over the rows that they speak of, in N."""
     remover = Remover(fitted)
     names, columns, raw = [], [], []
     for name, shape in _contrasts(record, fitted):
@@ -40,21 +43,35 @@ def localise(record: Record, fitted: Fit, seed: int) -> list[Localised]:
         return []
     basis = np.column_stack(columns)
     left = remover.augmented(fitted.residual[None])[0]
-    seen = np.abs(basis.T @ left)
+    whole = float(left @ left)
     rng = np.random.default_rng([seed, 0x10CA115E])
     signs = rng.integers(0, 2, size=(FLIPS, left.size), dtype=np.int8).astype(np.float32) * 2 - 1
-    noise = np.sort(np.abs(signs @ (basis * left[:, None]).astype(np.float32)).max(axis=1))
     found: list[Localised] = []
-    for place in np.argsort(-seen, kind="stable"):
-        above = FLIPS - int(np.searchsorted(noise, seen[place], side="left"))
-        p = (above + 1) / (FLIPS + 1)
-        if p > FAMILY_WISE_P or len(found) >= MOST_NAMED:
+    while len(found) < MOST_NAMED:
+        seen = np.abs(basis.T @ left)
+        place = int(np.argmax(seen))
+        noise = np.abs(signs @ (basis * left[:, None]).astype(np.float32)).max(axis=1)
+        p = (int(np.count_nonzero(noise >= seen[place])) + 1) / (FLIPS + 1)
+        share = float(seen[place]) ** 2 / whole
+        if p > FAMILY_WISE_P or (found and share < LEAST_SHARE):
             break
+        column = basis[:, place].copy()
         rows = raw[place] != 0.0
-        amount = float(seen[place]) * float(np.linalg.norm(basis[: rows.size, place][rows]))
+        amount = float(seen[place]) * float(np.linalg.norm(column[: rows.size][rows]))
         in_newton = amount / np.sqrt(max(int(rows.sum()), 1)) * record.force_sigma_n
-        found.append(Localised(names[place], p, float(in_newton)))
+        found.append(Localised(names[place], p, float(in_newton), share))
+        left = left - column * float(column @ left)
+        basis = basis - np.outer(column, column @ basis)
+        length = np.linalg.norm(basis, axis=0)
+        basis = np.where(length > NEW, basis / np.maximum(length, NEW), 0.0)  # the rest was said already
     return found
+
+
+def _shows_time(config: np.ndarray, time: np.ndarray) -> bool:
+    """Whether some postures were visited again later: else what changes with time may as well change with posture."""
+    _, place = np.unique(config, return_inverse=True)
+    mean = np.bincount(place, time) / np.bincount(place)
+    return bool(np.var(time - mean[place]) > TIME_OWN * np.var(time))
 
 
 def _contrasts(record: Record, fitted: Fit) -> Iterator[tuple[str, np.ndarray]]:
@@ -69,6 +86,7 @@ def _contrasts(record: Record, fitted: Fit) -> Iterator[tuple[str, np.ndarray]]:
         way[begin:end] = np.sign(np.diff(along[begin:end], prepend=along[begin]))
     time = (data["t_s"] - data["t_s"][0]) / max(float(np.ptp(data["t_s"])), 1e-9)
     rate = slopes(record, fitted, along)
+    clock = "time" if _shows_time(data["config"], time) else "the order of the postures (time and temperature go with it)"
 
     def moved(shape: np.ndarray) -> np.ndarray:
         return np.asarray((rate * shape[None] / record.sigma).ravel())
@@ -92,14 +110,14 @@ def _contrasts(record: Record, fitted: Fit) -> Iterator[tuple[str, np.ndarray]]:
         yield f"along {name}, growing faster than the load", moved(here * s**3)
         yield f"along {name}, alike for both signs of the load", moved(here * np.abs(s))
         yield f"at the largest loads along {name}", moved(here * np.sign(s) * (np.abs(s) > 0.85))
-        yield f"along {name}, in proportion to load and time", moved(here * s * (time - 0.5))
-        if "temp_degc" in data:
+        yield f"along {name}, in proportion to load and {clock}", moved(here * s * (time - 0.5))
+        if "temp_degc" in data and clock == "time":
             yield f"along {name}, in proportion to load and temperature", moved(
                 here * s * (data["temp_degc"] - np.mean(data["temp_degc"]))
             )
     for channel, axis_name in enumerate(AXES):
         yield f"in f{axis_name}, the same at every reading", pushed(channel, np.ones(rows))
-        yield f"in f{axis_name}, growing with time", pushed(channel, time - 0.5)
+        yield f"in f{axis_name}, growing with {clock}", pushed(channel, time - 0.5)
         largest = np.abs(record.measured[channel]) > 0.9 * np.abs(record.measured[channel]).max()
         yield f"in f{axis_name}, at its largest readings", pushed(
             channel, largest * np.sign(record.measured[channel])

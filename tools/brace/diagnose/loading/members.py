@@ -16,10 +16,9 @@ from brace.diagnose.loading import confidence
 from brace.diagnose.loading.choose import LabelSet
 from brace.diagnose.loading.limb_of import limb_of
 from brace.diagnose.loading.rivals import Contest, Member
-from brace.ground.errors import BadFileError
+from brace.diagnose.stiffness_change import apart, k_at, postures
 from brace.identify.record import Record
 from brace.model import LimbModel
-from brace.native.plant import reference_planar
 
 if TYPE_CHECKING:
     from brace.diagnose.loading.search_pass import Pass
@@ -62,8 +61,8 @@ def resolve(record: Record, final: Pass, found: Contest | None, believed: LimbMo
         exported = believed if verdict == "unknown" else chosen if verdict == "effect" else base
         return Resolved(verdict, (), (), exported, None, _nothing_to_take(take))
     limbs = [limb_of(believed, member.model) for member, _ in members]
-    postures = _postures(record)
-    k = np.array([_k(limb, postures) for limb in limbs])  # members x postures x (xx, xz, zz)
+    at_rad = postures(record.dataset)
+    k = np.array([k_at(limb, at_rad) for limb in limbs])  # members x postures x (xx, xz, zz)
     taken = _asked_for([member for member, _ in members], take)
     note = "" if taken is not None or take is None else _nothing_to_take(take)
     off = _apart(k)
@@ -72,7 +71,7 @@ def resolve(record: Record, final: Pass, found: Contest | None, believed: LimbMo
     exported = believed if taken is None else limb_of(believed, taken.model)
     place = int(np.argmax(off))
     alternatives = tuple(
-        Alternative(member.label, sure, StiffnessAt(*(float(angle) for angle in postures[place]), *map(float, values)))
+        Alternative(member.label, sure, StiffnessAt(*(float(angle) for angle in at_rad[place]), *map(float, values)))
         for (member, sure), values in zip(members, k[:, place])
     )
     return Resolved(verdict, tuple(members), alternatives, exported, taken, note)
@@ -97,27 +96,6 @@ def _asked_for(members: Sequence[Member], take: str | None) -> Member | None:
     return named[0] if len(named) == 1 else None
 
 
-def _postures(record: Record) -> np.ndarray:
-    """The commanded angles of the record's configurations, one row each."""
-    data = record.dataset
-    _, first = np.unique(data["config"], return_index=True)
-    return np.column_stack([data["theta1_rad"][first], data["theta2_rad"][first]])
-
-
-def _k(limb: LimbModel, postures: np.ndarray) -> np.ndarray:
-    """K without load [N/mm], postures x (xx, xz, zz); not a number where the limb has none."""
-    angles = [
-        postures[:, place] + limb.number(f"joint.{joint}.zero_offset_rad")
-        for place, joint in enumerate(("femur", "tibia"))
-    ]
-    try:
-        return np.asarray(reference_planar(limb, *angles)[:, :3])
-    except BadFileError:
-        return np.full((len(postures), 3), np.nan)
-
-
 def _apart(k: np.ndarray) -> np.ndarray:
     """By posture, how far the members' K are from the first one's at most; what cannot be said is far."""
-    weight = np.sqrt([1.0, 2.0, 1.0])
-    off = np.linalg.norm((k - k[0]) * weight, axis=2) / np.linalg.norm(k[0] * weight, axis=1)
-    return np.asarray(np.nan_to_num(off, nan=np.inf).max(axis=0))
+    return np.asarray(np.nan_to_num(apart(k, k[0]), nan=np.inf).max(axis=0))

@@ -12,6 +12,7 @@ import numpy as np
 from brace.diagnose.already import already
 from brace.diagnose.beside import beside
 from brace.diagnose.diagnosis import (
+    Alternative,
     Candidate,
     Diagnosis,
     Gap,
@@ -42,6 +43,7 @@ from brace.identify.noise import FORCES
 from brace.identify.record import NOT_MEASURED, Record, rms_force_n
 from brace.diagnose.loading.rivals import Contest, Member, contests
 from brace.diagnose.loading.structure import STRUCTURED_P
+from brace.diagnose.loading.within_trust import allowed_sigma, pull_sigma, within_trust
 from brace.diagnose.loading.verdict import NOTHING_STANDS
 from brace.diagnose.options import Options
 from brace.model import LimbModel
@@ -125,7 +127,7 @@ def _all_but_next(
         effects=(*effects, *late),
         indistinguishable=_classes(final, alike, contested),
         could_be=_could_be(final, effects),
-        members=resolved.alternatives,
+        members=_as_named(resolved.alternatives, effects),
         took=resolved.taken.label if resolved.taken is not None and options.take and not resolved.note else "",
         localised=_localised(record, final, options),
         held_out=held,
@@ -148,7 +150,24 @@ def _all_but_next(
             *([resolved.note] if resolved.note else []),
         ),
         seed=options.seed,
-        details={**_details(record, final, agreed), "refitted": _refitted(whole, believed, final)},
+        details={
+            **_details(record, final, agreed),
+            "refitted": _refitted(whole, believed, final),
+            "refit_pull_sigma": pull_sigma(judged.base.fit),
+            "pull_sigma": pull_sigma(after),
+            "allowed_sigma": allowed_sigma(final.base.fit.space),
+        },
+    )
+
+
+def _as_named(members: Sequence[Alternative], effects: Sequence[NamedEffect]) -> tuple[Alternative, ...]:
+    """One probability for one thing: an explanation of named effects is no surer than its least sure name."""
+    sure = {effect.label: effect.confidence for effect in effects}
+    return tuple(
+        replace(one, probability=min(sure[label] for label in one.label.split(" + ")))
+        if all(label in sure for label in one.label.split(" + "))
+        else one
+        for one in members
     )
 
 
@@ -270,7 +289,14 @@ def _pair(record: Record, numbers: np.ndarray, locked: np.ndarray) -> GapPair:
 def _gap(whole: Record, record: Record, locked: np.ndarray, believed: LimbModel, judged: Pass) -> Gap:
     """Models chosen and fitted without the locked rows, measured on them and on the rest."""
     before = _pair(record, model_numbers(believed), locked)
-    steps = [GapStep("what calibration leaves open, refitted", _pair(record, judged.base.fit.model, locked))]
+    refitted = judged.base.fit
+    steps = []
+    trusted = within_trust(judged.record, refitted)
+    if trusted is not None:
+        allowed = allowed_sigma(refitted.space)
+        steps.append(GapStep("refitted as far as the calibration allows", _pair(record, trusted, locked), allowed))
+    words = f"refitted {'within' if trusted is None else 'beyond'} the calibration's trust"
+    steps.append(GapStep(words, _pair(record, refitted.model, locked), pull_sigma(refitted)))
     decision = judged.decision
     last = judged.base.fit
     if decision.verdict in ("effect", "ambiguous"):
@@ -280,7 +306,7 @@ def _gap(whole: Record, record: Record, locked: np.ndarray, believed: LimbModel,
             matching = [item for item in judged.sets if item.labels == some]
             if matching:
                 last = matching[0].best.fit
-                steps.append(GapStep(ordered[count - 1], _pair(record, last.model, locked)))
+                steps.append(GapStep(ordered[count - 1], _pair(record, last.model, locked), pull_sigma(last)))
     return Gap("n", record.force_sigma_n, before, _pair(record, last.model, locked), tuple(steps))
 
 
@@ -432,7 +458,7 @@ def _sentence(
         either = f"{', '.join(names[:-1])} and {names[-1]}"
         return f"Something is missing that this record cannot tell between {either}; {held}"
     names = [f"{_surely(effect)}{effect.name.replace('_', ' ')} at {effect.where}" for effect in effects]
-    closes = "they close" if len(names) > 1 else "it closes"
+    explains = "they explain" if len(names) > 1 else "it explains"
     if max(effect.confidence for effect in effects) < LIKELIER_THAN_NOT:
         but = (
             "so few readings do not show it"
@@ -444,8 +470,8 @@ def _sentence(
             "the nearest added; do not rely on it before another record says so."
         )
     if all(already(believed, effect) for effect in effects):
-        return f"Of another size than in the model: {' and '.join(names)}. With that size, {closes} the gap."
-    return f"Missing: {' and '.join(names)}. Added to the model, {closes} the gap."
+        return f"Of another size than in the model: {' and '.join(names)}. With that size, {explains} the misfit."
+    return f"Missing: {' and '.join(names)}. Added to the model, {explains} the misfit."
 
 
 def _surely(effect: NamedEffect) -> str:
@@ -505,11 +531,11 @@ def _notes(
                 "show is not told by this record"
             )
     if twin is None:
-        notes.append("too few configurations to lock one away: no held-out gap")
+        notes.append("too few configurations to lock one away: no held-out misfit")
     elif twin.decision.chosen.labels != final.decision.chosen.labels:
         notes.append(
-            f"without the held-out configurations the choice is {twin.decision.chosen.label}; the gaps are that "
-            "choice's"
+            f"without the held-out configurations the choice is {twin.decision.chosen.label}; the misfits are "
+            "that choice's"
         )
     if final.decision.chosen.labels and agreed.held_out_nats is not None and agreed.held_out_nats < LOST_NATS:
         notes.append("the configurations that were held out do not gain from what was chosen without them")

@@ -31,19 +31,22 @@ def section(title: str, *parts: str) -> str:
 
 
 def table(head: Sequence[str], rows: Iterable[Sequence[str]], numeric: Sequence[int] = ()) -> str:
-    """Cells are HTML already; columns `numeric` are set right."""
+    """Cells are HTML already; columns `numeric` are set right. On a narrow page a row is a block in which every cell
+    has its head before it."""
 
-    def line(cells: Sequence[str], tag: str) -> str:
-        return "".join(
-            f'<{tag} class="n">{cell}</{tag}>' if index in numeric else f"<{tag}>{cell}</{tag}>"
-            for index, cell in enumerate(cells)
-        )
+    def cell(index: int, inside: str) -> str:
+        label = f' data-head="{text(head[index])}"' if head[index] else ""
+        kind = ' class="n"' if index in numeric else ""
+        return f"<td{kind}{label}>{inside}</td>" if inside else f"<td{kind}></td>"
 
-    body = "\n".join(f"<tr>{line(row, 'td')}</tr>" for row in rows)
+    body = "\n".join(f"<tr>{''.join(cell(index, inside) for index, inside in enumerate(row))}</tr>" for row in rows)
     if not body:
         return ""
-    top = line([text(cell) for cell in head], "th")
-    return f'<div class="wide"><table>\n<tr>{top}</tr>\n{body}\n</table></div>'
+    top = "".join(
+        f'<th class="n">{text(words)}</th>' if index in numeric else f"<th>{text(words)}</th>"
+        for index, words in enumerate(head)
+    )
+    return f'<div class="wide"><table>\n<tr class="head">{top}</tr>\n{body}\n</table></div>'
 
 
 def bullets(items: Iterable[str]) -> str:
@@ -57,14 +60,26 @@ def tile(big: str, small: str) -> str:
     return f'<div class="tile"><b>{text(big)}</b><span>{text(small)}</span></div>'
 
 
-def bar(share: float) -> str:
-    """A bar of `share` [0, 1] of its column."""
-    return f'<span class="bar" style="width:{100 * min(max(share, 0.0), 1.0):.1f}px"></span>'
+def answer(question: str, short: str, more: str, is_wide: bool = False) -> str:
+    """A question that everybody has, with its answer."""
+    kind = "tile wide-tile" if is_wide else "tile"
+    return f'<div class="{kind}"><i>{text(question)}</i><b>{text(short)}</b><span>{text(more)}</span></div>'
 
 
-def picture(svg: str, words: str) -> str:
-    """Inline SVG with what it shows."""
-    return f'<div class="pic">{svg}</div>\n<p class="small">{text(words)}</p>'
+def bar(share: float, kind: str = "") -> str:
+    """A bar of `share` [0, 1] of its column; `kind` "beyond": of a model that nobody believes."""
+    return f'<span class="bar {kind}" style="width:{100 * min(max(share, 0.0), 1.0):.1f}px"></span>'
+
+
+def pictures(svgs: Sequence[str], words: str) -> str:
+    """Inline SVGs beside each other where there is room, with what they show."""
+    inside = "".join(f'<div class="pic">{one}</div>' for one in svgs)
+    return f'<div class="pics of{min(len(svgs), 3) if len(svgs) % 2 else 2}">{inside}</div>\n' + paragraph(words, "small")
+
+
+def details(summary: str, inside: str) -> str:
+    """What is read only by who asks for it."""
+    return f"<details><summary>{text(summary)}</summary>{inside}</details>"
 
 
 def document(title: str, body: str) -> str:

@@ -1,402 +1,210 @@
-"""The page of one diagnosis, from the sentence down to the hashes."""
+"""report.html of one diagnosis, from the sentence down to the hashes. What it says stands in `facts`, how it looks in
+`html` and `pictures`; here is only the order."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from brace.dataset import Dataset
-from brace.diagnose import plain_words as words
-from brace.diagnose.already import only_sizes
 from brace.diagnose.beside import beside
-from brace.diagnose.diagnosis import Diagnosis, NamedEffect
-from brace.diagnose.export import changed
+from brace.diagnose.diagnosis import Diagnosis
+from brace.diagnose.provenance import Provenance
 from brace.diagnose.report import html
+from brace.diagnose.report.facts import Facts, Parameter, facts
 from brace.diagnose.report.html import text
-from brace.diagnose.report.views import View, view
 from brace.model import LimbModel
 
-if TYPE_CHECKING:
-    from brace.diagnose.provenance import Provenance
-
-MOST_FAULTS, MOST_CANDIDATES = 60, 14
-MOST_SURE = 0.999  # of what is told from a number of played tests
+BAND = "Grey band: two noise floors either side."
 
 
 def page(
     dataset: Dataset, believed: LimbModel | None, found: Diagnosis, origin: Provenance, processes: int = 1
 ) -> str:
     """report.html. A second process draws some of the pictures, where `processes` has one."""
-    seen = view(dataset, found)
-    faulty = found.verdict == "data_fault"
-
-    def gap() -> str:
-        return _gap(believed, found, seen)
-
-    with beside(gap, gap, processes if found.gap is not None else 1) as closed:
-        where, how_far = _where(believed, found, seen), closed()
+    said = facts(dataset, believed, found, origin)
+    with beside(lambda: _compared(said), lambda: _compared(said), processes if said.view is not None else 1) as drawn:
+        above, compared = _disagreement(said), drawn()
+    faulty = said.verdict == "data_fault"
     parts = [
-        _top(believed, found, origin),
-        _faults(found) if faulty else "",
-        where,
-        _missing(believed, found),
-        how_far,
-        _unexplained(found),
-        _apart(found),
-        _next(found),
-        "" if faulty else _faults(found),
-        _candidates(found),
-        html.section("Notes", html.bullets(found.notes)),
-        _origin(found, origin),
+        _top(said),
+        _faults(said) if faulty else "",
+        above,
+        _missing(said),
+        compared,
+        html.section("What stays unexplained", *(html.paragraph(one) for one in said.unexplained)),
+        _apart(said),
+        _next(said),
+        "" if faulty else _faults(said),
+        _candidates(said),
+        html.section("Notes", html.bullets(said.notes)),
+        _origin(said),
     ]
-    headline = _headline(believed, found)
-    return html.document(f"{origin.name}: {headline}", "\n".join(part for part in parts if part))
+    return html.document(f"{said.record}: {said.headline}", "\n".join(part for part in parts if part))
 
 
-def _headline(believed: LimbModel | None, found: Diagnosis) -> str:
-    if found.verdict == "effect" and only_sizes(believed, found):
-        return "What the model has is of another size in the record, and it has a name"
-    return words.verdict(found)
-
-
-def _not_held_out(found: Diagnosis) -> str:
-    """Parts of the record may be predicted from its rest all the same."""
-    return "no configuration or test could be held out" if found.held_out else "nothing could be held out"
-
-
-def _before(believed: LimbModel | None) -> str:
-    """What the record is compared with first."""
-    return "the model as given" if believed is not None else "a spring alone, fitted"
-
-
-def _top(believed: LimbModel | None, found: Diagnosis, origin: Provenance) -> str:
-    limb = f"limb “{believed.name}”" if believed is not None else "no model given: a spring alone"
-    tiles = []
-    if found.effects and found.verdict in ("effect", "ambiguous"):
-        first = found.effects[0]
-        tiles.append(html.tile(words.percent(first.confidence), f"sure that it is {words.named(first)}"))
-    if found.gap is not None:
-        gap, unit = found.gap, words.unit(found.gap.unit)
-        held = gap.before.held_out is not None and gap.after.held_out is not None
-        ends = (gap.before.held_out, gap.after.held_out) if held else (gap.before.fitted, gap.after.fitted)
-        where = "on what took no part" if held else f"on what was fitted; {_not_held_out(found)}"
-        if found.verdict in ("effect", "ambiguous", "unknown"):
-            arrow = f"{words.number(ends[0] or 0.0)} → {words.number(ends[1] or 0.0)} {unit}"
-            tiles.append(html.tile(arrow, f"gap before and after, {where}"))
-        else:
-            tiles.append(
-                html.tile(f"{words.number(ends[0] or 0.0)} {unit}", f"gap of {_before(believed)}, {where}")
-            )
-        tiles.append(
-            html.tile(
-                f"{words.number(gap.noise_floor)} {unit}", "noise floor: what the readings’ noise leaves of any model"
-            )
-        )
-    inside = f'<div class="tiles">{"".join(tiles)}</div>' if tiles else ""
+def _top(said: Facts) -> str:
+    *short, to_do = said.answers
+    answers = "".join(html.answer(one.question, one.short, one.more) for one in short)
+    answers += html.answer(to_do.question, to_do.short, to_do.more, is_wide=True)
     return (
-        f'<header style="--accent:var(--{found.verdict})">\n<h1>{text(origin.name)} · {text(limb)}</h1>\n'
-        f'<span class="badge">{text(_headline(believed, found))}</span>\n'
-        f'<p class="lead">{text(found.sentence)}</p>\n{inside}\n</header>'
+        f'<header style="--accent:var(--{said.verdict})">\n<h1>{text(said.record)} · {text(said.limb)}</h1>\n'
+        f'<span class="badge">{text(said.headline)}</span>\n<p class="lead">{text(said.sentence)}</p>\n'
+        f'<div class="tiles">{answers}</div>\n{html.paragraph(said.misfit, "small") if said.misfit else ""}\n</header>'
     )
 
 
-def _where(believed: LimbModel | None, found: Diagnosis, seen: View | None) -> str:
-    rows = [
-        [text(spot.where), f"{words.number(spot.size)} {text(_unit(found))}", text(_chance(spot.p))]
-        for spot in found.localised
-    ]
-    table = html.table(("where", "size (rms)", "by chance"), rows, numeric=(1, 2))
-    lead = (
-        "Contrasts over the record, each tested by shuffling; 'by chance' is for all of them together."
-        if rows
-        else "No contrast over load, direction, configuration, order, time or temperature stands out."
-    )
-    drawn = ""
-    if seen is not None and found.gap is not None:
-        from brace.diagnose.report import pictures
-
-        whose = (
-            _capital(_before(believed))
-            if seen.refitted is None
-            else "The model refitted within its calibration’s trust"
-        )
-        shown = f"{whose}. Lines: means of neighbouring readings. Grey band: two noise floors either side."
-        drawn = html.picture(pictures.disagreement(seen, found.gap), shown)
-    if found.gap is None and not rows:
-        return ""
-    return html.section("Where they disagreed", html.paragraph(lead), table, drawn)
-
-
-def _missing(believed: LimbModel | None, found: Diagnosis) -> str:
-    if not found.effects:
-        return html.section("What was refitted", _base(believed, found))
-    rows = []
-    for effect in found.effects:
-        for index, (key, held) in enumerate(effect.parameters.items()):
-            rows.append(
-                [
-                    _named(effect) if index == 0 else "",
-                    html.code(key),
-                    text(words.value_with_unit(key, held.value)),
-                    text(words.interval(held)),
-                    text(
-                        words.number(believed.number(key))
-                        if believed is not None and _is_number(believed, key)
-                        else "–"
-                    ),
-                ]
-            )
-        if not effect.parameters:
-            rows.append([_named(effect), "", "", "", ""])
-    head = ("effect", "key of limb.toml", "value", "90 % interval", "before")
-    title = "What it could be"
-    if found.verdict == "effect":
-        title = "What is of another size" if only_sizes(believed, found) else "What was missing"
-    meanings = [
-        f"{words.effect(effect.name)[0].upper()}{words.effect(effect.name)[1:]}: "
-        f"{words.meaning(effect.name)}."
-        for index, effect in enumerate(found.effects)
-        if words.meaning(effect.name) and effect.name not in {before.name for before in found.effects[:index]}
-    ]
-    return html.section(
-        title,
-        *(html.paragraph(meaning) for meaning in meanings),
-        html.table(head, rows, numeric=(2, 3, 4)),
-        _base(believed, found),
-    )
-
-
-def _named(effect: NamedEffect) -> str:
-    sure = f"{words.percent(effect.confidence)} sure, {words.percent(effect.gap_share)} of what was closed"
-    return (
-        f"<b>{text(words.named(effect))}</b><br>{html.code(effect.label)}"
-        f'<br><span class="small">{text(sure)}</span>'
-    )
-
-
-def _is_number(model: LimbModel | None, key: str) -> bool:
-    return model is not None and isinstance(model.values.get(key), (int, float))
-
-
-def _base(believed: LimbModel | None, found: Diagnosis) -> str:
-    """What was refitted besides, within the calibration's trust."""
-    if believed is None:
-        return ""
-    named = {key for effect in found.effects for key in effect.parameters}
-    rows = [
-        [
-            html.code(key),
-            text(_shown(believed, key)),
-            text(_shown(found.model, key)),
-            text(words.key_unit(key)),
-        ]
-        for key in changed(believed, found.model)
-        if key not in named
-    ]
-    if not rows:
-        return ""
-    inside = html.table(("key", "before", "after", "unit"), rows, numeric=(1, 2))
-    count = f"{len(rows)} value{'s' if len(rows) > 1 else ''}"
-    summary = f"<summary>{count} refitted besides, within the calibration’s trust</summary>"
-    return f"<details>{summary}{inside}</details>"
-
-
-def _shown(model: LimbModel, key: str) -> str:
-    value = model.values[key]
-    return f"{value:.5g}" if isinstance(value, float) else str(value)
-
-
-def _gap(believed: LimbModel | None, found: Diagnosis, seen: View | None) -> str:
-    if found.gap is None:
+def _disagreement(said: Facts) -> str:
+    """The believed model first, then what refitting its calibrated numbers leaves of it."""
+    if not said.believed_words:
         return ""
     from brace.diagnose.report import pictures
 
-    parts = []
-    if seen is not None:
-        if seen.kind != "stiffness_table":
-            parts.append(
-                html.picture(pictures.loops(seen), f"The runs where {_before(believed)} was furthest off.")
-            )
-        parts.append(
-            html.picture(
-                pictures.gap(seen, found.gap),
-                "Every reading in the record’s order, on the same axes; grey: two noise floors. "
-                "What was held out took no part in choosing or fitting.",
-            )
+    parts = [html.paragraph(said.believed_words)]
+    if said.view is not None:
+        shown = f"{said.view.given[:1].upper()}{said.view.given[1:]}. Lines: means of neighbouring readings. {BAND}"
+        parts.append(html.pictures(pictures.disagreement(said.view, said.view.before, "believed"), shown))
+    parts += [html.paragraph(words) for words in (said.refit_words, said.spots_words) if words]
+    rows = [[text(one.where), text(one.size), text(one.share)] for one in said.spots]
+    has_shares = any(one.share for one in said.spots)
+    head = ("where", "size (rms)", "share of this misfit")[: 3 if has_shares else 2]
+    parts.append(html.table(head, [row[: len(head)] for row in rows], numeric=(1, 2)))
+    if said.view is not None and said.view.refitted is not None:
+        shown = f"The same model with its calibrated numbers refitted and nothing added. {BAND}"
+        parts.append(html.pictures(pictures.disagreement(said.view, said.view.refitted, "refitted"), shown))
+    return html.section("Where they disagreed", *parts)
+
+
+def _missing(said: Facts) -> str:
+    head = ("effect", "key of limb.toml", "believed", "found", "90 % interval")
+    parts = [html.paragraph(one) for one in said.meanings]
+    parts.append(html.table(head, [_parameter(one) for one in said.parameters], numeric=(2, 3, 4)))
+    if said.k_lines:
+        sure = any(one.sure for one in said.k_lines)
+        k_head = ["model", *(["probability"] if sure else []), "K xx [N/mm]", "K xz [N/mm]", "K zz [N/mm]"]
+        rows = [
+            [html.code(one.model) if sure else text(one.model), *([text(one.sure)] if sure else []), *map(text, one.k)]
+            for one in said.k_lines
+        ]
+        parts.append(html.paragraph(said.k_words) + html.table(k_head, rows, numeric=range(1, len(k_head))))
+    if said.refitted:
+        inside = html.table(
+            ("key", "believed", "found", "unit"),
+            [[html.code(key), text(before), text(after), text(unit)] for key, before, after, unit in said.refitted],
+            numeric=(1, 2),
         )
-    parts.append(
-        html.picture(pictures.steps(found.gap, _before(believed)), "The gap after each thing that was added.")
+        parts.append(html.details(said.refitted_words, inside))
+    return html.section(said.missing_title, *parts)
+
+
+def _parameter(one: Parameter) -> list[str]:
+    named = (
+        f'<b>{text(one.effect)}</b><br>{html.code(one.label)}<br><span class="small">{text(one.sure)}</span>'
+        if one.effect
+        else ""
     )
-    if found.held_out:
-        lead = "The model fitted to the rest of the record predicts the part that was held out:"
-        items = [words.held_out(part, found.gap.unit) for part in found.held_out]
-        parts.append(html.paragraph(lead) + html.bullets(items))
-    if found.gap.after.held_out is None:
-        parts.append(
-            html.paragraph(f"{_capital(_not_held_out(found))}, so the gap after is one of fitting only.", "small")
-        )
-    return html.section("The gap before and after", *parts)
+    key = html.code(one.key) if one.key else ""
+    return [named, key, text(one.believed), text(one.found), text(one.interval)]
 
 
-def _unexplained(found: Diagnosis) -> str:
-    left = found.unexplained
-    if left is None:
+def _compared(said: Facts) -> str:
+    """The misfit of each model, and the believed one beside the one that was found."""
+    if not said.steps:
         return ""
-    size = f"{words.number(left.rms)} {_unit(found)}"
-    lead = (
-        f"{size} (rms) is left, and it has structure: it is not noise alone. It is not exported as physics."
-        if left.structured
-        else f"{size} (rms) is left, without structure: as far as this record can tell, it is noise."
-    )
-    return html.section(
-        "What stays unexplained", html.paragraph(lead), html.paragraph(_capital(left.description))
-    )
+    from brace.diagnose.report import pictures
+
+    held = any(one.held_out for one in said.steps)
+    has_pull = any(one.pull for one in said.steps)
+    head = ["model", "fitted", *(["held out"] if held else []), *(["from its calibration"] if has_pull else [])]
+    rows = []
+    for one in said.steps:
+        kind = "beyond" if one.is_beyond else ""
+        row = [text(one.model), f"{html.bar(one.fitted_share, kind)} {text(one.fitted)}"]
+        row += [f"{html.bar(one.held_out_share, kind)} {text(one.held_out)}"] if held else []
+        rows.append(row + ([text(one.pull)] if has_pull else []))
+    hatched = " Hatched: a model that its calibration does not allow." if any(one.is_beyond for one in said.steps) else ""
+    parts = [
+        html.table(head, rows, numeric=[len(head) - 1] if has_pull else []),
+        html.paragraph(f"{said.misfit} Each model was fitted without what was held out.{hatched}", "small"),
+    ]
+    if said.view is not None:
+        if said.view.kind != "stiffness_table":
+            shown = f"The runs where {said.view.given} was furthest off."
+            parts.append(html.pictures(pictures.loops(said.view), shown))
+        shown = (
+            f"Every reading in the record’s order, on the same axes. {BAND} What was held out took no part in choosing "
+            "or fitting."
+        )
+        parts.append(html.pictures(pictures.misfit(said.view), shown))
+    if said.held_out:
+        lead = "The model fitted to the rest of the record predicts the part that was held out:"
+        parts.append(html.paragraph(lead) + html.bullets(said.held_out))
+    if said.not_held_out:
+        parts.append(html.paragraph(said.not_held_out, "small"))
+    return html.section("The misfit before and after", *parts)
 
 
-def _apart(found: Diagnosis) -> str:
+def _apart(said: Facts) -> str:
     parts = [
         '<div class="class"><p>'
-        + " <b>or</b> ".join(f"{text(words.label(member))} {html.code(member)}" for member in members)
+        + " <b>or</b> ".join(f"{text(words)} {html.code(label)}" for words, label in members)
         + "</p></div>"
-        for members in found.indistinguishable
+        for members in said.classes
     ]
     if parts:
         parts.insert(
             0, html.paragraph("In this record these leave nearly the same trace. How likely each is stands above.")
         )
-    if found.members:
-        parts.append(_members(found))
-    rest = [label for label in found.could_be if label not in {m for c in found.indistinguishable for m in c}]
-    if rest:
-        parts.append(
-            html.paragraph("It could also be: " + "; ".join(words.label(label) for label in rest) + ".")
-        )
+    if said.could_be:
+        parts.append(html.paragraph(said.could_be))
     return html.section("What cannot be told apart", *parts)
 
 
-def _members(found: Diagnosis) -> str:
-    """What each explanation would mean for K."""
-    at = found.members[0].k
-    head = ("explanation", "probability", "K xx", "K xz", "K zz [N/mm]")
-    rows = [
-        [
-            html.code(one.label),
-            text(words.percent(one.probability)),
-            *(text(words.number(k)) for k in (one.k.k_xx_n_per_mm, one.k.k_xz_n_per_mm, one.k.k_zz_n_per_mm)),
-        ]
-        for one in found.members
-    ]
-    return html.paragraph(
-        f"K without load at theta1 {at.theta1_rad:.3f}, theta2 {at.theta2_rad:.3f} rad, where they differ most:"
-    ) + html.table(head, rows, numeric=(1, 2, 3, 4))
-
-
-def _next(found: Diagnosis) -> str:
-    after = found.next_experiment
-    if after is None:
-        return ""
-    parts = [html.paragraph(_capital(after.action))]
-    if after.separates:
-        labels = [words.label(label) for label in after.separates]
-        parts.append(
-            html.paragraph(
-                f"It would tell apart: {'; '.join(labels)}. It would succeed with a probability of "
-                f"{words.percent(min(after.power, MOST_SURE))} and takes about {words.number(after.minutes)} minutes."
-            )
-        )
-    if after.rig_toml:
+def _next(said: Facts) -> str:
+    parts = [html.paragraph(one) for one in said.next_words]
+    if said.rig_toml:
         parts.append(
             html.paragraph(
                 "As a rig file (one click selects it all); save it as rig.toml, then "
                 "brace simulate --model limb.toml --rig rig.toml --out DIR plays it, as the rig does."
             )
         )
-        parts.append(f"<pre>{text(after.rig_toml)}</pre>")
+        parts.append(f"<pre>{text(said.rig_toml)}</pre>")
     return html.section("What to measure next", *parts)
 
 
-def _faults(found: Diagnosis) -> str:
-    rows = [
-        [
-            text("all" if fault.row is None else fault.row),
-            html.code(fault.field),
-            text(fault.why),
-            text("" if fault.suggestion is None else fault.suggestion),
-        ]
-        for fault in found.data_faults[:MOST_FAULTS]
-    ]
-    more = len(found.data_faults) - MOST_FAULTS
-    rest = html.paragraph(f"and {more} more, in diagnosis.json") if more > 0 else ""
-    return html.section(
-        "Faults of the record", html.table(("row", "field", "why", "it should probably be"), rows), rest
-    )
+def _faults(said: Facts) -> str:
+    rows = [[text(row), html.code(field), text(why), text(better)] for row, field, why, better in said.faults]
+    rest = html.paragraph(f"and {said.more_faults} more, in diagnosis.json") if said.more_faults else ""
+    table = html.table(("row", "field", "why", "it should probably be"), rows)
+    return html.section("Faults of the record", table, rest)
 
 
-def _candidates(found: Diagnosis) -> str:
-    if not found.candidates:
+def _candidates(said: Facts) -> str:
+    if not said.candidates:
         return ""
-    best = max(max(tried.gain for tried in found.candidates), 1e-12)
     rows = [
         [
-            (
-                f"{text(words.label(tried.label))}<br>{html.code(tried.label)}"
-                if "@" in tried.label
-                else text(tried.label)
-            ),
-            f"{html.bar(tried.gain / best)}",
-            text(words.number(tried.gain)),
-            text(words.percent(tried.posterior)),
+            f"{text(one.words)}<br>{html.code(one.label)}" if one.label else text(one.words),
+            text(one.less_likely),
+            html.bar(one.gain_share),
+            text(one.gain),
         ]
-        for tried in found.candidates[:MOST_CANDIDATES]
+        for one in said.candidates
     ]
     lead = (
-        "Each was fitted to the whole sequence. Gain: twice the log-likelihood won over the refitted model "
-        "without "
-        "it. A larger model is not a better one; the share of belief weighs that."
+        "Each was fitted to the whole sequence; the likeliest first. Gain: twice the log-likelihood won over the "
+        "refitted model without it. A larger model is not a better one: how likely it is counts its freedoms, too."
     )
-    more = len(found.candidates) - MOST_CANDIDATES
-    rest = html.paragraph(f"and {more} more, in diagnosis.json", "small") if more > 0 else ""
-    return html.section(
-        "What was tried",
-        html.paragraph(lead),
-        html.table(("candidate", "", "gain", "share of belief"), rows, numeric=(2, 3)),
-        rest,
-    )
+    rest = html.paragraph(f"and {said.more_candidates} more, in diagnosis.json", "small") if said.more_candidates else ""
+    head = ("candidate", "less likely than the first", "", "gain")
+    return html.section("What was tried", html.paragraph(lead), html.table(head, rows, numeric=(1, 3)), rest)
 
 
-def _origin(found: Diagnosis, origin: Provenance) -> str:
+def _origin(said: Facts) -> str:
     rows = [
-        ["record", text(f"{origin.name}: {origin.kind.replace('_', ' ')}, {origin.rows} rows")],
         [
-            "data sha256",
-            f"<code class='hash'>{origin.data_sha256}</code> <span class='small'>(meta.toml, then "
-            "data.csv)</span>",
-        ],
+            text(what),
+            f"<code class='hash'>{text(value)}</code> <span class='small'>{text(words)}</span>" if words else text(value),
+        ]
+        for what, value, words in said.origin
     ]
-    if origin.model_sha256:
-        rows.append(
-            [
-                "model sha256",
-                f"<code class='hash'>{origin.model_sha256}</code> <span class='small'>(as believed)</span>",
-            ]
-        )
-    rows.append(["seed", str(found.seed)])
-    rows.append(["versions", text(", ".join(f"{name} {value}" for name, value in origin.versions.items()))])
-    return html.section(
-        "Made from",
-        html.table(("", ""), rows),
-        html.paragraph(
-            "The same data, model, seed and versions give this page again, byte for byte.", "small"
-        ),
-    )
-
-
-def _capital(words_: str) -> str:
-    return words_[:1].upper() + words_[1:]
-
-
-def _unit(found: Diagnosis) -> str:
-    return words.unit(found.gap.unit) if found.gap else ""
-
-
-def _chance(p: float) -> str:
-    return f"p = {p:.1g}" if p >= 1e-4 else "p < 0.0001"
+    again = "The same data, model, seed and versions give this page again, byte for byte."
+    return html.section("Made from", html.table(("", ""), rows), html.paragraph(again, "small"))

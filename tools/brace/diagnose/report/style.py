@@ -19,7 +19,8 @@ p{margin:6px 0 10px;max-width:78ch}
 padding:2px 12px;font-size:.85rem;margin-bottom:6px}
 .tiles{display:flex;flex-wrap:wrap;gap:12px;margin-top:14px}
 .tile{flex:1 1 190px;background:var(--wash);border-radius:8px;padding:10px 14px}
-.tile b{display:block;font-size:1.3rem;line-height:1.3}
+.wide-tile{flex-basis:100%}.tile i{display:block;font-style:normal;color:var(--soft);font-size:.88rem}
+.tile b{overflow-wrap:anywhere;display:block;font-size:1.3rem;line-height:1.3}
 .tile span,.small{color:var(--soft);font-size:.88rem}
 table{border-collapse:collapse;width:100%;font-size:.93rem;margin:8px 0 4px}
 th,td{text-align:left;padding:6px 10px 6px 0;border-bottom:1px solid var(--line);vertical-align:top}
@@ -37,13 +38,19 @@ pre{background:var(--wash);border:1px solid var(--line);border-radius:8px;paddin
 user-select:all;-webkit-user-select:all;max-height:340px}
 .class{border-left:4px solid var(--ambiguous);padding:2px 0 2px 14px;margin:10px 0}
 .bar{display:inline-block;height:.7em;background:#2d6a8e;border-radius:2px;min-width:1px}
+.bar.beyond{background:repeating-linear-gradient(45deg,#c8553d 0 3px,#f0c9c0 3px 6px)}.bar.floor{background:#b8c0c8}
+.pics{display:grid;gap:6px 14px}.pics.of2{grid-template-columns:repeat(auto-fit,minmax(min(100%,400px),1fr))}
+.pics.of1,.pics.of3{grid-template-columns:repeat(auto-fit,minmax(min(100%,280px),1fr))}
 .dot{display:inline-block;width:.7em;height:.7em;border-radius:50%;background:var(--accent);margin-right:7px}
 ul{margin:4px 0 10px;padding-left:22px}
 a{color:#2d6a8e}
 footer{color:var(--soft);font-size:.85rem;padding:4px 26px}
 details summary{cursor:pointer;color:var(--soft)}
-@media(max-width:600px){header,section{padding:16px}.lead{font-size:1.2rem}.pic{overflow-x:auto}
-.pic svg{min-width:640px}}
+@media(max-width:600px){main{padding:10px 8px 40px}header,section{padding:14px 12px}.lead{font-size:1.15rem}
+tr.head{display:none}tr{display:block;border-bottom:1px solid var(--line);padding:6px 0}
+td,td.n{display:block;border:0;padding:1px 0;text-align:left;white-space:normal;overflow-wrap:anywhere}
+td:empty{display:none}td[data-head]::before{content:attr(data-head) ": ";color:var(--soft)}
+td code{overflow-wrap:anywhere}}
 @media print{body{background:#fff}header,section{border:0;padding:8px 0;break-inside:avoid}
 pre{max-height:none}}
 """

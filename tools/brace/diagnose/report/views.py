@@ -1,20 +1,22 @@
-"""The residuals of a record as the pictures need them: one signed gap a row, against load, branch, place and
-time."""
+"""The residuals of a record as the pictures need them: one signed misfit a row, against load, branch, place and
+time. Pictures know no diagnosis: all they draw stands here."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from brace.dataset import Dataset
 from brace.diagnose.diagnosis import Diagnosis
+from brace.diagnose.digits import unit
 
 
 @dataclass(frozen=True)
 class View:
-    """One entry a row. `before` and `after` are measured less model along the loaded direction [gap's unit];
-    `refitted` is the same with only what calibration leaves open refitted, None where that is not told;
+    """One entry a row. `before` and `after` are measured less model along the loaded direction [`unit`], of the model
+    as believed and as found; `refitted` is the same with only the calibrated numbers refitted, None where nothing was;
     `imposed` and `measured` are the axes of the test; `branch` is +1 loading, -1 unloading, 0 neither;
     `group` numbers configurations or tests, `run` what is drawn as one loop."""
 
@@ -29,12 +31,12 @@ class View:
     run: np.ndarray
     time_s: np.ndarray
     names: tuple[str, str, str]  # of imposed, measured, group; with units
+    unit: str
+    noise_floor: float
+    rms_before: tuple[float, float | None]  # fitted, held out; over all channels
+    rms_after: tuple[float, float | None]
+    given: str = ""  # what the model is called that was there before; set by `view`
     refitted: np.ndarray | None = None
-
-    @property
-    def localised(self) -> np.ndarray:
-        """What is shown of where they disagree."""
-        return self.before if self.refitted is None else self.refitted
 
     @property
     def believed(self) -> np.ndarray:
@@ -49,19 +51,17 @@ class View:
         return predicted
 
 
-def view(dataset: Dataset, found: Diagnosis) -> View | None:
+def view(dataset: Dataset, found: Diagnosis, given: str) -> View | None:
     """None where the diagnosis has no residuals, or none that can be laid beside the record's rows."""
     residuals = found.residuals
-    if residuals is None or not len(residuals.before):
+    if residuals is None or found.gap is None or not len(residuals.before):
         return None
     rows = np.asarray(found.details.get("rows", np.arange(dataset.rows)), dtype=int)
     if len(rows) != len(residuals.before) or (len(rows) and (rows.min() < 0 or rows.max() >= dataset.rows)):
         return None
-    if dataset.kind == "loading":
-        return _loading(dataset, found, rows)
-    if dataset.kind == "joint_test":
-        return _joint(dataset, found, rows)
-    return _table(dataset, found, rows)
+    kinds: Mapping[str, Callable[[Dataset, Diagnosis, np.ndarray], View | None]] = {"loading": _loading, "joint_test": _joint}
+    seen = kinds.get(dataset.kind, _table)(dataset, found, rows)
+    return None if seen is None else replace(seen, given=given)
 
 
 def _loading(dataset: Dataset, found: Diagnosis, rows: np.ndarray) -> View | None:
@@ -90,7 +90,8 @@ def _loading(dataset: Dataset, found: Diagnosis, rows: np.ndarray) -> View | Non
         run,
         dataset["t_s"][rows].astype(float),
         names,
-        refitted[every, channel] if refitted is not None and len(refitted) == len(read) else None,
+        *_scale(found),
+        refitted=refitted[every, channel] if refitted is not None and len(refitted) == len(read) else None,
     )
 
 
@@ -112,6 +113,7 @@ def _joint(dataset: Dataset, found: Diagnosis, rows: np.ndarray) -> View:
         test,
         dataset["t_s"][rows].astype(float),
         names,
+        *_scale(found),
     )
 
 
@@ -139,7 +141,16 @@ def _table(dataset: Dataset, found: Diagnosis, rows: np.ndarray) -> View | None:
         zero,
         np.full(len(zero), np.nan),
         names,
+        *_scale(found),
     )
+
+
+def _scale(found: Diagnosis) -> tuple[str, float, tuple[float, float | None], tuple[float, float | None]]:
+    """Unit, noise floor, and the sizes that the diagnosis counts."""
+    gap = found.gap
+    assert gap is not None
+    before, after = ((pair.fitted, pair.held_out) for pair in (gap.before, gap.after))
+    return unit(gap.unit), gap.noise_floor, before, after
 
 
 def _branch(load: np.ndarray, run: np.ndarray, over: int = 1) -> np.ndarray:

@@ -37,7 +37,7 @@ def lag_in_words(record: Record, lag_s: float, sigma_s: float) -> str:
     """What happened and what to do. `lag_s` is below zero where forces are early; `sigma_s` is one sigma of it."""
     side = "after" if lag_s >= 0.0 else "before"
     digits = 0 if sigma_s >= 1e-3 else 2
-    size = f"{1e3 * abs(lag_s):.{digits}f} ms (+-{1e3 * sigma_s:.{digits}f}) {side} the displacements"
+    size = f"{1e3 * abs(lag_s):.{digits}f} ms (+- {1e3 * sigma_s:.{digits}f}, one sigma) {side} the displacements"
     waits = ""
     if (wait_s := _wait_s(record)) > QUICKEST_WAIT_S:
         settles = settling_s(record, lag_s)

@@ -1,0 +1,35 @@
+"""Numbers, shares and units as a person writes them."""
+
+from __future__ import annotations
+
+import math
+
+_UNITS = {"n": "N", "n_mm": "N mm", "n_per_mm": "N/mm"}
+
+
+def unit(gap_unit: str) -> str:
+    """`n_mm` as N mm."""
+    return _UNITS.get(gap_unit, gap_unit)
+
+
+def number(value: float) -> str:
+    """Three or four digits, as a person writes them."""
+    if not math.isfinite(value):
+        return "any" if math.isnan(value) else ("-∞" if value < 0 else "∞")
+    if value == 0.0:
+        return "0"
+    if abs(value) >= 1e4 or abs(value) < 1e-3:
+        mantissa, _, exponent = f"{value:.2e}".partition("e")
+        return f"{mantissa}e{int(exponent)}"
+    return f"{value:.4g}" if abs(value) >= 1000 else f"{value:.3g}"
+
+
+def percent(share: float) -> str:
+    """`97 %`; never 100 % of what is not certain."""
+    if not math.isfinite(share):
+        return "unknown"
+    if 0.995 <= share < 1.0:
+        return "over 99 %"
+    if 0.0 < share < 0.005:
+        return "under 1 %"
+    return f"{100 * share:.0f} %"

@@ -1,0 +1,514 @@
+"""What the report says of one finished diagnosis, as data: every number with its words, in the page's order. Made once;
+the page only sets it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from brace.dataset import Dataset
+from brace.diagnose import plain_words as words
+from brace.diagnose.already import only_sizes
+from brace.diagnose.diagnosis import Diagnosis, Gap, GapPair, NamedEffect, StiffnessAt
+from brace.diagnose.digits import number, percent, unit
+from brace.diagnose.export import changed
+from brace.diagnose.provenance import Provenance
+from brace.diagnose.report.views import View, view
+from brace.model import LimbModel
+
+MOST_FAULTS, MOST_CANDIDATES = 60, 14
+MOST_SURE = 0.999  # of what a number of played tests says
+SAME_K = 0.01  # relative, Frobenius: as where the members of a class are said to give one K
+JOINTS = ("joint.coxa", "joint.femur", "joint.tibia")
+MOST_TIMES = 1000.0  # beyond that a candidate is only called far less likely
+
+
+@dataclass(frozen=True)
+class Answer:
+    """One of the four questions of the first screen."""
+
+    question: str
+    short: str
+    more: str
+
+
+@dataclass(frozen=True)
+class Spot:
+    """A contrast that stands out."""
+
+    where: str
+    size: str
+    share: str
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A line of the effects' table; `effect`, `label` and `sure` are empty but in an effect's first."""
+
+    effect: str
+    label: str
+    sure: str
+    key: str
+    believed: str
+    found: str
+    interval: str
+
+
+@dataclass(frozen=True)
+class KLine:
+    """K of one model."""
+
+    model: str
+    sure: str
+    k: tuple[str, str, str]
+
+
+@dataclass(frozen=True)
+class Step:
+    """The misfit with one model; shares are of the largest. `is_beyond`: the calibration does not allow the model."""
+
+    model: str
+    fitted: str
+    fitted_share: float
+    held_out: str
+    held_out_share: float
+    pull: str
+    is_beyond: bool
+
+
+@dataclass(frozen=True)
+class Tried:
+    """A candidate beside the likeliest."""
+
+    words: str
+    label: str
+    gain: str
+    gain_share: float
+    less_likely: str
+
+
+@dataclass(frozen=True)
+class Facts:
+    """The record of one page, from top to bottom. Empty texts and lists say that there is nothing of the kind."""
+
+    record: str
+    limb: str
+    verdict: str
+    headline: str
+    sentence: str
+    answers: tuple[Answer, ...]
+    misfit: str
+    faults: tuple[tuple[str, str, str, str], ...]  # row, field, why, suggestion
+    more_faults: int
+    view: View | None
+    believed_words: str
+    refit_words: str
+    spots_words: str
+    spots: tuple[Spot, ...]
+    missing_title: str
+    meanings: tuple[str, ...]
+    parameters: tuple[Parameter, ...]
+    k_words: str
+    k_lines: tuple[KLine, ...]
+    steps: tuple[Step, ...]
+    refitted: tuple[tuple[str, str, str, str], ...]  # key, before, after, unit
+    refitted_words: str
+    held_out: tuple[str, ...]
+    not_held_out: str
+    unexplained: tuple[str, ...]
+    classes: tuple[tuple[tuple[str, str], ...], ...]  # words and label of each member
+    could_be: str
+    next_words: tuple[str, ...]
+    rig_toml: str
+    candidates: tuple[Tried, ...]
+    more_candidates: int
+    notes: tuple[str, ...]
+    origin: tuple[tuple[str, str, str], ...]  # what, value, words behind it
+
+
+def facts(dataset: Dataset, believed: LimbModel | None, found: Diagnosis, origin: Provenance) -> Facts:
+    """From the diagnosis to its words, once."""
+    given = "the model as believed" if believed is not None else "a spring alone, fitted"
+    k_words, k_lines = _k(found)
+    refitted = _refitted(believed, found)
+    classes = tuple(tuple((words.label(one), one) for one in members) for members in found.indistinguishable)
+    tried = sorted(found.candidates, key=lambda one: (-one.posterior, -one.gain))
+    faults = tuple(
+        (
+            "all" if fault.row is None else str(fault.row),
+            fault.field,
+            fault.why,
+            "" if fault.suggestion is None else str(fault.suggestion),
+        )
+        for fault in found.data_faults
+    )
+    return Facts(
+        record=origin.name,
+        limb=f"limb “{believed.name}”" if believed is not None else "no model given: a spring alone",
+        verdict=found.verdict,
+        headline=_headline(believed, found),
+        sentence=found.sentence,
+        answers=(_missing(believed, found), _sure(found), _becomes(believed, found), _to_do(believed, found)),
+        misfit=_misfit(found, given),
+        faults=faults[:MOST_FAULTS],
+        more_faults=max(0, len(faults) - MOST_FAULTS),
+        view=view(dataset, found, given),
+        believed_words=f"{_capital(given)}{'' if believed is not None else ','} misses the record by {_both(found.gap.before, found.gap)}."
+        if found.gap is not None
+        else "",
+        refit_words=_refit(found),
+        spots_words=_spots(found),
+        spots=tuple(
+            Spot(
+                spot.where,
+                f"{number(spot.size)} {_unit(found)}",
+                "" if spot.share is None else percent(spot.share),
+            )
+            for spot in sorted(found.localised, key=lambda one: -(one.share or 0.0))
+        ),
+        missing_title=_missing_title(believed, found),
+        meanings=_meanings(found),
+        parameters=tuple(line for effect in found.effects for line in _parameters(believed, effect)),
+        k_words=k_words,
+        k_lines=k_lines,
+        steps=_steps(found, given),
+        refitted=refitted,
+        refitted_words=_refitted_words(found, len(refitted)) if refitted else "",
+        held_out=tuple(words.held_out(part, found.gap.unit) for part in found.held_out) if found.gap else (),
+        not_held_out=f"{_capital(_not_held_out(found))}, so the misfit of the model as found is one of fitting only."
+        if found.gap is not None and found.gap.after.held_out is None
+        else "",
+        unexplained=_unexplained(found),
+        classes=classes,
+        could_be=_could_be(found),
+        next_words=_next(found),
+        rig_toml=found.next_experiment.rig_toml if found.next_experiment is not None else "",
+        candidates=_candidates([(one.label, one.gain, one.posterior) for one in tried]),
+        more_candidates=max(0, len(tried) - MOST_CANDIDATES),
+        notes=found.notes,
+        origin=_origin(found, origin),
+    )
+
+
+def _headline(believed: LimbModel | None, found: Diagnosis) -> str:
+    if found.verdict == "effect" and only_sizes(believed, found):
+        return "What the model has is of another size in the record, and it has a name"
+    return words.verdict(found)
+
+
+def _missing(believed: LimbModel | None, found: Diagnosis) -> Answer:
+    question = "What is missing"
+    if found.verdict == "none":
+        return Answer(question, "Nothing", "that this record can show")
+    if found.verdict == "data_fault":
+        count = len(found.data_faults)
+        first = found.data_faults[0] if count else None
+        place = "" if first is None else f"first: {'' if first.row is None else f'row {first.row}, '}{first.field}"
+        return Answer("What is wrong", f"{count} fault{'s' if count != 1 else ''} of the record", place)
+    if not found.effects:
+        return Answer(question, "Something without a name here", "no effect of the catalogue explains it")
+    if found.verdict == "effect" and only_sizes(believed, found):
+        question = "What is of another size"
+    between = " or " if found.verdict == "ambiguous" else " and "
+    shown = [
+        f"{key} = {words.value_with_unit(key, held.value)}"
+        for effect in found.effects
+        for key, held in effect.parameters.items()
+    ]
+    return Answer(question, between.join(words.named(effect) for effect in found.effects), "; ".join(shown[:2]))
+
+
+def _sure(found: Diagnosis) -> Answer:
+    question = "How sure"
+    if found.effects and found.verdict in ("effect", "ambiguous"):
+        if len(found.effects) == 1:
+            return Answer(question, percent(found.effects[0].confidence), "probability that this name is the right one")
+        each = "; ".join(f"{percent(one.confidence)} {words.effect(one.name)}" for one in found.effects)
+        kind = "what is left is the others’" if found.verdict == "ambiguous" else "each by itself"
+        return Answer(question, each, f"probability that a name is right; {kind}")
+    if found.gap is None:
+        return Answer(question, "–", "no misfit was counted")
+    times = _end(found.gap.before) / max(found.gap.noise_floor, 1e-12)
+    left = f"the believed model misses the record by {number(times)} noise floors"
+    if found.verdict == "none":
+        return Answer(question, "Within the noise", f"{left}, with what its calibration leaves open")
+    if found.verdict == "data_fault":
+        return Answer(question, "The rows are listed below", left)
+    return Answer(question, "That it is none of the catalogue", left)
+
+
+def _becomes(believed: LimbModel | None, found: Diagnosis) -> Answer:
+    question = "What K becomes"
+    if found.joint is not None:
+        return Answer(question, "By the joint below", "; ".join(words.joint_sizes(found.joint)))
+    changes = believed is None or bool(changed(believed, found.model))
+    if not changes:
+        why = {"none": "nothing is missing", "ambiguous": "the explanations below give different K"}
+        return Answer(question, "As believed", f"limb.toml is unchanged: {why.get(found.verdict, 'nothing was added')}")
+    if found.stiffness is None:
+        return Answer(question, "See limb.toml", "this record names no angles at which K could be compared")
+    before, after = found.stiffness.believed, found.stiffness.exported
+    size = _off(before, after)
+    plays = [joint for joint in JOINTS if found.model.number(f"{joint}.gap_rad") > 0.0]
+    play = f"; while the play of {' and '.join(plays)} is open, K is not valid (flag GAP_OPEN)" if plays else ""
+    at = f"without load at theta1 {before.theta1_rad:.3f}, theta2 {before.theta2_rad:.3f} rad"
+    if size < SAME_K:
+        taken_up = "with the play taken up, " if plays else ""
+        return Answer(question, "As believed, within 1 %", f"{taken_up}at every posture of the record{play}")
+    shown = f"{', '.join(_entries(before))} → {', '.join(_entries(after))} N/mm"
+    return Answer(question, shown, f"xx, xz, zz {at}, where it changes most ({percent(size)}){play}")
+
+
+def _to_do(believed: LimbModel | None, found: Diagnosis) -> Answer:
+    question = "What to do next"
+    after = found.next_experiment
+    measure = "" if after is None else f"{_capital(after.action)}."
+    if found.verdict == "none":
+        return Answer(question, "Go on with the model", "limb.toml has its numbers as this record refits them")
+    if found.verdict == "data_fault":
+        return Answer(question, "Mend the record", "correct the faults listed below, or measure again, then diagnose anew")
+    if found.verdict == "unknown":
+        return Answer(question, "Measure again", measure or "with smaller steps, where it shows most")
+    if found.verdict == "ambiguous" and believed is not None and not changed(believed, found.model):
+        return Answer(question, "Measure what tells them apart", measure)
+    done = "limb.toml has it: brace params push limb.toml --bus URL"
+    return Answer(question, "Use limb.toml", f"{done}. To be surer: {measure[:1].lower()}{measure[1:]}" if measure else done)
+
+
+def _misfit(found: Diagnosis, given: str) -> str:
+    """Before and after in one line."""
+    gap = found.gap
+    if gap is None:
+        return ""
+    on = "on what took no part" if gap.after.held_out is not None else f"on what was fitted; {_not_held_out(found)}"
+    ends = f"{number(_end(gap.before))} {unit(gap.unit)} of {given}"
+    if found.verdict in ("effect", "ambiguous", "unknown"):
+        ends += f" → {number(_end(gap.after))} {unit(gap.unit)} of the model as found"
+    return f"Misfit (rms of measured less model) {on}: {ends}. Noise floor: {number(gap.noise_floor)} {unit(gap.unit)}."
+
+
+def _refit(found: Diagnosis) -> str:
+    """How far the record pulls the calibrated numbers where nothing is added."""
+    pull, allowed = found.details.get("refit_pull_sigma"), found.details.get("allowed_sigma")
+    if not isinstance(pull, float) or not isinstance(allowed, float):
+        return ""
+    if pull <= allowed:
+        return (
+            f"The numbers that the calibration leaves open are then refitted: {pull:.1f} sigma from their calibration "
+            f"all together, where {allowed:.1f} sigma are allowed. What follows is of that refitted model."
+        )
+    return (
+        f"Refitting the calibrated numbers alone would pull them {pull:.0f} sigma away from their calibration, where "
+        f"{allowed:.1f} sigma are allowed: such a model is not believed, it only takes out of the misfit what could "
+        "look like a calibration error. What follows is of that refitted model."
+    )
+
+
+def _spots(found: Diagnosis) -> str:
+    of = "Of the refitted model: " if found.details.get("refit_pull_sigma") is not None else ""
+    if found.localised:
+        where = "where" if of else "Where"
+        return (
+            f"{of}{where} the misfit stands out of the noise, each place after those above it are taken out. Chance "
+            "would show any of these in fewer than 5 of 100 records."
+        )
+    hidden = found.verdict not in ("none", "data_fault") and of
+    return f"{of}{'no' if of else 'No'} contrast over load, direction, configuration, order, time or temperature stands out" + (
+        "; what is missing has gone into the numbers that were pulled." if hidden else "."
+    )
+
+
+def _missing_title(believed: LimbModel | None, found: Diagnosis) -> str:
+    if not found.effects:
+        return "What was refitted"
+    if found.verdict == "effect":
+        return "What is of another size" if only_sizes(believed, found) else "What was missing"
+    return "What it could be"
+
+
+def _meanings(found: Diagnosis) -> tuple[str, ...]:
+    names = dict.fromkeys(effect.name for effect in found.effects)
+    return tuple(f"{_capital(words.effect(name))}: {words.meaning(name)}." for name in names if words.meaning(name))
+
+
+def _parameters(believed: LimbModel | None, effect: NamedEffect) -> list[Parameter]:
+    heads = (words.named(effect), effect.label, f"{percent(effect.confidence)} sure")
+    lines: list[Parameter] = []
+    for key, held in effect.parameters.items():
+        number_of = believed is not None and isinstance(believed.values.get(key), (int, float))
+        was = number(believed.number(key)) if believed is not None and number_of else "–"
+        value = words.value_with_unit(key, held.value)
+        lines.append(Parameter(*(heads if not lines else ("", "", "")), key, was, value, words.interval(held)))
+    return lines or [Parameter(*heads, "", "", "", "")]
+
+
+def _k(found: Diagnosis) -> tuple[str, tuple[KLine, ...]]:
+    """K of each explanation, or of the model before and after."""
+    if found.members:
+        members = sorted(found.members, key=lambda one: -one.probability)
+        at = members[0].k
+        lines = [KLine(one.label, percent(one.probability), _entries(one.k)) for one in members]
+        why = "where the explanations differ most"
+    elif found.stiffness is not None:
+        at = found.stiffness.believed
+        lines = [
+            KLine("as believed", "", _entries(at)),
+            KLine("as limb.toml has it now", "", _entries(found.stiffness.exported)),
+        ]
+        why = "where the two models differ most"
+    else:
+        return "", ()
+    play = ", any play taken up" if any(found.model.number(f"{joint}.gap_rad") > 0.0 for joint in JOINTS) else ""
+    place = f"theta1 {at.theta1_rad:.3f}, theta2 {at.theta2_rad:.3f} rad"
+    return f"K without load{play}, at {place}, {why}:", tuple(lines)
+
+
+def _steps(found: Diagnosis, given: str) -> tuple[Step, ...]:
+    gap = found.gap
+    if gap is None:
+        return ()
+    stages: list[tuple[str, GapPair, float | None]] = [(given, gap.before, None), *((step.added, step.gap, step.pull_sigma) for step in gap.steps)]
+    if stages[-1][1] != gap.after:
+        stages.append(("the model as written", gap.after, None))
+    largest = max([max(pair.fitted, pair.held_out or 0.0) for _, pair, _ in stages] + [1e-12])
+    allowed = found.details.get("allowed_sigma")
+    return tuple(
+        Step(
+            f"with {words.label(added)}" if "@" in added else added,
+            number(pair.fitted),
+            pair.fitted / largest,
+            "" if pair.held_out is None else number(pair.held_out),
+            (pair.held_out or 0.0) / largest,
+            "" if pull is None else f"{pull:.1f} sigma",
+            isinstance(allowed, float) and pull is not None and pull > allowed * (1.0 + 1e-6),
+        )
+        for added, pair, pull in stages
+    )
+
+
+def _refitted(believed: LimbModel | None, found: Diagnosis) -> tuple[tuple[str, str, str, str], ...]:
+    """What was refitted besides."""
+    if believed is None:
+        return ()
+    named = {key for effect in found.effects for key in effect.parameters}
+    return tuple(
+        (key, _shown(believed, key), _shown(found.model, key), words.key_unit(key))
+        for key in changed(believed, found.model)
+        if key not in named
+    )
+
+
+def _refitted_words(found: Diagnosis, count: int) -> str:
+    said = f"{count} value{'s' if count > 1 else ''} refitted besides"
+    pull, allowed = found.details.get("pull_sigma"), found.details.get("allowed_sigma")
+    if not isinstance(pull, float) or not isinstance(allowed, float):
+        return said
+    within = "within" if pull <= allowed else "beyond"
+    return f"{said}, {within} the calibration’s trust: {pull:.1f} sigma all together, {allowed:.1f} are allowed"
+
+
+def _unexplained(found: Diagnosis) -> tuple[str, ...]:
+    left = found.unexplained
+    if left is None:
+        return ()
+    size = f"{number(left.rms)} {_unit(found)}"
+    lead = (
+        f"{size} (rms) is left of the model as found, and it has structure: it is not noise alone. It is not exported "
+        "as physics."
+        if left.structured
+        else f"{size} (rms) is left of the model as found, without structure: as far as this record can show, it is noise."
+    )
+    return (lead, _capital(left.description))
+
+
+def _could_be(found: Diagnosis) -> str:
+    known = {one for members in found.indistinguishable for one in members} | {one.label for one in found.effects}
+    rest = [words.label(label) for label in found.could_be if label not in known]
+    return f"It could also be: {'; '.join(rest)}." if rest else ""
+
+
+def _next(found: Diagnosis) -> tuple[str, ...]:
+    after = found.next_experiment
+    if after is None:
+        return ()
+    said = [_capital(after.action)]
+    if after.separates:
+        said.append(
+            f"It would tell apart: {'; '.join(words.label(label) for label in after.separates)}. It would succeed with "
+            f"a probability of {percent(min(after.power, MOST_SURE))} and takes about {number(after.minutes)} minutes."
+        )
+    return tuple(said)
+
+
+def _candidates(tried: Sequence[tuple[str, float, float]]) -> tuple[Tried, ...]:
+    if not tried:
+        return ()
+    most = max(max(gain for _, gain, _ in tried), 1e-12)
+    first = tried[0][2]
+    return tuple(
+        Tried(
+            words.label(label),
+            label if "@" in label else "",
+            number(gain),
+            gain / most,
+            "likeliest" if place == 0 else _times(first, posterior),
+        )
+        for place, (label, gain, posterior) in enumerate(tried[:MOST_CANDIDATES])
+    )
+
+
+def _times(first: float, posterior: float) -> str:
+    if posterior <= 0.0 or first / posterior >= MOST_TIMES:
+        return f"over {MOST_TIMES:.0f} times"
+    return f"{number(first / posterior)} times"
+
+
+def _origin(found: Diagnosis, origin: Provenance) -> tuple[tuple[str, str, str], ...]:
+    versions: Mapping[str, str] = origin.versions
+    return (
+        ("record", f"{origin.name}: {origin.kind.replace('_', ' ')}, {origin.rows} rows", ""),
+        ("data sha256", origin.data_sha256, "(meta.toml, then data.csv)"),
+        *((("model sha256", origin.model_sha256, "(as believed)"),) if origin.model_sha256 else ()),
+        ("seed", str(found.seed), ""),
+        ("versions", ", ".join(f"{name} {value}" for name, value in versions.items()), ""),
+    )
+
+
+def _both(pair: GapPair, gap: Gap) -> str:
+    return words.gap_pair(pair, gap.unit)
+
+
+def _not_held_out(found: Diagnosis) -> str:
+    """Parts of the record may be predicted from its rest all the same."""
+    return "no configuration or test could be held out" if found.held_out else "nothing could be held out"
+
+
+def _end(pair: GapPair) -> float:
+    """On what took no part, where there is some."""
+    return pair.fitted if pair.held_out is None else pair.held_out
+
+
+def _entries(k: StiffnessAt) -> tuple[str, str, str]:
+    return number(k.k_xx_n_per_mm), number(k.k_xz_n_per_mm), number(k.k_zz_n_per_mm)
+
+
+def _off(before: StiffnessAt, after: StiffnessAt) -> float:
+    import numpy as np
+
+    from brace.diagnose.stiffness_change import apart
+
+    pair = [np.array([one.k_xx_n_per_mm, one.k_xz_n_per_mm, one.k_zz_n_per_mm]) for one in (after, before)]
+    return float(apart(*pair))
+
+
+def _shown(model: LimbModel, key: str) -> str:
+    value = model.values[key]
+    return f"{value:.5g}" if isinstance(value, float) else str(value)
+
+
+def _unit(found: Diagnosis) -> str:
+    return unit(found.gap.unit) if found.gap else ""
+
+
+def _capital(words_: str) -> str:
+    return words_[:1].upper() + words_[1:]
