@@ -30,6 +30,7 @@ class PaperTable:
     largest: Measured
     smallest: Measured
     corrected: np.ndarray
+    k: np.ndarray  # rows x (k_xx, k_xz, k_zz) [N/mm]
     identification: Identification
 
     @property
@@ -41,6 +42,13 @@ class PaperTable:
     def tip_height_mm(self) -> float:
         """The one tip height that the rows share in this fit (an inference)."""
         return float(self.identification.fit.nuisances[TIP_HEIGHT])
+
+
+def coupling_low_ratio(k: np.ndarray, lambda_min: np.ndarray) -> float:
+    """By how much of itself |K_xz| would have to be smaller for K to have this smallest eigenvalue, all else as it is;
+    the median of the rows. From det(K - lambda I) = 0; below zero where it would have to be larger."""
+    square = np.maximum((k[:, 0] - lambda_min) * (k[:, 2] - lambda_min), 0.0)
+    return float(np.nanmedian(1.0 - np.sqrt(square) / np.abs(k[:, 1])))
 
 
 def examine(advance: Callable[[int], None]) -> PaperTable:
@@ -63,7 +71,7 @@ def examine(advance: Callable[[int], None]) -> PaperTable:
                        bent_rows(r_mm, value[:, 1]), quasi_convex_breaks(value[:, 1], *largest_interval.T))
     smallest = Measured(value[:, 0], smallest_interval[:, 0], smallest_interval[:, 1], known, ~everywhere, ~everywhere)
     return PaperTable([fault.sentence(Path("paper_table1/data.csv")) for fault in table.faults], repairs, r_mm, largest,
-                      smallest, np.isin(rows, list(repaired)), result)
+                      smallest, np.isin(rows, list(repaired)), k, result)
 
 
 def _lambda_max_interval(k: np.ndarray, half_unit: np.ndarray) -> np.ndarray:

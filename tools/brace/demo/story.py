@@ -65,10 +65,11 @@ def _eigenvalues(story: Story, table: paper_table.PaperTable) -> Iterator[str]:
     reach = postures.reach(table.limb, table.tip_height_mm, 240)
     model = postures.curve(table.limb, table.tip_height_mm, reach)
     known = band(table.identification.information, reach[4:-2:4])
-    figure = eigenvalue_figure(table.r_mm, table.largest, table.smallest, table.corrected, model.r_mm, model.largest,
-                               model.smallest, known.r_mm, known.largest, known.smallest)
-    story.files["eigenvalues.png"] = png_bytes(figure)
     at_rows = np.array([_at(model.r_mm, curve, table.r_mm) for curve in (model.smallest, model.largest)])
+    figure = eigenvalue_figure(table.r_mm, table.largest, table.smallest, table.corrected, model.r_mm, model.largest,
+                               model.smallest, known.r_mm, known.largest, known.smallest,
+                               coupling_low_ratio=paper_table.coupling_low_ratio(table.k, at_rows[0]))
+    story.files["eigenvalues.png"] = png_bytes(figure)
     story.files["table.csv"] = csv_text({
         "row": np.arange(1, table.r_mm.size + 1), "r_mm": table.r_mm,
         "lambda_min_n_per_mm": table.smallest.value, "lambda_min_low_n_per_mm": table.smallest.low,

@@ -51,7 +51,7 @@ def contact_figure(footings: Sequence[Footing], friction_ratio: float, sag_mm: f
     plane.set_title(f"friction that any sag needs, |K_xz| / K_zz\nblue holds, red slides; line: the friction there is, "
                     f"{friction_ratio:g}",
                     loc="left", fontsize=9)
-    figure.colorbar(mesh, ax=plane, shrink=0.8)
+    figure.colorbar(mesh, ax=plane, shrink=0.8, label="|K_xz| / K_zz = friction needed", extend="max")
     return figure
 
 

@@ -30,10 +30,12 @@ class Measured:
 
 def eigenvalue_figure(r_mm: np.ndarray, largest: Measured, smallest: Measured, corrected: np.ndarray,
                       curve_r_mm: np.ndarray, curve_largest: np.ndarray, curve_smallest: np.ndarray,
-                      band_r_mm: np.ndarray, band_largest: np.ndarray, band_smallest: np.ndarray) -> Figure:
+                      band_r_mm: np.ndarray, band_largest: np.ndarray, band_smallest: np.ndarray, *,
+                      coupling_low_ratio: float) -> Figure:
     """r_mm: rows; corrected: rows, true where an entry was repaired; curves: the identified limb over r; bands: its
-    90 % band, points x (low, high)."""
-    figure = new_figure(8.2, 6.6)
+    90 % band, points x (low, high). coupling_low_ratio: by how much of itself a typical row's |K_xz| would have to be
+    smaller for its lambda_min to be the curve's."""
+    figure = new_figure(8.2, 7.0)
     upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(1.25, 1))
     _draw(upper, r_mm, largest, corrected, curve_r_mm, curve_largest, STIFF)
     _draw_band(upper, band_r_mm, band_largest)
@@ -44,10 +46,15 @@ def eigenvalue_figure(r_mm: np.ndarray, largest: Measured, smallest: Measured, c
                     fontsize=10)
     _draw(lower, r_mm, smallest, corrected, curve_r_mm, curve_smallest, SOFT)
     _draw_band(lower, band_r_mm, band_smallest)
-    top = 1.6 * max(float(smallest.value.max()), float(curve_smallest.max()))
-    lower.set(ylabel="lambda_min [N/mm]", xlabel="r [mm]", ylim=(-0.2 * top, top))
-    lower.set_title("Smaller eigenvalue: bars are print rounding alone, hollow = not determined", loc="left",
-                    fontsize=10)
+    top = max(1.6 * float(smallest.value.max()), 1.6 * float(curve_smallest.max()), 1.05 * float(band_smallest.max()))
+    lower.set(ylabel="lambda_min [N/mm]", xlabel="r [mm]", ylim=(-0.1 * top, top))
+    low_here = np.interp(r_mm, band_r_mm, band_smallest[:, 0])
+    below = int(np.sum(smallest.value <= low_here))
+    lower.set_title("Smaller eigenvalue: bars are print rounding alone, hollow = not determined\n"
+                    f"{below} of {r_mm.size} lie at or below the band: the fit weighs the entries of K, and lambda_min is "
+                    "what they leave.\nBeside its own K_xx and K_zz, the table's |K_xz| is "
+                    f"{100 * coupling_low_ratio:.0f} % (median) larger than the curve's lambda_min allows.",
+                    loc="left", fontsize=9)
     return figure
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import math
 from typing import TYPE_CHECKING, Literal
 
 import matplotlib
@@ -72,6 +73,12 @@ def place_panels(
         wspace=beside_in / panel_width_in,
         hspace=above_in / panel_height_in,
     )
+
+
+def round_below(value: float) -> float:
+    """1, 2 or 5 times a power of ten, for a scale's bar: the largest not above `value` > 0."""
+    power = 10.0 ** math.floor(math.log10(value))
+    return power * max(step for step in (1.0, 2.0, 5.0) if step * power <= value)
 
 
 def png_bytes(figure: Figure, dpi: int = 110) -> bytes:

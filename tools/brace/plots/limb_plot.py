@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from brace.plots.figure import FAINT, INK, MODEL, SOFT, STIFF, new_figure
+from brace.plots.figure import FAINT, INK, MODEL, SOFT, STIFF, new_figure, round_below
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -28,6 +28,8 @@ class PosedLimb:
 
 def ellipse_figure(limbs: Sequence[PosedLimb]) -> Figure:
     """Compliance ellipses of the links and of the whole limb at some postures, one scale for all."""
+    from mpl_toolkits.axes_grid1.anchored_artists import AnchoredSizeBar  # type: ignore[import-untyped]
+
     figure = new_figure(3.6 * len(limbs), 4.3)
     largest = max(np.sqrt(np.linalg.eigvalsh(limb.whole).max()) for limb in limbs)
     scale = 120.0 / largest
@@ -43,6 +45,19 @@ def ellipse_figure(limbs: Sequence[PosedLimb]) -> Figure:
         axes.margins(0.08)
     figure.axes[0].set_ylabel("z [mm]")
     figure.axes[0].legend(loc="lower left", fontsize=8)
+    round_mm_per_n = round_below(largest**2)
+    figure.axes[0].add_artist(
+        AnchoredSizeBar(
+            figure.axes[0].transData,
+            scale * np.sqrt(round_mm_per_n),
+            f"semi-axis of {round_mm_per_n:g} mm/N",
+            "center right",
+            frameon=False,
+            size_vertical=3.0,
+            color=STIFF,
+            sep=3,
+        )
+    )
     figure.suptitle("Compliance ellipses as the limb reaches out (semi-axes as the root of the compliance)",
                     x=0.01, ha="left", fontsize=10)
     return figure

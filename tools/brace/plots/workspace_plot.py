@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from brace.plots.figure import FAINT, INK, SOFT, STIFF, new_figure
+from brace.plots.figure import FAINT, INK, SOFT, STIFF, new_figure, round_below
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -68,7 +68,7 @@ def draw_ellipses(axes: Axes, ellipses: dict[str, np.ndarray], links: np.ndarray
         )
     )
     axes.plot([0], [0], "o", color=INK, markersize=4, label="femur joint")
-    room = 0.5 * longest * np.array([-1.0, 1.0])
+    room = 0.53 * longest * np.array([-1.0, 1.0])
     x_limits, z_limits = (
         np.array([min(ellipses[name].min(), 0.0), ellipses[name].max()]) + room for name in ("x_mm", "z_mm")
     )
@@ -79,8 +79,7 @@ def draw_ellipses(axes: Axes, ellipses: dict[str, np.ndarray], links: np.ndarray
 def _draw_scale(axes: Axes, mm_per_root: float, typical_n_per_mm: float) -> None:
     """How long an ellipse of a round stiffness is, and what the grey lines are. Ellipses of more than twice the typical
     length are drawn shorter."""
-    power = 10.0 ** np.floor(np.log10(typical_n_per_mm))
-    round_n_per_mm = power * max(step for step in (1.0, 2.0, 5.0) if step * power <= typical_n_per_mm)
+    round_n_per_mm = round_below(typical_n_per_mm)
     axes.plot([], [], color=FAINT, linewidth=2.0, label="femur and tibia at some postures")
     axes.plot([], [], color=STIFF, linewidth=0.9, label=f"axes as the root of eigenvalues; bar: {round_n_per_mm:g} N/mm")
     low_x, low_z = axes.get_xlim()[0], axes.get_ylim()[0]
