@@ -7,6 +7,7 @@
 #define KS_OF_A_ROUND (LOADS_FROM + (uint32_t)(SIGMA_SIDES * BRACE_LINK_COUNT))
 #define WAITS_TICKS_MOST 3u  /* so a round of 300 steps ends within 1,200 ticks where questions never end, and within
                               * 1,500 in a flood of commands, which leaves it each fifth tick, */
+#define TRIES_IN_A_STEP 8u   /* of the causes that this limb may not have */
 #define OLDEST_TICKS 3000u   /* and what it tells holds until the next has ended */
 #define MOVED_MOST_RAD 0.05f /* of all joints together, since the samples that sigma comes from */
 #define STIFFER_MOST 0.15f   /* K's change since then, as a share of K */
@@ -74,12 +75,16 @@ static bool change(const sigma_job_t *job, brace_k_inputs_t *inputs)
     return load->counts;
 }
 
-/* Prepares the limb of the next K that is another one. */
+/* Prepares the limb of the next K that is another one, if it is among the next few. */
 static void prepare_next(sigma_job_t *job, const brace_parameters_t *parameters)
 {
+    const uint32_t tried_before = job->next + TRIES_IN_A_STEP;
     job->changed_inputs = job->inputs.k;
     while (job->next < KS_OF_A_ROUND && !change(job, &job->changed_inputs)) {
         job->next++;
+        if (job->next == tried_before) {
+            return;
+        }
     }
     if (job->next >= KS_OF_A_ROUND) {
         end_round(job, true);
