@@ -33,35 +33,33 @@ static bool load_counts(const controller_t *controller, const brace_snapshot_t *
 }
 
 /* K's inputs if one joint's load were larger, and smaller: by as much as it may be off now, or as it may soon be. The
- * deflection that the model keeps between ticks is left unchanged.
- *   springs: at the loads of now */
-static void take_other_load(const controller_t *controller, const brace_snapshot_t *now, int index,
-                            const brace_loaded_joint_t springs[BRACE_LINK_COUNT], sigma_load_t *other)
+ * deflection that the model keeps between ticks is left unchanged. */
+static void take_other_load(const controller_t *controller, int index, const sigma_inputs_t *inputs,
+                            sigma_load_t *other)
 {
     const brace_parameters_t *parameters = &controller->parameters.in_force;
     const model_t *model = &controller->model;
-    const brace_vec3_t tip_n = {now->load.force_x_n, now->load.force_y_n, now->load.force_z_n};
+    const brace_vec3_t tip_n = inputs->k.tip_n;
     const float off_n_mm = __builtin_fabsf(load_off_n_mm(controller, index));
     const float least_n_mm = LEAST_LOAD_RATIO * parameters->drive[index].torque_range_n_mm;
-    float load_n_mm[BRACE_LINK_COUNT], temp_degc[BRACE_LINK_COUNT];
+    float load_n_mm[BRACE_LINK_COUNT];
     for (int i = 0; i < BRACE_LINK_COUNT; i++) {
-        load_n_mm[i] = controller->flank.joint[i].out.load_n_mm;
+        load_n_mm[i] = inputs->load_n_mm[i];
     }
     const float told_n_mm = load_n_mm[index];
     const brace_vec3_t before = tip_load_n(controller, load_n_mm);
     other->by_n_mm = off_n_mm > least_n_mm ? off_n_mm : least_n_mm;
-    joints_temperatures(&controller->joints, temp_degc);
     for (int side = 0; side < SIGMA_SIDES; side++) {
         load_n_mm[index] = side == 0 ? told_n_mm + other->by_n_mm : told_n_mm - other->by_n_mm;
         const brace_vec3_t after = tip_load_n(controller, load_n_mm);
         other->tip_n[side] = (brace_vec3_t){tip_n.x + (after.x - before.x), tip_n.y + (after.y - before.y),
                                             tip_n.z + (after.z - before.z)};
         for (int i = 0; i < BRACE_LINK_COUNT; i++) {
-            other->spring[side][i] = springs[i];
+            other->spring[side][i] = inputs->k.spring[i];
         }
         float deflection_rad = model->deflection_rad[index];
         other->spring[side][index] =
-            model_spring(model, parameters, index, load_n_mm[index], temp_degc[index], &deflection_rad);
+            model_spring(model, parameters, index, load_n_mm[index], inputs->temp_degc[index], &deflection_rad);
         stiffness_hold_measured_joints(&controller->posture, other->spring[side]);
     }
 }
@@ -92,12 +90,21 @@ static void take_inputs(controller_t *controller, const brace_snapshot_t *now, s
     k->sensor_gain_rel = now->force_is_sensed ? parameters->limb.uncertainty.gain_rel : 0.0f;
     stiffness_springs_of_now(&controller->model, parameters, &controller->joints, &controller->flank, k->spring);
     stiffness_hold_measured_joints(posture, k->spring);
+    joints_temperatures(&controller->joints, inputs->temp_degc);
     for (int i = 0; i < BRACE_LINK_COUNT; i++) {
         k->angle_rad[i] = posture->unbent_rad[i];
         k->angle_sigma_rad[i] = angle_sigma_rad(controller, i);
+        inputs->load_n_mm[i] = controller->flank.joint[i].out.load_n_mm;
         inputs->load[i].counts = load_counts(controller, now, i);
+    }
+}
+
+/* The loads are those of the inputs; only the levers may be those of a tick that comes soon after. */
+static void take_other_loads(const controller_t *controller, sigma_inputs_t *inputs)
+{
+    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
         if (inputs->load[i].counts) {
-            take_other_load(controller, now, i, k->spring, &inputs->load[i]);
+            take_other_load(controller, i, inputs, &inputs->load[i]);
         }
     }
 }
@@ -105,11 +112,19 @@ static void take_inputs(controller_t *controller, const brace_snapshot_t *now, s
 bool sigma_begin(controller_t *controller)
 {
     const brace_snapshot_t *now = &controller->snapshot[controller->newest];
+    sigma_job_t *job = &controller->sigma;
+    const bool is_same_kind = job->has_inputs && kind_of(controller, now) == job->inputs.kind;
+    job->has_inputs = false;
     if (!now->k_is_valid) {
         return false;
     }
-    take_inputs(controller, now, &controller->sigma.inputs);
-    sigma_job_begin(&controller->sigma);
+    if (is_same_kind) {
+        take_other_loads(controller, &job->inputs);
+        sigma_job_begin(job);
+    } else {
+        take_inputs(controller, now, &job->inputs);
+        sigma_job_take(job);
+    }
     return true;
 }
 

@@ -4,8 +4,8 @@
 
 #include "controller.h"
 
-/* Begins a round with the inputs of the newest snapshot's K, if it is valid. returns whether it has begun one. At most
- * 1,800 instructions. */
+/* Begins a round with the inputs of the newest snapshot's K, if it is valid, in two steps: the inputs, then what they
+ * would be at other loads of the joints. returns whether it has done one of them. At most 2,600 instructions. */
 bool sigma_begin(controller_t *controller);
 
 /* Writes into a snapshot, whose K is there, what is known of K's uncertainty: nothing where a sample is so old that its

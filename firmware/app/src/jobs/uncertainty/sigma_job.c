@@ -15,7 +15,7 @@
 
 void sigma_job_forget(sigma_job_t *job)
 {
-    job->told.is_there = job->is_under_way = job->work.is_under_way = false;
+    job->told.is_there = job->has_inputs = job->is_under_way = job->work.is_under_way = false;
 }
 
 void sigma_job_age(sigma_job_t *job)
@@ -28,6 +28,12 @@ void sigma_job_age(sigma_job_t *job)
 bool sigma_job_is_overdue(const sigma_job_t *job)
 {
     return job->ticks_waited > WAITS_TICKS_MOST;
+}
+
+void sigma_job_take(sigma_job_t *job)
+{
+    job->ticks_waited = 0;
+    job->has_inputs = true;
 }
 
 void sigma_job_begin(sigma_job_t *job)

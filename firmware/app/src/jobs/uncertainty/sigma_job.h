@@ -37,6 +37,7 @@ typedef struct {
     bool is_spatial;
     uint32_t taken_us;  /* when the samples were taken */
     uint32_t kind;      /* open gaps, and where the load comes from: a result holds for ticks of the same kind */
+    float load_n_mm[BRACE_LINK_COUNT], temp_degc[BRACE_LINK_COUNT]; /* of the joints; NaN: not known */
     sigma_load_t load[BRACE_LINK_COUNT];
 } sigma_inputs_t;
 
@@ -66,6 +67,7 @@ typedef struct {
     sigma_result_t told;   /* of the last round that has ended */
     sigma_result_t round;  /* that is under way */
     sigma_inputs_t inputs; /* its inputs; whoever begins it writes them */
+    bool has_inputs;       /* but for the other loads, which the next step writes */
     bool is_under_way;
     bool is_to_find;       /* the first K is there, and what follows from it has still to be found */
     uint8_t next;          /* the K that is worked out: 0 with nothing changed, then the causes, then the loads */
@@ -93,7 +95,10 @@ static inline bool sigma_job_is_under_way(const sigma_job_t *job)
     return job->is_under_way;
 }
 
-/* Whoever calls it has written the inputs. */
+/* Whoever calls it has written the inputs, all but the other loads. */
+void sigma_job_take(sigma_job_t *job);
+
+/* Begins a round. Whoever calls it has written all inputs. */
 void sigma_job_begin(sigma_job_t *job);
 
 /* A step of the round. At most 1,700 instructions in the plane, 1,500 in space. */
