@@ -23,8 +23,11 @@ from toolchain import (BOARDS, BUILD, CORE, M3, M4F, PREFIX, Processor, compile_
 
 TICK_LIMIT = 14_000  # instructions, of a limb in its plane,
 SPACE_LIMIT = 20_000  # and of one in space
+M3_LIMIT = 120_000  # of a limb in its plane on the Cortex-M3, whose floats are software,
+M3_LOADED_LIMIT = 7_000  # and of its K under a load, by the fixed point
 TICK_COUNT = 1_000_000
 FUNCTION = "brace_app_tick"
+LOADED = "model_loaded"  # finds the tick's own K under a load
 BUILDS = {M4F.name: "m4f", M3.name: "m3"}
 
 KINDS = {"M": "monitor", "T": "taking up", "L": "loading test", "R": "loading test: the drift check takes a reading in",
@@ -46,13 +49,16 @@ class TickKind:
 
 @dataclass(frozen=True)
 class TickCost:
-    """All ticks of a run; the worst of limbs in their plane, and of those in space."""
+    """All ticks of a run; the worst of limbs in their plane, and of those in space. Of both the worst K under a load, a
+    part of its tick."""
 
     count: int
     mean: float
     median: int
     maximum: int
     space_maximum: int
+    loaded_maximum: int
+    space_loaded_maximum: int
     quantile_99: int
     kinds: tuple[TickKind, ...]
 
@@ -60,6 +66,11 @@ class TickCost:
     def is_within(self) -> bool:
         """Whether both limits are kept."""
         return self.maximum <= TICK_LIMIT and self.space_maximum <= SPACE_LIMIT
+
+    @property
+    def is_within_on_m3(self) -> bool:
+        """Whether both limits of a limb in its plane on the Cortex-M3 are kept."""
+        return self.maximum <= M3_LIMIT and self.loaded_maximum <= M3_LOADED_LIMIT
 
 
 def build_image(ticks: int, processor: Processor = M4F) -> Path:
@@ -98,21 +109,21 @@ def measure_ticks(ticks: int = TICK_COUNT, processor: Processor = M4F) -> TickCo
     image, plugin = build_image(ticks, processor), build_plugin(BENCH / "tick" / "count_ticks.c")
     record = image.with_suffix(".counts")
     low, high = _door(image)
-    entry = symbol_address(image, FUNCTION) & ~1
+    entry, inner = (symbol_address(image, name) & ~1 for name in (FUNCTION, LOADED))
     done = subprocess.run([RUN_IMAGE, processor.machine, image, "-plugin",
-                           f"{plugin},entry={entry:#x},skip={low:#x}-{high:#x},out={record}"],
+                           f"{plugin},entry={entry:#x},inner={inner:#x},skip={low:#x}-{high:#x},out={record}"],
                           capture_output=True, text=True, check=False,
                           env={"PATH": "/usr/bin:/bin", "BRACE_IMAGE_TIMEOUT_S": "1500"})
     if done.returncode != 0:
         raise RuntimeError(f"{image.name}: exit code {done.returncode}\n{done.stdout[-300:]}{done.stderr[-300:]}")
-    counts = np.fromfile(record, dtype="<u4")
+    counts, loaded = np.fromfile(record, dtype="<u4").reshape(-1, 2).T
     letters = np.frombuffer("".join(done.stdout.split()).encode(), dtype="S1").astype(str)
     if len(counts) != ticks or len(letters) != ticks:
         raise RuntimeError(f"{image.name}: {ticks} ticks, {len(counts)} counted, {len(letters)} named")
-    return _summary(counts, letters)
+    return _summary(counts, loaded, letters)
 
 
-def _summary(counts: np.ndarray, letters: np.ndarray) -> TickCost:
+def _summary(counts: np.ndarray, loaded: np.ndarray, letters: np.ndarray) -> TickCost:
     names = KINDS | {letter.lower(): f"{name}, in space" for letter, name in KINDS.items()}
     kinds = tuple(TickKind(name, int(mine.size), float(mine.mean()), int(mine.max()))
                   for letter, name in names.items() if (mine := counts[letters == letter]).size)
@@ -122,7 +133,8 @@ def _summary(counts: np.ndarray, letters: np.ndarray) -> TickCost:
         raise RuntimeError(f"the random ticks never came to: {', '.join(missing)}")
     in_space = np.char.islower(letters)
     return TickCost(int(counts.size), float(counts.mean()), int(np.median(counts)), int(counts[~in_space].max()),
-                    int(counts[in_space].max()), int(np.quantile(counts, 0.99)), kinds)
+                    int(counts[in_space].max()), int(loaded[~in_space].max()), int(loaded[in_space].max()),
+                    int(np.quantile(counts, 0.99)), kinds)
 
 
 NOTE = """\
@@ -155,20 +167,22 @@ def extra() -> Extra:
 def as_text(cost: TickCost) -> str:
     """For a terminal."""
     lines = [f"{cost.count:,} random ticks: median {cost.median:,}, mean {cost.mean:,.0f}, "
-             f"99th percentile {cost.quantile_99:,}; worst {cost.maximum:,} instructions in the plane (limit "
-             f"{TICK_LIMIT:,}), {cost.space_maximum:,} in space (limit {SPACE_LIMIT:,})"]
+             f"99th percentile {cost.quantile_99:,}; worst {cost.maximum:,} instructions in the plane, "
+             f"{cost.space_maximum:,} in space; of K under a load {cost.loaded_maximum:,} and "
+             f"{cost.space_loaded_maximum:,}"]
     lines += [f"  {kind.name:52} {kind.count:9,}  mean {kind.mean:8,.0f}  worst {kind.maximum:7,}"
               for kind in cost.kinds]
     return "\n".join(lines)
 
 
 def main() -> int:
-    """python tests/judges/bench/tick_cost.py [TICKS] [m3]: print; exit code 1 when a limit is passed. m3: on the Cortex-M3,
-    whose floats are software."""
+    """python tests/judges/bench/tick_cost.py [TICKS] [m3]: print; exit code 1 when a limit is passed. m3: on the
+    Cortex-M3, whose floats are software; limbs in space have no limit there."""
     ticks = int(sys.argv[1]) if len(sys.argv) > 1 else TICK_COUNT
-    cost = measure_ticks(ticks, M3 if sys.argv[2:] == ["m3"] else M4F)
+    is_m3 = sys.argv[2:] == ["m3"]
+    cost = measure_ticks(ticks, M3 if is_m3 else M4F)
     print(as_text(cost))
-    return int(not cost.is_within)
+    return int(not (cost.is_within_on_m3 if is_m3 else cost.is_within))
 
 
 if __name__ == "__main__":
