@@ -37,7 +37,7 @@ brace_status_t brace_app_start(brace_app_t *app, const brace_hal_t *hal);
 /* One tick; call it every parameters.controller.tick_us.
  *   now_us: the HAL's clock; may wrap
  * Cost on a Cortex-M4F, HAL excluded: the worst of 100,000 random ticks in every mode, with every port flooded, has
- * 15,386 instructions for a limb in its plane and 21,681 for a limb in space
+ * 15,665 instructions for a limb in its plane and 21,485 for a limb in space
  * (tests/judges/bench/tick_cost.py 100000). */
 void brace_app_tick(brace_app_t *app, uint32_t now_us);
 
