@@ -21,6 +21,7 @@ PROJECT = Path(__file__).resolve().parents[2]
 CORE = PROJECT / "firmware" / "core"
 LEFT_OUT = "batch"
 FIRST_TO_READ = "brace.h"
+FIRST_OF_SOURCES = "base/exact.h"  # its #error and its pragma hold for all that follows
 
 LICENCE = """ * SPDX-FileCopyrightText: 2026 The Brace authors
  * SPDX-License-Identifier: Apache-2.0
@@ -29,7 +30,8 @@ HEADER_WORDS = """/* Brace {version}: the stiffness K at the tip of a robot's li
  *
 {licence} *
  * Written by tools/release/two_files.py; do not edit. brace_core.c has the functions. Both compile alone with any
- * C11 compiler: cc -std=c11 -O2 -c brace_core.c. A program that links them needs libm (-lm).
+ * C11 compiler: cc -std=c11 -O2 -c brace_core.c. A program that links them needs libm (-lm). brace_core.c refuses
+ * -ffast-math: where a project has it, add -fno-fast-math for this file.
  */
 """
 SOURCE_WORDS = """/* Brace {version}: the stiffness K at the tip of a robot's limb. The core's sources.
@@ -41,6 +43,9 @@ SOURCE_WORDS = """/* Brace {version}: the stiffness K at the tip of a robot's li
 # The compiler flags of firmware/core/CMakeLists.txt, as far as a source can say them: products and sums are fused only
 # where the source says fma, so that every processor gives the same bits; sqrtf sets no errno.
 FLAGS = """
+#ifdef __cplusplus
+#error "brace_core.c is C: compile it with a C compiler. C++ programs include brace_core.h and link it."
+#endif
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC optimize("fp-contract=off", "no-math-errno")
 #else
@@ -168,7 +173,7 @@ def two_files(version: str) -> dict[str, str]:
     first = reader.parts[CORE / "include" / "brace" / FIRST_TO_READ]  # only words are left of it, and includes of all
     manual = [first, *(part for part in manual if part is not first)]
     reader.system = set()
-    for path in sources():
+    for path in (CORE / "src" / FIRST_OF_SOURCES, *sources()):
         reader.take(path)
     private = list(reader.parts.values())[len(manual) :]
     header = (

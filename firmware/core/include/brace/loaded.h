@@ -125,9 +125,17 @@ brace_status_t brace_loaded_stiffness_at(const brace_loaded_t *loaded, const bra
 static inline uint32_t brace_loaded_flags(float buckling_factor, float moved_mm2, float reach_mm)
 {
     const float most_mm = BRACE_PROMISED_MOVE * reach_mm;
-    return (buckling_factor < BRACE_PROMISED_FACTOR ? (uint32_t)BRACE_FLAG_NEAR_SINGULAR : 0u) |
-           (moved_mm2 <= most_mm * most_mm ? 0u : (uint32_t)BRACE_FLAG_MOVED_FAR) |
-           (buckling_factor < BRACE_SOFTENED_FACTOR ? (uint32_t)BRACE_FLAG_SOFTENED : 0u);
+    uint32_t flags = 0u;
+    if (buckling_factor < BRACE_PROMISED_FACTOR) {
+        flags |= BRACE_FLAG_NEAR_SINGULAR;
+    }
+    if (!(moved_mm2 <= most_mm * most_mm)) {
+        flags |= BRACE_FLAG_MOVED_FAR;
+    }
+    if (buckling_factor < BRACE_SOFTENED_FACTOR) {
+        flags |= BRACE_FLAG_SOFTENED;
+    }
+    return flags;
 }
 
 #endif

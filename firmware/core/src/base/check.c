@@ -2,5 +2,5 @@
 
 brace_status_t brace_refusal_of(float a, float b)
 {
-    return isfinite(a) && isfinite(b) ? BRACE_E_RANGE : BRACE_E_NOT_FINITE;
+    return brace_is_finite(a) && brace_is_finite(b) ? BRACE_E_RANGE : BRACE_E_NOT_FINITE;
 }

@@ -4,31 +4,32 @@
 #ifndef BRACE_CORE_CHECK_H
 #define BRACE_CORE_CHECK_H
 
-#include <math.h>
-
+#include "base/exact.h"
 #include "brace/status.h"
 
 /* Why two numbers were refused. */
 brace_status_t brace_refusal_of(float a, float b);
 
-/* A comparison with NaN is false. So each check accepts a number that is inside its limits, and thereby refuses NaN. */
+/* Bits are compared, because a comparison of floats refuses NaN only where the compiler counts with NaN. Limits of
+ * magnitudes are not negative. */
 
 /* Two values in [-limit, limit]. */
 static inline brace_status_t brace_check_two(float a, float b, float limit)
 {
-    return fabsf(a) <= limit && fabsf(b) <= limit ? BRACE_OK : brace_refusal_of(a, b);
+    const uint32_t most = brace_bits(limit);
+    return brace_magnitude_bits(a) <= most && brace_magnitude_bits(b) <= most ? BRACE_OK : brace_refusal_of(a, b);
 }
 
 /* A value in [-limit, limit]. */
 static inline brace_status_t brace_check_magnitude(float value, float limit)
 {
-    return fabsf(value) <= limit ? BRACE_OK : brace_refusal_of(value, 0.0f);
+    return brace_magnitude_bits(value) <= brace_bits(limit) ? BRACE_OK : brace_refusal_of(value, 0.0f);
 }
 
 /* A value in [least, most]. */
 static inline brace_status_t brace_check_range(float value, float least, float most)
 {
-    return value >= least && value <= most ? BRACE_OK : brace_refusal_of(value, 0.0f);
+    return brace_is_finite(value) && value >= least && value <= most ? BRACE_OK : brace_refusal_of(value, 0.0f);
 }
 
 /* The first of the statuses that is not BRACE_OK; BRACE_OK if all are. */

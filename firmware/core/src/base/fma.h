@@ -4,6 +4,8 @@
 
 #include <math.h>
 
+#include "base/exact.h"
+
 /* Without a floating-point unit, fmaf() keeps its single rounding by a detour through double precision, some 300
  * instructions long. Product and sum rounded apart cost a third of that. Where a single rounding is needed, the code
  * says fmaf(). */

@@ -8,6 +8,7 @@
 #include <math.h>
 #include <stdint.h>
 
+#include "base/exact.h"
 #include "base/fma.h"
 #include "base/vec.h"
 
@@ -20,11 +21,11 @@
 #define BRACE_PER_PI 0.318309886f
 
 /* The whole number of half turns nearest to an angle. Adding 1.5 * 2^23 to a small float and subtracting it again
- * rounds that float to an integer. */
+ * rounds that float to an integer. A compiler that reorders sums would leave both out. */
 static inline float brace_half_turns(float angle_rad)
 {
     const float to_integer = 12582912.0f;
-    return fmaf(angle_rad, BRACE_PER_PI, to_integer) - to_integer;
+    return brace_opaque(fmaf(angle_rad, BRACE_PER_PI, to_integer)) - to_integer;
 }
 
 /* angle - count pi. The first step is exact, because fmaf() rounds once and the

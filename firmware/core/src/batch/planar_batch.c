@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "base/exact.h"
+
 /* The compiler may fuse products and sums here: the loops are written with * and + instead of fmaf(), which would be
  * a call on processors without that instruction. On a host they are compiled for several generations of the
  * processor, and the best is taken at run time. Sanitizers run before such a choice can be made. */

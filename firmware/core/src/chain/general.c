@@ -1,5 +1,6 @@
 #include "brace/general.h"
 
+#include "base/check.h"
 #include "chain/elements.h"
 #include "chain/general.h"
 #include "chain/tensor.h"
@@ -15,10 +16,7 @@ void brace_general_collapse(const brace_limb_t *limb, brace_general_t *general)
 static brace_status_t check_reach(float theta1_rad, float theta2_rad)
 {
     const float reach = theta1_rad * theta1_rad + theta2_rad * theta2_rad;
-    if (reach <= BRACE_REACH_RAD2) {
-        return BRACE_OK;
-    }
-    return reach - reach == 0.0f ? BRACE_E_RANGE : BRACE_E_NOT_FINITE;
+    return brace_check_magnitude(reach, BRACE_REACH_RAD2);
 }
 
 brace_status_t brace_general_stiffness(const brace_general_t *general, float theta1_rad, float theta2_rad,

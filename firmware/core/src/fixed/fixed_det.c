@@ -48,7 +48,7 @@ static crest_t crest_of(double cc, double cs, double ss)
  * more (c + s.u)^2 is the cross, with c = sum k p.s / sum (p.s)^2. The rest is linear in u. */
 brace_det_t brace_det_of(float iso, const brace_element_t element[BRACE_ELEMENT_COUNT])
 {
-    brace_det_harmonic_t trace = {iso, 0.0, 0.0}, rest = {0.0, 0.0, 0.0};
+    brace_det_harmonic_t trace = {(double)iso, 0.0, 0.0}, rest = {0.0, 0.0, 0.0};
     double cc = 0.0, cs = 0.0, ss = 0.0;
     for (int i = 0; i < BRACE_ELEMENT_COUNT; i++) {
         const brace_vec_t p = element[i].straight, q = element[i].folded;
@@ -70,7 +70,7 @@ brace_det_t brace_det_of(float iso, const brace_element_t element[BRACE_ELEMENT_
     const double c = most > 0.0 ? 0.5 * (rest.per_cos * s.cos + rest.per_sin * s.sin) / most : 0.0;
     const double amplitude = root(s.more);
     add(&rest, -c * s.more, (brace_det_harmonic_t){c, 2.0 * s.cos, 2.0 * s.sin});
-    add(&rest, iso, trace);
+    add(&rest, (double)iso, trace);
     rest.constant += least;
     return (brace_det_t){rest, {c * amplitude, s.cos * amplitude, s.sin * amplitude}};
 }

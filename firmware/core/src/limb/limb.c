@@ -5,6 +5,7 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "base/check.h"
 #include "brace/ranges.h"
 
 /* Moment transfer divides by the link's length. The other links have a least length already. */
@@ -30,7 +31,7 @@ static brace_status_t check_ranges(const brace_limb_t *limb)
     for (size_t i = 0; i < FIELDS; i++) {
         float value;
         memcpy(&value, (const char *)limb + ranges[i].offset, sizeof value);
-        if (!(value - value == 0.0f)) { /* NaN and infinity */
+        if (!brace_is_finite(value)) {
             return BRACE_E_NOT_FINITE;
         }
         if (value < ranges[i].least || value > ranges[i].most) {
@@ -83,7 +84,7 @@ brace_status_t brace_limb_check_together(const brace_limb_t *limb)
 
 static bool is_within(float value, float least, float most)
 {
-    return value >= least && value <= most;
+    return brace_check_range(value, least, most) == BRACE_OK;
 }
 
 brace_status_t brace_limb_check_lengths(const brace_limb_t *limb)

@@ -4,6 +4,7 @@
 
 #include <stddef.h>
 
+#include "base/exact.h"
 #include "brace/loaded.h"
 #include "brace/loaded_fixed_types.h"
 #include "loaded/fixed_solve.h"
@@ -11,7 +12,6 @@
 #define FORCE_MOST_Q17 (10000u << 17)
 #define REACH_HIGH_Q24 (31 << 24) /* BRACE_REACH_RAD2 */
 #define DOWN_MOST_Q30 ((1 << 30) + (1 << 20))
-#define INFINITE_BITS 0x7f800000u
 #define FORCE_EXPONENT_MOST 40 /* beyond it nothing yields that a float of K could tell */
 
 /* A tick's numbers in integers. */
@@ -32,7 +32,7 @@ INLINE uint32_t at_most_31(int32_t bits)
 
 INLINE bool is_finite_word(uint32_t bits)
 {
-    return (bits & INFINITE_BITS) != INFINITE_BITS;
+    return (bits & BRACE_INFINITE_BITS) != BRACE_INFINITE_BITS;
 }
 
 /* Angles and force: in range, out of it, or not a number. A magnitude of 8 rad and more, and of 2^14 N and more, does

@@ -2,9 +2,10 @@
 #ifndef BRACE_LOADED_FIXED_QUANTISE_H
 #define BRACE_LOADED_FIXED_QUANTISE_H
 
-#include <float.h>
 #include <math.h>
 #include <stdint.h>
+
+#include "base/exact.h"
 
 #define LEAST_EXPONENT (-100)   /* stands for zero: no other number's exponent is as small */
 #define REFUSED_EXPONENT 100    /* of compliances that no word holds, whatever the load */
@@ -12,7 +13,7 @@
 /* The least exponent whose power of two is above a magnitude. What is no number is refused. */
 static inline int32_t exponent_above(float value)
 {
-    if (!(fabsf(value) <= FLT_MAX)) {
+    if (!brace_is_finite(value)) {
         return REFUSED_EXPONENT;
     }
     if (!(fabsf(value) > 1e-30f)) {

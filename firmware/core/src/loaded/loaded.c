@@ -2,6 +2,7 @@
 
 #include <float.h>
 
+#include "base/check.h"
 #include "chain/tensor.h"
 #include "loaded/buckling.h"
 #include "loaded/solve.h"
@@ -97,8 +98,8 @@ INLINE brace_status_t settle(const brace_loaded_t *loaded, float theta1_rad, flo
 {
     const float reach = brace_fma(theta1_rad, theta1_rad, theta2_rad * theta2_rad);
     const float force = fabsf(load->tip.x_n) + fabsf(load->tip.z_n);
-    if (!(reach <= BRACE_REACH_RAD2 && force <= FORCE_MOST_N)) {
-        return reach - reach == 0.0f && force - force == 0.0f ? BRACE_E_RANGE : BRACE_E_NOT_FINITE;
+    if (brace_bits(reach) > brace_bits(BRACE_REACH_RAD2) || brace_bits(force) > brace_bits(FORCE_MOST_N)) {
+        return brace_refusal_of(reach, force);
     }
     const brace_vec_t forwards = {1.0f, 0.0f}, femur = brace_direction(theta1_rad);
     const brace_vec_t tibia = brace_direction(-theta2_rad); /* seen from the femur */

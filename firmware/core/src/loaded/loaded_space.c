@@ -188,7 +188,7 @@ static brace_status_t take(const brace_loaded_space_t *loaded, float theta1_rad,
 {
     const float reach = brace_fma(theta1_rad, theta1_rad, theta2_rad * theta2_rad);
     const float force = fabsf(load->tip_n.x) + fabsf(load->tip_n.y) + fabsf(load->tip_n.z);
-    if (!(reach <= BRACE_REACH_RAD2 && force <= FORCE_MOST_N)) {
+    if (brace_bits(reach) > brace_bits(BRACE_REACH_RAD2) || brace_bits(force) > brace_bits(FORCE_MOST_N)) {
         return brace_refusal_of(reach, force);
     }
     const vec3_t tip_n = seen_from_coxa(load->tip_n), down = seen_from_coxa(load->down);

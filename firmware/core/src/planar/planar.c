@@ -3,6 +3,7 @@
 #include <float.h>
 #include <math.h>
 
+#include "base/check.h"
 #include "base/trig.h"
 
 static inline float harmonic(const brace_harmonic_t *h, float cos2, float sincos)
@@ -14,8 +15,8 @@ brace_status_t brace_planar_stiffness(const brace_planar_t *planar, float theta1
                                       brace_stiffness_t *stiffness)
 {
     const float reach = brace_fma(theta1_rad, theta1_rad, theta2_rad * theta2_rad);
-    if (!(reach <= BRACE_REACH_RAD2)) {
-        return reach - reach == 0.0f ? BRACE_E_RANGE : BRACE_E_NOT_FINITE;
+    if (brace_bits(reach) > brace_bits(BRACE_REACH_RAD2)) { /* NaN, too */
+        return brace_refusal_of(reach, 0.0f);
     }
 
     /* Half the knee angle, and the bisector's angle in the world, each without its whole half turns. A half turn of

@@ -117,7 +117,7 @@ brace_status_t brace_planar_collapse(const brace_limb_t *limb, brace_planar_t *p
 
     const float middle = brace_harmonic_middle(&harmonics.mean), swing = brace_harmonic_swing(&harmonics.mean);
     const float mean_off = ROUNDING * (middle + swing);
-    if (!(middle - swing > -16.0f * mean_off)) { /* refuses NaN too */
+    if (!brace_is_finite(middle - swing) || middle - swing <= -16.0f * mean_off) {
         return BRACE_E_PARAMETER;
     }
     const rest_t rest = rest_of(&harmonics, iso_mm_per_n, mean_off);

@@ -72,7 +72,7 @@ brace_status_t brace_spatial_turn(float theta0_rad, const brace_stiffness_t *pla
     if (status != BRACE_OK) {
         return status;
     }
-    if (!(across_n_per_mm >= 0.0f)) {
+    if (!brace_is_finite(across_n_per_mm) || across_n_per_mm < 0.0f) {
         return BRACE_E_SINGULAR;
     }
     const brace_vec_t yaw = brace_direction(theta0_rad); /* seen from above, so z stands for y here */

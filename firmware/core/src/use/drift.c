@@ -231,7 +231,7 @@ static brace_status_t check(const brace_limb_t *limb, const brace_stiffness_t *s
     /* A sum is finite only if all its terms are. Values in range are far from the end of the float format. */
     const float sum = reading->theta1_rad + reading->theta2_rad + reading->dx_mm + reading->dz_mm + reading->fx_n +
                       reading->fz_n + reading->warmer_degc + stiffness->k_xz_n_per_mm;
-    if (!isfinite(sum)) {
+    if (!brace_is_finite(sum)) {
         return BRACE_E_NOT_FINITE;
     }
     const bool sound = within(reading->theta1_rad, BRACE_ANGLE_LIMIT_RAD) &&
