@@ -72,8 +72,7 @@ def run(arguments: argparse.Namespace) -> int:
 
     _refuse_existing(arguments.out)
     check_file(arguments.out)
-    if arguments.urdf is not None:
-        _fill_from_urdf(arguments)
+    notes = _fill_from_urdf(arguments) if arguments.urdf is not None else []
     missing = [name for name in NEEDED if getattr(arguments, name) is None]
     if missing and has_terminal():
         ask(arguments, {**NEEDED, **OPTIONAL}, lambda name, text: _check(arguments, name, text))
@@ -84,7 +83,7 @@ def run(arguments: argparse.Namespace) -> int:
             why=f"{_option(missing[0])} is {NEEDED[missing[0]][0]}; there is no terminal to ask at",
             next_step=" ".join(f"{_option(name)} {NEEDED[name][1]}" for name in missing),
         )
-    known = _known(arguments)
+    known = _known(arguments, notes)
     model = describe.model(known, arguments.out)
     reported = _expected(known, model)
     write_file(arguments.out, describe.text(known))
@@ -128,7 +127,9 @@ def _check(arguments: argparse.Namespace, name: str, text: str) -> object:
         if name in PLANE:
             return quantity.length_mm(text)
         if name.endswith("_link"):
-            return quantity.link(text, quantity.length_mm(str(getattr(arguments, name.partition("_")[0]) or "200")))
+            part = name.partition("_")[0]
+            length = quantity.offset_mm if part == "coxa" else quantity.length_mm
+            return quantity.link(text, length(str(getattr(arguments, part) or "200")))
         if name.endswith("_joint"):
             return quantity.joint(text)
         if name.endswith("_play"):
@@ -148,7 +149,7 @@ def _check(arguments: argparse.Namespace, name: str, text: str) -> object:
         raise _naming(name, error) from None
 
 
-def _known(arguments: argparse.Namespace) -> Known:
+def _known(arguments: argparse.Namespace, notes: list[str]) -> Known:
     from brace.newlimb.describe import Known
 
     given = {name: value for name, value in vars(arguments).items() if value is not None}
@@ -170,6 +171,7 @@ def _known(arguments: argparse.Namespace) -> Known:
         cast("dict[str, float | None]", said["_play"]),
         cast("dict[str, tuple[float, float]]", said["_travel"]),
         arguments.urdf.name if arguments.urdf else "",
+        tuple(notes),
     )
 
 
@@ -219,10 +221,13 @@ def _text(known: Known, reported: dict[str, object]) -> str:
     )
 
 
-def _fill_from_urdf(arguments: argparse.Namespace) -> None:
-    """What the URDF says and no option does."""
+def _fill_from_urdf(arguments: argparse.Namespace) -> list[str]:
+    """What the URDF says and no option does; returns how it was understood."""
     from brace.newlimb.urdf import read_chain
 
-    for name, value in read_chain(arguments.urdf, arguments.urdf_tip).items():
+    in_space = any(value is not None for name, value in vars(arguments).items() if name.startswith("coxa"))
+    found, notes = read_chain(arguments.urdf, arguments.urdf_tip, in_space)
+    for name, value in found.items():
         if getattr(arguments, name) is None:
             setattr(arguments, name, value)
+    return notes

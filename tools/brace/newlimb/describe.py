@@ -28,6 +28,7 @@ class Known:
     plays_rad: Mapping[str, float | None] = field(default_factory=dict)
     travels_rad: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     source: str = ""
+    notes: tuple[str, ...] = ()  # what the source left open and how it was understood
 
 
 def compliance_rel(known: Known) -> float:
@@ -44,7 +45,8 @@ def compliance_rel(known: Known) -> float:
 
 def guesses(known: Known) -> list[str]:
     """What nobody said, one sentence each."""
-    told = [
+    told = list(known.notes)
+    told += [
         f"joint.{name}: {joint.words} is a guess; a joint test measures it (docs/joint-tests.md)"
         for name, joint in known.joints.items()
         if joint.guessed
