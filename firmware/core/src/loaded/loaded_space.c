@@ -13,6 +13,7 @@
 #define LEFT_MOST_RAD2 6.25e-4f /* square of 0.025 rad: levers that turn by so much change K by up to twice that, 5 % */
 #define LEFT_PROMISED_RAD2 2.5e-5f /* square of 0.005 rad: beyond it no accuracy is promised */
 #define LEFT_SURE_RAD2 1e-6f /* square of 0.001 rad: what further steps are not taken for */
+#define LEFT_NOTHING_RAD2 1e-12f /* square of 1e-6 rad: the same where nobody waits; singles hardly tell more */
 #define ROUNDS_MOST 2           /* of two steps each */
 #define ROUNDS_ON_MOST 10       /* where nobody waits at all */
 #define SHARES_MOST 64 /* of a load that is raised; the first, and the least */
@@ -153,9 +154,9 @@ static void second_step(brace_space_rest_t *rest, settling_t *settling)
 
 /* A later round's matrix is nearer to the limb's own, so its steps shrink at least as fast as those of the round
  * before. Where that leaves nothing to go for, its first step is enough. */
-static bool first_is_enough(const brace_space_rest_t *rest, bool is_first)
+static bool first_is_enough(const brace_space_rest_t *rest, bool is_first, float sure_rad2)
 {
-    return !is_first && rest->left_rad2 <= LEFT_SURE_RAD2;
+    return !is_first && rest->left_rad2 <= sure_rad2;
 }
 
 static bool is_within(const brace_space_pose_t *pose)
@@ -203,8 +204,9 @@ static brace_status_t take(const brace_loaded_space_t *loaded, float theta1_rad,
     return BRACE_OK;
 }
 
-/* A round, and the limb bent as it leads. is_first: from the straight limb; else from where the limb is bent to */
-static void take_round(const brace_loaded_space_t *loaded, brace_space_rest_t *rest, bool is_first,
+/* A round, and the limb bent as it leads. is_first: from the straight limb; else from where the limb is bent to.
+ * sure_rad2: less than this need not be gone for */
+static void take_round(const brace_loaded_space_t *loaded, brace_space_rest_t *rest, bool is_first, float sure_rad2,
                        settling_t *settling)
 {
     if (is_first) {
@@ -213,11 +215,11 @@ static void take_round(const brace_loaded_space_t *loaded, brace_space_rest_t *r
         begin_round_bent(loaded, rest, settling);
     }
     first_step(rest, settling);
-    const bool is_there = first_is_enough(rest, is_first);
+    const bool is_there = first_is_enough(rest, is_first, sure_rad2);
     bend_to(loaded, rest, !is_there, settling);
     if (!is_there) {
         second_step(rest, settling);
-        bend_to(loaded, rest, rest->left_rad2 > LEFT_SURE_RAD2, settling);
+        bend_to(loaded, rest, rest->left_rad2 > sure_rad2, settling);
     }
 }
 
@@ -234,9 +236,9 @@ brace_status_t brace_loaded_space_settle(const brace_loaded_space_t *loaded, flo
     if (status != BRACE_OK) {
         return status;
     }
-    take_round(loaded, rest, true, &settling);
+    take_round(loaded, rest, true, LEFT_SURE_RAD2, &settling);
     for (int rounds = 1; rounds < ROUNDS_MOST && rest->left_rad2 > LEFT_SURE_RAD2; rounds++) {
-        take_round(loaded, rest, false, &settling);
+        take_round(loaded, rest, false, LEFT_SURE_RAD2, &settling);
     }
     return rest_found(rest);
 }
@@ -283,21 +285,21 @@ brace_status_t brace_loaded_space_follow(const brace_loaded_space_t *loaded, flo
     if (is_rest && is_near(rest->whole_n, before_n)) {
         take_one_step(loaded, rest);
     } else {
-        take_round(loaded, rest, true, &settling);
+        take_round(loaded, rest, true, LEFT_SURE_RAD2, &settling);
     }
     return rest_found(rest);
 }
 
 /* Rounds from where the limb is bent to, one at least. */
-static brace_status_t go_on(const brace_loaded_space_t *loaded, brace_space_rest_t *rest, int most)
+static brace_status_t go_on(const brace_loaded_space_t *loaded, brace_space_rest_t *rest, int most, float sure_rad2)
 {
     settling_t settling;
     begin_again(loaded, rest, &settling);
     int rounds = 0;
     do {
-        take_round(loaded, rest, false, &settling);
+        take_round(loaded, rest, false, sure_rad2, &settling);
         rounds++;
-    } while (rounds < most && rest->left_rad2 > LEFT_SURE_RAD2);
+    } while (rounds < most && rest->left_rad2 > sure_rad2);
     return rest_found(rest);
 }
 
@@ -322,7 +324,7 @@ static brace_status_t raise_load(const brace_loaded_space_t *loaded, brace_space
         const float share = at + by < 1.0f ? at + by : 1.0f;
         *rest = reached;
         put_load(loaded, tip_n, down, share, rest);
-        status = go_on(loaded, rest, ROUNDS_A_SHARE);
+        status = go_on(loaded, rest, ROUNDS_A_SHARE, LEFT_SURE_RAD2);
         if (status == BRACE_OK && rest->left_rad2 <= LEFT_SURE_RAD2) {
             reached = *rest;
             at = share;
@@ -338,8 +340,11 @@ static brace_status_t raise_load(const brace_loaded_space_t *loaded, brace_space
 
 brace_status_t brace_loaded_space_settle_on(const brace_loaded_space_t *loaded, brace_space_rest_t *rest)
 {
-    const brace_status_t status = go_on(loaded, rest, ROUNDS_ON_MOST);
-    return status == BRACE_OK ? status : raise_load(loaded, rest);
+    brace_status_t status = go_on(loaded, rest, ROUNDS_ON_MOST, LEFT_NOTHING_RAD2);
+    if (status != BRACE_OK && raise_load(loaded, rest) == BRACE_OK) {
+        status = go_on(loaded, rest, ROUNDS_ON_MOST, LEFT_NOTHING_RAD2);
+    }
+    return status;
 }
 
 /* How far the tip has moved from where the commanded limb has it. */
@@ -446,7 +451,7 @@ static void work_first_step(const brace_loaded_space_t *loaded, brace_space_work
 static bool work_first_bend(const brace_loaded_space_t *loaded, brace_space_work_t *work)
 {
     settling_t *settling = &work->of.settling;
-    const bool is_there = first_is_enough(&work->rest, work->rounds == 1u);
+    const bool is_there = first_is_enough(&work->rest, work->rounds == 1u, LEFT_SURE_RAD2);
     bend_to(loaded, &work->rest, !is_there, settling);
     work->step = is_there ? ELIMINATE : STEP_SECOND;
     return !is_there || rest_found(&work->rest) == BRACE_OK;
