@@ -9,8 +9,12 @@ import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
-from conftest import Outcome, spawn
-from test_sim_command import FREE, running
+from command_bench import FREE, Outcome, running, spawn
+
+from brace.bus.can_controller import CanController
+from brace.bus.open import open_bus
+from brace.bus.session import Session
+from brace.bus.url import parse
 
 TELLING_S = 3.0  # within which every failure is told
 START_S = 0.5  # what a command that waits for nothing takes of it on an idle machine
@@ -21,6 +25,22 @@ def limb_on_tcp(model: Path, *options: object) -> Iterator[str]:
     """The CAN bus' URL."""
     with running(model, *FREE, *options) as (_, ready):
         yield ready["limbs"][0]["can"]
+
+
+@contextlib.contextmanager
+def device_on(url: str) -> Iterator[CanController]:
+    bus = open_bus(parse(url))
+    try:
+        yield CanController(Session(bus))
+    finally:
+        bus.close()
+
+
+def wait_for_mode(url: str, mode: str) -> None:
+    until = time.monotonic() + 60
+    with device_on(url) as device:
+        while device.read_entry("mode") != {"monitor": 1, "configuration": 2, "loading_test": 4}[mode]:
+            assert time.monotonic() < until, f"never in {mode}"
 
 
 def timed(*arguments: object) -> tuple[Outcome, float]:

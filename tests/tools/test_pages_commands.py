@@ -21,9 +21,8 @@ from typing import Any
 
 import pytest
 from bus_bench import limb_on_tcp
-from conftest import LIMB, PROJECT, Outcome, spawn
+from command_bench import FREE, LIMB, PROJECT, Outcome, running, spawn
 from test_printed_commands import START, lines_of_code
-from test_sim_command import FREE, running
 
 from brace.bus.can_controller import CanController
 from brace.bus.open import open_bus

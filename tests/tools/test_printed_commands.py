@@ -13,8 +13,7 @@ from pathlib import Path
 
 import pytest
 from bus_bench import limb_on_tcp
-from conftest import LIMB, PROJECT, Outcome
-from test_bus_space import ACROSS
+from command_bench import ACROSS, LIMB, PROJECT, Outcome
 
 from brace.cli.command_line import build_parser
 

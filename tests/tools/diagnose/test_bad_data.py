@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import LIMB, LOADING_HEADER, loading_rows, write_loading
+from command_bench import LIMB, LOADING_HEADER, loading_rows, write_loading
 
 from brace.model import load_limb
 from brace.model.keys import KEY_BY_NAME, LIMB_KEYS

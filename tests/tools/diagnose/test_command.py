@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from conftest import Outcome
+from command_bench import Outcome
 from handmade import FAULT, GAP_KEY, by_hand, loading_record
 
 from brace.diagnose import one

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from conftest import Outcome
+from command_bench import Outcome
 from handmade import GAP_KEY, GAP_RAD, loading_record
 
 from brace.dataset import load_dataset

@@ -9,7 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from conftest import LIMB, Outcome
+from command_bench import LIMB, Outcome
 
 from brace import toml
 from brace.diagnose.diagnosis import Diagnosis, Interval, NamedEffect

@@ -20,7 +20,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from conftest import LIMB, Outcome, loading_rows, spawn, write_loading
+from command_bench import LIMB, Outcome, loading_rows, spawn, write_loading
 
 from brace.diagnose.fleet import local, overview
 from brace.diagnose.fleet.job import Job, jobs_of, run_job

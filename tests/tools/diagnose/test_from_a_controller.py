@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 from bus_bench import limb_on_tcp
-from conftest import LIMB, Outcome
+from command_bench import LIMB, Outcome
 
 POSTURES = ((1.0, 1.4), (0.4, 1.0), (1.2, 2.0), (-0.2, 1.7))
 TRUE_RAD_PER_N_MM = 2.6e-5

@@ -16,7 +16,7 @@ from brace.effects import JointTestBench
 from brace.effects.record import JointTestSize
 from brace.model import load_limb
 from by_torque import found_in, triangle
-from conftest import DATA
+from command_bench import DATA
 
 STEP_S = 0.02  # from reading to reading, as by_torque.found_in writes them
 STIFFNESS = 4e5  # N mm/rad

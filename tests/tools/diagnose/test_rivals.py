@@ -12,7 +12,7 @@ from typing import Any, cast
 
 import numpy as np
 import pytest
-from conftest import Outcome
+from command_bench import Outcome
 from handmade import loading_record
 
 from brace.dataset import Dataset, load_dataset

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from conftest import LIMB, loading_rows, write_loading
+from command_bench import LIMB, loading_rows, write_loading
 
 from brace.dataset import load_dataset
 from brace.diagnose.diagnosis import Diagnosis

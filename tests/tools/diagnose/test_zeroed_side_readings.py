@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import LIMB
+from command_bench import LIMB
 
 from brace.dataset import load_dataset
 from brace.dataset.check_runs import run_starts

@@ -8,7 +8,7 @@ import zipfile
 from pathlib import Path
 
 import numpy as np
-from conftest import physics_k
+from command_bench import physics_k
 
 LBF_N = 4.4482216152605
 PATH = (0, 1, 2, 3, 4, 3, 2, 1, 0, -1, -2, -3, -4, -3, -2, -1, 0)

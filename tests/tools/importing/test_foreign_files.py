@@ -12,7 +12,7 @@ from pathlib import Path
 import foreign_files as foreign
 import numpy as np
 import pytest
-from conftest import Outcome
+from command_bench import Outcome
 from foreign_files import PATH, POSES_DEG, Record
 
 from brace.dataset import load_dataset

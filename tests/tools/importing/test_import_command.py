@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import Outcome, physics_k
+from command_bench import Outcome, physics_k
 from foreign_files import Record, shown, text
 
 from brace.cli import import_questions

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import Outcome
+from command_bench import Outcome
 from foreign_files import PATH, POSES_DEG, STEP_MM, Record, shown, text
 
 from brace.dataset import load_dataset

@@ -10,7 +10,7 @@ from pathlib import Path
 import logs_of_a_rig as rig
 import numpy as np
 import pytest
-from conftest import Outcome
+from command_bench import Outcome
 from foreign_files import POSES_DEG, Record
 from test_foreign_files import matches
 

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from conftest import Outcome
+from command_bench import Outcome
 from foreign_files import Record, excel, workbook
 
 from brace.dataset import load_dataset

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from conftest import LIMB, Outcome, physics_k
+from command_bench import LIMB, Outcome, physics_k
 
 Brace = Callable[..., Outcome]
 mujoco = pytest.importorskip("mujoco")

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from conftest import LIMB, LOADING_META, Outcome, loading_rows, write_loading
+from command_bench import LIMB, LOADING_META, Outcome, loading_rows, write_loading
 
 Brace = Callable[..., Outcome]
 POSTURE = ("--theta1", 1.0, "--theta2", 1.4)

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import Outcome, physics_k
+from command_bench import Outcome, physics_k
 
 from brace.cli import new_questions
 from brace.newlimb.beams import MATERIALS, round_beam
