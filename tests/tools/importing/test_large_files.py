@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 
 import pytest
-from conftest import Outcome
+from command_bench import Outcome
 from foreign_files import workbook
 
 Brace = Callable[..., Outcome]

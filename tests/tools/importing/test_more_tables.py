@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import Outcome
+from command_bench import Outcome
 from foreign_files import LBF_N, POSES_DEG, Record, shown, text
 
 from brace.dataset import load_dataset

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import Outcome
+from command_bench import Outcome
 from foreign_files import POSES_DEG, Record, shown, text, workbook
 
 from brace.dataset import load_dataset

@@ -13,7 +13,7 @@ import can
 import numpy as np
 import pytest
 from can.io.canutils import CanutilsLogWriter
-from conftest import Outcome
+from command_bench import Outcome
 
 from brace.dataset import load_dataset
 from brace.importing.logs.can_formats import are_distances

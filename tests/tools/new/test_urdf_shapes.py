@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import Outcome
+from command_bench import Outcome
 
 Brace = Callable[..., Outcome]
 PLANE = ("--femur-link", "rigid", "--tibia-link", "rigid", "--femur-joint", 60, "--tibia-joint", 60)

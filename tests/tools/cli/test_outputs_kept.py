@@ -10,7 +10,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from conftest import LIMB, Outcome, loading_rows, write_loading
+from command_bench import LIMB, Outcome, loading_rows, write_loading
 
 from brace.ground.errors import UsageError
 from brace.ground.files import OutputSet, is_unchanged, marked, refuse_written
