@@ -128,7 +128,7 @@ enum {
     BRACE_HAL_KEY_OPEN = 2    /* one that another program on this board can replace */
 };
 
-/* What a joint may be told at most, whatever its parameters say; of the board's own file. INFINITY: no bound. */
+/* What a joint may be commanded at most, whatever its parameters say; of the board's own file. INFINITY: no bound. */
 typedef struct {
     float torque_most_n_mm;
     float angle_least_rad, angle_most_rad; /* true joint angle */
@@ -170,9 +170,10 @@ typedef struct {
 
     /* Optional: all five, or all null where there is no CAN. can_setup starts the controller anew: OK, E_UNSUPPORTED (no
      * such controller), E_RANGE, E_DEVICE (not now; the tick tries again every 2 s). It may block for 1 ms, and does not
-     * wait until the bus is quiet; can_health tells bus_off until then. can_send queues one frame: OK, AGAIN, E_BUS_OFF, E_UNSUPPORTED, E_RANGE. Queued
-     * frames of one identifier leave in order. can_receive returns 1 and a frame, or 0. can_recover starts the
-     * standard's way back to the bus (128 x 11 recessive bits) and does not wait for its end. Only can_setup blocks. */
+     * wait until the bus is quiet; can_health reports bus_off until then. can_send queues one frame: OK, AGAIN,
+     * E_BUS_OFF, E_UNSUPPORTED, E_RANGE. Queued frames of one identifier leave in order. can_receive returns 1 and a
+     * frame, or 0. can_recover starts the standard's way back to the bus (128 x 11 recessive bits) and does not wait
+     * for its end. Only can_setup blocks. */
     int32_t (*can_setup)(void *context, const brace_can_setup_t *setup);
     int32_t (*can_send)(void *context, const brace_can_frame_t *frame);
     int32_t (*can_receive)(void *context, brace_can_frame_t *frame);
@@ -203,7 +204,7 @@ typedef struct {
      * lost bits, or memory that was locked without one), E_DEVICE (it does not answer). key_write keeps a key, once, and
      * locks it: OK, AGAIN (kept, but not locked; the next start tries again), E_RANGE (there is one already), E_DEVICE;
      * it may block for 2 ms, and is called by the console alone. random_read gives a word
-     * that nobody can tell in advance: OK, AGAIN, E_DEVICE; without it a board with a key refuses motion. */
+     * that nobody can predict: OK, AGAIN, E_DEVICE; without it a board with a key refuses motion. */
     int32_t (*key_read)(void *context, uint8_t key[BRACE_HAL_KEY_BYTES]);
     int32_t (*key_write)(void *context, const uint8_t key[BRACE_HAL_KEY_BYTES]);
     int32_t (*random_read)(void *context, uint32_t *word);

@@ -41,7 +41,7 @@ typedef struct {
     brace_servo_joint_t joint[BRACE_SERVO_JOINTS]; /* coxa, femur, tibia */
     uint32_t period_us;  /* between two requests [500, 100000] */
     uint32_t timeout_us; /* an answer that has not come by then is lost [300, 100000] */
-    bool holds;          /* a servo found without torque is told to stand where it is, and its torque switched on */
+    bool holds;          /* a servo found without torque is commanded to stand where it is, with its torque on */
 } brace_servo_setup_t;
 
 typedef enum {
@@ -66,7 +66,7 @@ typedef struct {
     float goal_rad;         /* set-point that it has been sent; NaN before */
     uint32_t samples;       /* all counters saturate */
     uint32_t lost;          /* answers that did not come */
-    uint32_t doubted;       /* samples that no servo can tell, or that jumped and wait until the next one agrees */
+    uint32_t doubted;       /* samples that no servo can report, or that jumped and wait until the next one agrees */
     uint32_t refused;       /* answers with an error number */
     uint32_t restarts;      /* how often it has lost its set-up */
 } brace_servo_report_t;

@@ -201,7 +201,7 @@ static void stand_at(brace_servo_t *servo, const brace_servo_joint_t *joint, int
     servo->step = next_step;
 }
 
-/* The goals of a servo that holds: it goes on holding where it was told to. As a sample that jumps, they are believed
+/* The goals of a servo that holds: it holds on where it was commanded to. As a sample that jumps, they are believed
  * when the next answer agrees. An earlier controller may have bounded its current. A servo that has yielded at such a
  * bound stands far from its goal, and without the bound it would snap to the goal. So the servo gets its present place
  * as its goal. */

@@ -1,4 +1,4 @@
-/* One servo: what its answers say, and what it is told. The driver (dynamixel.c) carries both over the line. */
+/* One servo: what its answers say, and what it is commanded. The driver (dynamixel.c) carries both over the line. */
 #ifndef DXL_SERVO_H
 #define DXL_SERVO_H
 
@@ -66,7 +66,7 @@ static inline bool dxl_servo_accepts(const brace_servo_t *servo, float offset_ra
     return !servo->goes_back || dxl_magnitude(offset_rad - servo->offset_rad) <= DXL_NEAR_RAD;
 }
 
-/* What the servo is to be told: its current's limit and its position [counts]. */
+/* What the servo is to be sent: its current's limit and its position [counts]. */
 uint16_t dxl_servo_current(const brace_servo_t *servo);
 int32_t dxl_servo_goal(const brace_servo_t *servo, const brace_servo_joint_t *joint);
 

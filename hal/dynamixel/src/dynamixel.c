@@ -177,7 +177,7 @@ static void add_goals(brace_dynamixel_t *driver, bool is_current)
     (void)dxl_end(&driver->out);
 }
 
-/* Goals leave when they change, and now and then, because nobody answers them. A servo that cannot be told stands at
+/* Goals leave when they change, and now and then, because nobody answers them. A servo that does not hear stands at
  * the goal that it has, so its offset stays, too. */
 static void add_due_goals(brace_dynamixel_t *driver, uint32_t passed_us)
 {

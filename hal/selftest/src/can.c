@@ -9,7 +9,7 @@ static bool group_is_whole(selftest_t *test)
     const uint32_t there = (hal->can_setup != 0) + (hal->can_send != 0) + (hal->can_receive != 0) +
         (hal->can_health != 0) + (hal->can_recover != 0);
     if (there == 0u) {
-        selftest_tell(test, BRACE_SELFTEST_NOTE, "can", "not there: no CAN on this board");
+        selftest_report(test, BRACE_SELFTEST_NOTE, "can", "not there: no CAN on this board");
         return false;
     }
     return selftest_expect(test, there == 5u, "can", "the group is whole",
@@ -55,7 +55,7 @@ static void own_frames(selftest_t *test)
         const brace_can_frame_t sent = frame_number(number);
         const int32_t answer = hal->can_send(hal->context, &sent);
         if (answer != BRACE_HAL_OK) {
-            selftest_tell_value(test, BRACE_SELFTEST_FAIL, "can_send", "an idle controller takes no frame", answer,
+            selftest_report_value(test, BRACE_SELFTEST_FAIL, "can_send", "an idle controller takes no frame", answer,
                 "answer");
             return;
         }
@@ -68,7 +68,7 @@ static void own_frames(selftest_t *test)
         }
         const brace_can_frame_t expected = frame_number(count);
         if (!equal(&received, &expected)) {
-            selftest_tell_value(test, BRACE_SELFTEST_FAIL, "can_receive",
+            selftest_report_value(test, BRACE_SELFTEST_FAIL, "can_receive",
                 "a frame came back changed or out of order: identifier shift, byte order, mailbox priority?", count,
                 "frame");
             return;
@@ -76,11 +76,11 @@ static void own_frames(selftest_t *test)
         count++;
     } while (count < FRAMES && selftest_waiting(test, &wait));
     if (count < FRAMES) {
-        selftest_tell_value(test, BRACE_SELFTEST_FAIL, "can_receive",
+        selftest_report_value(test, BRACE_SELFTEST_FAIL, "can_receive",
             "frames sent in loopback do not come back: filter, receive interrupt, bit timing?", count, "of 3 frames");
         return;
     }
-    selftest_tell(test, BRACE_SELFTEST_PASS, "can", "loopback: what is sent comes back, in order");
+    selftest_report(test, BRACE_SELFTEST_PASS, "can", "loopback: what is sent comes back, in order");
 }
 
 static void health(selftest_t *test)
@@ -103,7 +103,7 @@ static void filter(selftest_t *test)
         .bit_rate = BIT_RATE, .loopback = true, .filter_id = IDENTIFIER, .filter_mask = 0x7ffu};
     brace_can_frame_t wanted = frame_number(0u), other = frame_number(1u), received = {0};
     if (hal->can_setup(hal->context, &setup) != BRACE_HAL_OK) {
-        selftest_tell(test, BRACE_SELFTEST_FAIL, "can_setup", "a filter for one identifier is refused");
+        selftest_report(test, BRACE_SELFTEST_FAIL, "can_setup", "a filter for one identifier is refused");
         return;
     }
     health(test);
@@ -129,12 +129,12 @@ void selftest_can(selftest_t *test)
     const brace_can_setup_t loopback = {.bit_rate = BIT_RATE, .loopback = true};
     const int32_t answer = hal->can_setup(hal->context, &loopback);
     if (answer == BRACE_HAL_E_UNSUPPORTED) {
-        selftest_tell(test, BRACE_SELFTEST_NOTE, "can_setup",
+        selftest_report(test, BRACE_SELFTEST_NOTE, "can_setup",
             "no loopback, or no CAN behind it: frames are not tried");
         return;
     }
     if (answer != BRACE_HAL_OK) {
-        selftest_tell_value(test, BRACE_SELFTEST_FAIL, "can_setup",
+        selftest_report_value(test, BRACE_SELFTEST_FAIL, "can_setup",
             "500 kbit/s in loopback is refused: controller clocked, pins, crystal?", answer, "answer");
         return;
     }

@@ -74,7 +74,7 @@ static void judge_samples(selftest_t *test, const char *name, const seen_t *seen
             "the same sample is called new again and again: AGAIN is the answer for it");
     }
     if (!seen->changed) {
-        selftest_tell(test, test->setup->joints_are_moved ? BRACE_SELFTEST_FAIL : BRACE_SELFTEST_NOTE, name,
+        selftest_report(test, test->setup->joints_are_moved ? BRACE_SELFTEST_FAIL : BRACE_SELFTEST_NOTE, name,
             test->setup->joints_are_moved ? "the encoder is stuck: the joint was moved and the angle was not"
                                           : "the angle did not change by a step: move the joint to see that it does");
     }
@@ -85,16 +85,17 @@ static void one_joint(selftest_t *test, int32_t index)
     const char *const name = names[index];
     const seen_t seen = watch(test, index);
     if (seen.answer == BRACE_HAL_E_UNSUPPORTED) {
-        selftest_tell(test, index == 0 ? BRACE_SELFTEST_NOTE : BRACE_SELFTEST_FAIL, name,
+        selftest_report(test, index == 0 ? BRACE_SELFTEST_NOTE : BRACE_SELFTEST_FAIL, name,
             index == 0 ? "no such joint: a limb in a plane" : "no such joint: without femur and tibia there is no K");
     } else if (seen.answer != BRACE_HAL_OK) {
-        selftest_tell_value(test, BRACE_SELFTEST_FAIL, name, "the device refuses: encoder powered, wired, addressed?",
+        selftest_report_value(test, BRACE_SELFTEST_FAIL, name,
+            "the device refuses: encoder powered, wired, addressed?",
             seen.answer, "answer");
     } else if (seen.fresh == 0u) {
-        selftest_tell(test, BRACE_SELFTEST_FAIL, name,
+        selftest_report(test, BRACE_SELFTEST_FAIL, name,
             "AGAIN for ever: no new sample in 50 ms; does the sampling interrupt or DMA run?");
     } else {
-        selftest_tell_value(test, BRACE_SELFTEST_PASS, name, "new samples", (int32_t)seen.fresh, "in 50 ms");
+        selftest_report_value(test, BRACE_SELFTEST_PASS, name, "new samples", (int32_t)seen.fresh, "in 50 ms");
         judge_samples(test, name, &seen);
     }
 }
@@ -124,11 +125,11 @@ static void commands(selftest_t *test)
     const brace_hal_t *const hal = test->hal;
     const brace_hal_joint_command_t nothing = {0.0f, INFINITY}; /* no offset and no limit */
     if (hal->joint_command == 0) {
-        selftest_tell(test, BRACE_SELFTEST_NOTE, "joint_command", "not there: the firmware can not move this limb");
+        selftest_report(test, BRACE_SELFTEST_NOTE, "joint_command", "not there: the firmware can not move this limb");
         return;
     }
     if (!test->setup->limb_is_free) {
-        selftest_tell(test, BRACE_SELFTEST_NOTE, "joint_command", "not tried: the limb was not said to hang free");
+        selftest_report(test, BRACE_SELFTEST_NOTE, "joint_command", "not tried: the limb was not said to hang free");
         return;
     }
     selftest_expect(test, hal->joint_command(hal->context, 1, &nothing) == BRACE_HAL_OK, "joint_command",
@@ -158,7 +159,7 @@ static void tip_force(selftest_t *test)
 {
     const brace_hal_t *const hal = test->hal;
     if (hal->tip_force_read == 0) {
-        selftest_tell(test, BRACE_SELFTEST_NOTE, "tip_force_read", "not there: no force sensor");
+        selftest_report(test, BRACE_SELFTEST_NOTE, "tip_force_read", "not there: no force sensor");
         return;
     }
     float x_n = 0.0f, z_n = 0.0f;
@@ -168,7 +169,7 @@ static void tip_force(selftest_t *test)
         answer = hal->tip_force_read(hal->context, &x_n, &z_n);
     } while (answer == BRACE_HAL_AGAIN && selftest_waiting(test, &wait));
     if (answer != BRACE_HAL_OK) {
-        selftest_tell_value(test, BRACE_SELFTEST_FAIL, "tip_force_read",
+        selftest_report_value(test, BRACE_SELFTEST_FAIL, "tip_force_read",
             "no sample in 50 ms; null is right when there is no sensor", answer, "answer");
         return;
     }

@@ -30,7 +30,7 @@ static void bounds(selftest_t *test)
         "nvm_read", "both slots are read to their ends", "the first or last byte of a slot can not be read");
 }
 
-/* A checksum over a slot, to tell one content from another; false: the slot cannot be read. */
+/* A checksum over a slot, to distinguish one content from another; false: the slot cannot be read. */
 static bool fingerprint(const selftest_t *test, uint32_t slot, uint32_t *sum, bool *erased)
 {
     const brace_hal_t *const hal = test->hal;
@@ -61,12 +61,12 @@ static bool erase(selftest_t *test, uint32_t slot)
     const uint32_t took_us = hal->now_us(hal->context) - began_us;
     hal->watchdog_feed(hal->context);
     if (answer != BRACE_HAL_OK) {
-        selftest_tell_value(test, BRACE_SELFTEST_FAIL, "nvm_erase", "refused: is the memory write-protected?",
+        selftest_report_value(test, BRACE_SELFTEST_FAIL, "nvm_erase", "refused: is the memory write-protected?",
             answer, "answer");
         return false;
     }
     if (took_us > ERASE_MAX_US) {
-        selftest_tell_value(test, BRACE_SELFTEST_FAIL, "nvm_erase", "takes longer than 2 s: the watchdog will bite",
+        selftest_report_value(test, BRACE_SELFTEST_FAIL, "nvm_erase", "takes longer than 2 s: the watchdog will bite",
             (int32_t)took_us, "us");
     }
     return selftest_expect(test, fingerprint(test, slot, &sum, &erased) && erased, "nvm_erase",
@@ -92,12 +92,12 @@ static bool write_unit(selftest_t *test, uint32_t slot, uint32_t offset)
     const int32_t answer = hal->nvm_write(hal->context, slot, offset, bytes, hal->nvm_shape.write_bytes);
     const uint32_t took_us = hal->now_us(hal->context) - began_us;
     if (answer != BRACE_HAL_OK) {
-        selftest_tell_value(test, BRACE_SELFTEST_FAIL, "nvm_write",
+        selftest_report_value(test, BRACE_SELFTEST_FAIL, "nvm_write",
             "a unit of write_bytes is refused: is the unit's size right?", answer, "answer");
         return false;
     }
     if (test->clock_runs && took_us > WRITE_MAX_US) {
-        selftest_tell_value(test, BRACE_SELFTEST_NOTE, "nvm_write", "a unit took longer than 1 ms", (int32_t)took_us,
+        selftest_report_value(test, BRACE_SELFTEST_NOTE, "nvm_write", "a unit took longer than 1 ms", (int32_t)took_us,
             "us");
     }
     return true;
@@ -138,7 +138,7 @@ static void keeps(selftest_t *test, uint32_t slot)
             return;
         }
         if (at == lonely && !(holds(test, slot, at, true) && holds(test, slot, at + s->write_bytes, false))) {
-            selftest_tell(test, BRACE_SELFTEST_FAIL, "nvm_shape",
+            selftest_report(test, BRACE_SELFTEST_FAIL, "nvm_shape",
                 "the unit's size lies: writing one unit changed its neighbour, or not all of itself");
             return;
         }
@@ -166,7 +166,7 @@ void selftest_nvm(selftest_t *test)
     }
     bounds(test);
     if (test->setup->scratch_slot == BRACE_SELFTEST_KEEP_NVM) {
-        selftest_tell(test, BRACE_SELFTEST_NOTE, "nvm_write", "not tried: the slots were to be kept");
+        selftest_report(test, BRACE_SELFTEST_NOTE, "nvm_write", "not tried: the slots were to be kept");
         return;
     }
     const uint32_t slot = (uint32_t)test->setup->scratch_slot, other = 1u - slot;

@@ -4,7 +4,7 @@
 static void is_there(selftest_t *test, bool there, const char *entry, bool *all)
 {
     if (!there) {
-        selftest_tell(test, BRACE_SELFTEST_FAIL, entry,
+        selftest_report(test, BRACE_SELFTEST_FAIL, entry,
             "null, and not optional: fill it in (hal/blank has every entry)");
         *all = false;
     }
@@ -31,7 +31,7 @@ static bool door(selftest_t *test)
     is_there(test, hal->stack_unused_bytes != 0, "stack_unused_bytes", &all);
     is_there(test, hal->restart != 0, "restart", &all);
     if (all) {
-        selftest_tell(test, BRACE_SELFTEST_PASS, "door", "every entry that is not optional is there");
+        selftest_report(test, BRACE_SELFTEST_PASS, "door", "every entry that is not optional is there");
     }
     return all;
 }
@@ -47,9 +47,9 @@ static void start_and_stop(selftest_t *test)
     selftest_expect(test, crashed == 0 || crashed == 1, "crash_read", "answers 0 or 1", "answers neither 0 nor 1");
     const uint32_t unused = hal->stack_unused_bytes(hal->context);
     if (unused == 0u) {
-        selftest_tell(test, BRACE_SELFTEST_NOTE, "stack_unused_bytes", "not known, or nothing left");
+        selftest_report(test, BRACE_SELFTEST_NOTE, "stack_unused_bytes", "not known, or nothing left");
     } else {
-        selftest_tell_value(test, BRACE_SELFTEST_PASS, "stack_unused_bytes", "known", (int32_t)unused, "bytes");
+        selftest_report_value(test, BRACE_SELFTEST_PASS, "stack_unused_bytes", "known", (int32_t)unused, "bytes");
     }
 }
 

@@ -11,8 +11,8 @@ typedef struct {
     bool clock_runs; /* a check may wait for a window of time */
 } selftest_t;
 
-void selftest_tell(selftest_t *test, brace_selftest_verdict_t verdict, const char *entry, const char *what);
-void selftest_tell_value(selftest_t *test, brace_selftest_verdict_t verdict, const char *entry, const char *what,
+void selftest_report(selftest_t *test, brace_selftest_verdict_t verdict, const char *entry, const char *what);
+void selftest_report_value(selftest_t *test, brace_selftest_verdict_t verdict, const char *entry, const char *what,
     int32_t value, const char *unit);
 
 /* Reports PASS with `right`, or FAIL with `wrong`; returns ok. */

@@ -13,11 +13,12 @@ static void one_port(selftest_t *test, brace_serial_port_t port)
     const char *const name = names[port];
     const int32_t answer = hal->serial_setup(hal->context, port, BAUD, BRACE_PARITY_NONE);
     if (answer == BRACE_HAL_E_UNSUPPORTED) {
-        selftest_tell(test, BRACE_SELFTEST_NOTE, name, "no such port on this board");
+        selftest_report(test, BRACE_SELFTEST_NOTE, name, "no such port on this board");
         return;
     }
     if (answer != BRACE_HAL_OK) {
-        selftest_tell_value(test, BRACE_SELFTEST_FAIL, name, "115200 baud without parity is refused", answer, "answer");
+        selftest_report_value(test, BRACE_SELFTEST_FAIL, name,
+            "115200 baud without parity is refused", answer, "answer");
         return;
     }
     uint8_t bytes[ROOM + 1];

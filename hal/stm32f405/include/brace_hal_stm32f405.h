@@ -128,7 +128,7 @@ uint32_t stm32f405_sector_bytes(uint8_t sector);
  *                fails; baud [1200, 2e6] that the clock meets to 2 %, else E_RANGE
  *   can_setup    E_UNSUPPORTED: no pins, or CAN FD asked for; E_RANGE: APB1 cannot give the bit rate; E_DEVICE: the
  *                controller does not answer (an emulator), or there is no crystal and neither listen_only nor loopback is
- *                asked for. On a bus that is held dominant, can_health tells bus_off until the bus is free
+ *                asked for. On a bus that is held dominant, can_health reports bus_off until the bus is free
  *   can_send     three mailboxes, first in first out whatever the identifiers, so the order is kept; AGAIN when all
  *                three are full, or until the bus has been quiet once after can_setup; E_UNSUPPORTED when
  *                listening only. A frame that nobody takes for 100 ms is dropped by the next can_health
@@ -158,7 +158,7 @@ typedef struct {
     stm32f405_clocks_t clocks;
     bool crystal;   /* the crystal feeds them */
     bool pll;       /* the PLL runs; else 16 MHz */
-    bool crystal_was_lost; /* it stopped while it fed the clocks: CAN has stopped, and tells bus_off */
+    bool crystal_was_lost; /* it stopped while it fed the clocks: CAN has stopped, and reports bus_off */
 } stm32f405_clock_report_t;
 stm32f405_clock_report_t stm32f405_clock_report(void);
 

@@ -14,7 +14,7 @@ enum {
     FIFO_FRAMES = 3,
     RING_FRAMES = 64, /* a power of two; 7 ms of a full bus at 1 Mbit/s */
     MAILBOXES = 3,
-    STALE_US = 100000 /* a frame that nobody has taken by then tells an age that is long over */
+    STALE_US = 100000 /* a frame that nobody has taken by then describes a moment that is long over */
 };
 
 static const uint32_t mailbox_is_empty[MAILBOXES] = {CAN_TSR_TME0, CAN_TSR_TME1, CAN_TSR_TME2};
@@ -129,7 +129,7 @@ int32_t can_setup(void *context, const brace_can_setup_t *setup)
     pin_give(wiring->can_tx, PIN_FUNCTION);
 
     /* It sends in the order of requests; a full FIFO keeps its frames. It retransmits, and stays in bus-off until
-     * told. */
+     * commanded. */
     const uint32_t manner = CAN_MCR_TXFP | CAN_MCR_RFLM;
     *can(CAN_MCR) = manner | CAN_MCR_INRQ;
     if (!clock_poll_until(can(CAN_MSR), CAN_MSR_INAK | CAN_MSR_SLAK, CAN_MSR_INAK, ACKNOWLEDGE_US)) {

@@ -7,7 +7,7 @@
 void can_use(const stm32f405_board_t *board);
 
 /* Takes the controller off the bus at once: its clock has become too inexact. For the handler of the crystal's loss. It
- * stays off until can_setup; until then it tells bus_off. */
+ * stays off until can_setup; until then it reports bus_off. */
 void can_leave_bus(void);
 
 int32_t can_setup(void *context, const brace_can_setup_t *setup);

@@ -18,7 +18,7 @@ static volatile uint32_t *generator(uint32_t offset)
 
 static void begin_anew(void)
 {
-    *generator(RNG_SR) = 0u; /* forgets what it told of its clock and its seed */
+    *generator(RNG_SR) = 0u; /* clears the errors that it reported of its clock and its seed */
     *generator(RNG_CR) = 0u;
     *generator(RNG_CR) = RNG_CR_RNGEN;
     has_last = false;
@@ -31,7 +31,7 @@ void random_start(void)
     begin_anew();
 }
 
-/* returns false: none came, or it told a fault */
+/* returns false: none came, or it reported a fault */
 static bool take_word(uint32_t *word)
 {
     const bool is_ready = clock_poll_until(generator(RNG_SR), RNG_SR_DRDY, RNG_SR_DRDY, WORD_US);

@@ -147,7 +147,7 @@ int32_t stm32f405_servo_receive(void *context, uint8_t *bytes, uint32_t room)
         return (int32_t)done;
     }
     if ((REGISTER(USART6_BASE, USART_SR) & USART_SR_ORE) != 0u) {
-        (void)REGISTER(USART6_BASE, USART_DR); /* an overrun stops DMA until it is read away; the packet's CRC tells */
+        (void)REGISTER(USART6_BASE, USART_DR); /* an overrun stops DMA until it is read; the CRC shows the loss */
     }
     const uint32_t written = RECEIVED_BYTES - REGISTER(DMA2_BASE, DMA2_S1NDTR);
     while (done < room && line.taken != written % RECEIVED_BYTES) { /* at most room */

@@ -3,7 +3,7 @@
 
 enum { QUESTIONS_MAX = 200000 };
 
-void selftest_tell_value(selftest_t *test, brace_selftest_verdict_t verdict, const char *entry, const char *what,
+void selftest_report_value(selftest_t *test, brace_selftest_verdict_t verdict, const char *entry, const char *what,
     int32_t value, const char *unit)
 {
     const brace_selftest_finding_t finding = {verdict, entry, what, unit[0] != '\0', value, unit};
@@ -17,14 +17,14 @@ void selftest_tell_value(selftest_t *test, brace_selftest_verdict_t verdict, con
     }
 }
 
-void selftest_tell(selftest_t *test, brace_selftest_verdict_t verdict, const char *entry, const char *what)
+void selftest_report(selftest_t *test, brace_selftest_verdict_t verdict, const char *entry, const char *what)
 {
-    selftest_tell_value(test, verdict, entry, what, 0, "");
+    selftest_report_value(test, verdict, entry, what, 0, "");
 }
 
 bool selftest_expect(selftest_t *test, bool ok, const char *entry, const char *right, const char *wrong)
 {
-    selftest_tell(test, ok ? BRACE_SELFTEST_PASS : BRACE_SELFTEST_FAIL, entry, ok ? right : wrong);
+    selftest_report(test, ok ? BRACE_SELFTEST_PASS : BRACE_SELFTEST_FAIL, entry, ok ? right : wrong);
     return ok;
 }
 
