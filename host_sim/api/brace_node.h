@@ -66,7 +66,7 @@ typedef struct {
      * and only where their torque is on. */
     const char *servos;
     uint8_t servo_id[3];             /* of coxa, femur, tibia */
-    int32_t servos_hold;             /* real servos without torque are told to hold where they stand */
+    int32_t servos_hold;             /* real servos without torque are commanded to hold where they stand */
     const uint8_t *key;              /* 16 bytes: the controller is guarded; null: it is a bench (docs/security.md) */
     double owner_silence_s;          /* how long whoever moves the limb may be silent, in the simulation's time; 0: 0.13 */
 } brace_node_limb_t;

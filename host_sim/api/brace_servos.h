@@ -38,8 +38,8 @@ void brace_servos_poke(brace_servos_t *servos, int32_t servo, uint16_t address, 
 void brace_servos_shaft(brace_servos_t *servos, int32_t servo, double turned_rad, double speed_rad_per_s,
                         double current_a, double temp_degc);
 
-/* What the servo tells its motor: goal [rad from the encoder's 0] and greatest current [A]. Returns 0 while its torque
- * is off. */
+/* What the servo commands its motor: goal [rad from the encoder's 0] and greatest current [A]. Returns 0 while its
+ * torque is off. */
 int32_t brace_servos_goal(const brace_servos_t *servos, int32_t servo, double *goal_rad, double *current_a);
 
 /* Its cable is pulled out, or in again; power: it also starts anew. */

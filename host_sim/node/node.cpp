@@ -305,12 +305,13 @@ extern "C" int32_t brace_node_servo(brace_node_t *node, int32_t limb, int32_t jo
     if (found == nullptr || found->servos() == nullptr || joint < 0 || joint > 2) {
         return BRACE_HOST_E_RANGE;
     }
-    brace_servo_report_t told{};
+    brace_servo_report_t reported{};
     brace_servo_counters_t line{};
-    brace_dynamixel_report(found->servos(), joint, &told);
+    brace_dynamixel_report(found->servos(), joint, &reported);
     brace_dynamixel_counters(found->servos(), &line);
-    *servo = {told.state, told.model, told.hardware_error, told.samples, told.lost, told.doubted, told.refused,
-              told.restarts, line.requests, line.answers, line.damaged, line.skipped_bytes, line.foreign};
+    *servo = {reported.state, reported.model, reported.hardware_error, reported.samples, reported.lost,
+              reported.doubted, reported.refused, reported.restarts, line.requests, line.answers, line.damaged,
+              line.skipped_bytes, line.foreign};
     return 0;
 }
 

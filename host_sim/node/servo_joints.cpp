@@ -11,7 +11,7 @@ namespace
 constexpr double kMiddle_rad = 3.14159265358979323846; // where a servo reads 2048
 constexpr std::uint32_t kBaud = 3'000'000;
 constexpr std::uint16_t kModel = 321;         // MX-106, the paper's
-constexpr double kTorque_n_mm_per_a = 1615.0; // of the true motor, which the manual tells right
+constexpr double kTorque_n_mm_per_a = 1615.0; // of the true motor, which the manual states correctly
 constexpr std::uint16_t kTorqueEnable = 64, kGoalPosition = 116;
 constexpr std::uint32_t kAnswers_us = 700;   // on a line of a controller
 constexpr std::uint32_t kAdapter_us = 30000; // through a USB adapter that waits 16 ms before it hands bytes over

@@ -55,7 +55,7 @@ inline int negative_eigenvalues(const Eigen::Matrix2d &compliance)
     return compliance.trace() < 0.0 ? 2 : 0;
 }
 
-// All eigenvalues are real, so the signs of their characteristic polynomial tell (Descartes).
+// All eigenvalues are real, so the signs of their characteristic polynomial count the negative ones (Descartes).
 inline int negative_eigenvalues(const Eigen::Matrix3d &compliance)
 {
     int changes = 0;

@@ -75,7 +75,7 @@ public:
     LimbRest<N> hold_tip(const Vec &displacement_mm, int free_axis = 0);
 
     // The same in pieces. begin_hold() says where the tip goes. While seeks() is true, the limb needs another step:
-    // seek() takes all of them, or the caller takes them one by one, as below. end_hold() tells the rest state.
+    // seek() takes all of them, or the caller takes them one by one, as below. end_hold() returns the rest state.
     void begin_hold(const Vec &displacement_mm, int free_axis = 0);
     bool seeks() const { return search_.seeks(); }
     void seek();

@@ -17,7 +17,7 @@ constexpr std::size_t kMostLookedBack = 100; // runs: more than a record of ten 
 
 constexpr int kMostPresses = 60;
 constexpr double kPressed_n = 1e-7; // what may be left of the preload
-constexpr double kAside_mm = 1e-3;  // of the differences that tell how the force grows
+constexpr double kAside_mm = 1e-3;  // of the differences that show how the force grows
 
 struct Pressed {
     Vector2d displacement_mm;

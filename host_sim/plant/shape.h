@@ -34,7 +34,7 @@ struct ChangeOf {
 template <int N>
 using Change = ChangeOf<double, N>;
 
-// What the elimination tells of a limb near its shape: with force and kept turns as they are and all springs at rest.
+// What the elimination yields of a limb near its shape: with force and kept turns as they are and all springs at rest.
 template <class Number, int N>
 struct TangentOf {
     Eigen::Matrix<Number, N, 1> tip_mm;                // from its unloaded place

@@ -14,7 +14,7 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr double kAtRest = 1e-10;       // largest last Newton step [mm at the tip, rad or mm at a spring]
-constexpr double kRounding = 1e-13;     // of all terms of an energy: what it can not tell
+constexpr double kRounding = 1e-13;     // of all terms of an energy: smaller differences are rounding
 constexpr int kMostSteps = 200;         // of Newton's method, from the undeflected chain
 constexpr double kMostTurned_rad = 0.5; // by one of these steps, so that the nearest rest state is found
 constexpr int kMostHeldSteps = 12;      // of Newton's method, from the last point of the path
