@@ -121,10 +121,10 @@ def _pack(request: Request) -> str:
     lines = [f"\nstatic void pack_{request.name}(const brace_{request.name}_answer_t *answer, const uint8_t *number,\n"
              "    uint32_t token, uint8_t (*parts)[8])\n{\n    const uint32_t head = (token & 0xffu) << 8;\n"
              "    uint32_t limited = 0u;\n    uint64_t bits;\n"]
-    told_last = [frame for frame in request.answers if any(signal.saturated_by for signal in frame.signals)]
-    if len(told_last) > 1:
+    packed_last = [frame for frame in request.answers if any(signal.saturated_by for signal in frame.signals)]
+    if len(packed_last) > 1:
         raise DictionaryError(f"{request.name}: flags of one part alone have saturated_by = [{WHOLE!r}]")
-    for place, frame in sorted(enumerate(request.answers), key=lambda part: part[1] in told_last):
+    for place, frame in sorted(enumerate(request.answers), key=lambda part: part[1] in packed_last):
         lines.append(f"    bits = head | number[{place}];\n")
         for signal in sorted(frame.signals, key=lambda signal: bool(signal.saturated_by)):
             lines.append(f"    bits |= {packed(signal, _value(request, signal))};\n")
@@ -140,7 +140,7 @@ def _packing(request: Request) -> str:
 
 
 def _value(request: Request, signal: Signal) -> str:
-    """A field of the answer. Flags that tell what was limited are packed when all else has been."""
+    """A field of the answer. Flags that report what was limited are packed when all else has been."""
     where, member = f"{request.name}.{signal.name}", f"answer->{signal.member}"
     if not signal.saturated_by:
         return member

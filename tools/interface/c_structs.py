@@ -32,9 +32,9 @@ def limb_fields_header(dictionary: Dictionary) -> str:
 
 
 def parameter_fields_header(dictionary: Dictionary) -> str:
-    """generated/brace/parameter_fields.h: what else a controller is told, and all of it together."""
+    """generated/brace/parameter_fields.h: what else a controller is sent, and all of it together."""
     outer = [struct for struct in dictionary.structs if "." not in struct.member]
-    whole = Struct("", _ROOT, "Everything a controller is told once and keeps.", ())
+    whole = Struct("", _ROOT, "Everything a controller is sent once and keeps.", ())
     return (
         _guarded("PARAMETER_FIELDS")
         + '#include <stdint.h>\n\n#include "brace/limb_fields.h"\n\n'

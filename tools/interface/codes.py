@@ -23,7 +23,7 @@ class Code:
     name: str
     text: str  # one sentence
     constant: str  # the C constant; "": none
-    emergency: int | None  # of a fault: the CANopen code of the emergency that tells it
+    emergency: int | None  # of a fault: the CANopen code of the emergency that reports it
 
 
 @dataclass(frozen=True)
@@ -121,8 +121,8 @@ def _table(raw: Mapping[str, Any], is_bits: bool) -> Table:
         prefix = raw.get("constant", raw.get("prefix"))
         constant = value.get("c", "" if prefix is None else prefix + value["name"])
         codes.append(Code(number, value["name"], value["text"], constant, value.get("emergency")))
-    told = [code for code in codes if code.emergency is not None]
-    if told and len(told) != len(codes):
+    with_emergency = [code for code in codes if code.emergency is not None]
+    if with_emergency and len(with_emergency) != len(codes):
         raise DictionaryError(f"{name}: either every value has an emergency, or none")
     _refuse_twice((code.number for code in codes), f"{name}: two values")
     _refuse_twice((code.name for code in codes), f"{name}: two values")

@@ -454,7 +454,7 @@ def _signals(
         ):
             raise DictionaryError(f"{at}: {signal.bits} bits do not hold every value of {table.name}")
         if kind == "value" and signal.bits > 24:
-            raise DictionaryError(f"{at}: a value of more than 24 bits is more than a float can tell apart")
+            raise DictionaryError(f"{at}: a value of more than 24 bits is more than a float can distinguish")
         if start // FRAME_BITS != (start + signal.bits - 1) // FRAME_BITS and start + signal.bits <= room:
             raise DictionaryError(f"{at}: reaches over bit {(start // FRAME_BITS + 1) * FRAME_BITS}")
         signals.append(signal)

@@ -9,7 +9,7 @@ from interface.dictionary import LINKS, Dictionary, Entry
 
 _MADE = "Written by tools/interface from dictionary.toml; do not edit."
 
-# What a controller is told of its motors, its noise, its calibration's trust and itself is no part of the limb.
+# What a controller is sent of its motors, its noise, its calibration's trust and itself is no part of the limb.
 _NOT_OF_THE_LIMB = ("motor", "controller", "uncertainty")
 _NOISE = "sensor.noise_n"
 

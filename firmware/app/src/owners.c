@@ -32,7 +32,7 @@ brace_setting_t brace_app_setting(const brace_app_t *app)
     return controller_in(app)->ownership.session.setting;
 }
 
-static int32_t told(controller_t *controller, int32_t status)
+static int32_t note_refusal(controller_t *controller, int32_t status)
 {
     if (status != BRACE_OK) {
         controller->ownership.last_refusal = status;
@@ -40,7 +40,7 @@ static int32_t told(controller_t *controller, int32_t status)
     return status;
 }
 
-/* On a guarded board the token of CAN counts, and a session tells masters apart. */
+/* On a guarded board the token of a CAN request is a counter, and the session identifies the master. */
 static brace_who_t master_of(const controller_t *controller, brace_who_t who)
 {
     const bool is_can = who.port == BRACE_ASKER_CAN || who.port == BRACE_ASKER_SLCAN;
@@ -51,7 +51,7 @@ static brace_who_t master_of(const controller_t *controller, brace_who_t who)
 int32_t brace_app_life(brace_app_t *app, brace_who_t who, const brace_sign_t *sign)
 {
     controller_t *controller = controller_of(app);
-    return told(controller, session_life(&controller->ownership.session, master_of(controller, who), sign));
+    return note_refusal(controller, session_life(&controller->ownership.session, master_of(controller, who), sign));
 }
 
 /* Has that master hung up? By hand, on a bench, each thing that is written has a connection of its own. */
@@ -68,18 +68,20 @@ int32_t brace_app_may_command(brace_app_t *app, brace_command_t command, brace_w
     controller_t *controller = controller_of(app);
     ownership_t *ownership = &controller->ownership;
     const bool is_bench = ownership->session.setting == BRACE_SETTING_BENCH;
-    if (command == BRACE_COMMAND_NONE || (is_bench && command == BRACE_COMMAND_TELLS)) {
+    if (command == BRACE_COMMAND_NONE || (is_bench && command == BRACE_COMMAND_INFORMS)) {
         return BRACE_OK;
     }
     if (is_bench && command == BRACE_COMMAND_WRITES) {
         /* Programs number their requests over CAN as they like: there the port is the master. */
         const brace_who_t writer = {who.port, who.port == BRACE_ASKER_MODBUS_TCP ? who.master : 0u};
-        return told(controller, ownership_may_write(ownership, writer, controller_has_hung_up(controller, ownership->configurer)));
+        const bool has_hung_up = controller_has_hung_up(controller, ownership->configurer);
+        return note_refusal(controller, ownership_may_write(ownership, writer, has_hung_up));
     }
     if (command == BRACE_COMMAND_MOVES && ownership->program_moves) {
-        return told(controller, session_refuse(&ownership->session, BRACE_REFUSED_OWNED));
+        return note_refusal(controller, session_refuse(&ownership->session, BRACE_REFUSED_OWNED));
     }
-    return told(controller, session_command(&ownership->session, master_of(controller, who), seal, bytes, count));
+    const brace_who_t master = master_of(controller, who);
+    return note_refusal(controller, session_command(&ownership->session, master, seal, bytes, count));
 }
 
 void brace_app_gone(brace_app_t *app, brace_asker_t port)

@@ -255,7 +255,7 @@ brace_status_t brace_app_set_gravity(brace_app_t *app, float direction_rad, floa
     }
     controller_t *controller = controller_of(app);
     const brace_status_t status =
-        gravity_tell(&controller->gravity, &controller->parameters.in_force.gravity, direction_rad, lean_rad);
+        gravity_set(&controller->gravity, &controller->parameters.in_force.gravity, direction_rad, lean_rad);
     const guard_span_t changed = {&controller->gravity, sizeof controller->gravity / 4u};
     guard_take(&controller->guard, GUARDED_GRAVITY, &changed);
     return status;

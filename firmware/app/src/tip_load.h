@@ -4,14 +4,14 @@
 
 #include "controller.h"
 
-/* Does the tip's sensor tell the force in the limb's plane? Without a posture nobody could use it. */
+/* Does the tip's sensor measure the force in the limb's plane? Without a posture nobody could use it. */
 static inline bool tip_load_is_sensed(const controller_t *controller)
 {
     return controller->tip_force.known && controller->posture.has_levers;
 }
 
 /* The force in the limb's plane: by the tip's sensor, else from what the joints carry. Across it, only the coxa joint
- * tells it.
+ * measures it.
  *   load_n_mm: of each joint in its motor's sense, weight included; NaN: not known
  * returns the force in the frame of the limb's plane; NaN where it is not known */
 static inline brace_vec3_t tip_load_n(const controller_t *controller, const float load_n_mm[BRACE_LINK_COUNT])

@@ -1,5 +1,5 @@
 # cmake -DSOURCE=... -DOUT=... -DBRACE_VERSION=... -DBRACE_BUILD_TYPE=... [-DBRACE_SOURCE_HASH=...] -P build_info.cmake
-# Runs with every build, and rewrites build_info.h only when its content changes. A release tells the hash, because it
+# Runs with every build, and rewrites build_info.h only when its content changes. A release passes the hash, because it
 # builds a copy of a commit.
 if(BRACE_SOURCE_HASH)
     configure_file(${CMAKE_CURRENT_LIST_DIR}/build_info.h.in ${OUT}/build_info.h @ONLY)

@@ -163,7 +163,7 @@ static void act(console_t *console, brace_app_t *app, uint32_t word)
 
 static void take_word(console_t *console, brace_app_t *app, uint32_t word)
 {
-    console->has_told_of_echo = false;
+    console->has_reported_echo = false;
     console->strange_lines = 0u;
     if (!changes_something(word)) {
         act(console, app, word);
@@ -214,8 +214,8 @@ static void hear_itself(console_t *console)
 {
     console->question.is_open = false;
     key_entry_refuse_echo(&console->key_entry, &console->text);
-    if (!console->has_told_of_echo) {
-        console->has_told_of_echo = true;
+    if (!console->has_reported_echo) {
+        console->has_reported_echo = true;
         text_again(&console->text); /* what sends it back listens */
         say(&console->text,
             "this terminal echoes: input is ignored until none has come for 2 s; try picocom, or stty -echo");

@@ -20,7 +20,7 @@ typedef struct {
     question_t question;
     uint32_t asked;          /* about which word; its place in the table */
     key_entry_t key_entry;
-    bool has_told_of_echo;   /* since the last word that it knows */
+    bool has_reported_echo;   /* since the last word that it knows */
     uint32_t strange_lines;  /* since then; saturates */
     bool has_line;           /* typed.line waits for room on the line */
 } console_t;

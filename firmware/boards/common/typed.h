@@ -17,7 +17,7 @@ enum {
 typedef enum {
     TYPED_NOTHING = 0, /* the line goes on, or was empty */
     TYPED_LINE,        /* `line` is whole; it is empty where it was too long or held what no key types */
-    TYPED_ECHO         /* a line begins as the console's own do; told once, until it has been quiet */
+    TYPED_ECHO         /* a line begins as the console's own do; reported once, until it has been quiet */
 } typed_event_t;
 
 typedef struct {

@@ -165,11 +165,11 @@ def run_suite(suite: Suite, library: Path, cpu_most_s: int) -> Ending:
     )
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     words = done.stdout.decode(errors="replace")
-    told = next((line.split("/")[-1] for line in words.splitlines() if ":FAIL" in line), "")
+    failed = next((line.split("/")[-1] for line in words.splitlines() if ":FAIL" in line), "")
     if done.returncode < 0:
-        told = f"{suite.name}: {signal.Signals(-done.returncode).name}"
+        failed = f"{suite.name}: {signal.Signals(-done.returncode).name}"
     cpu_s = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-    return Ending(done.returncode == 0, told or f"{suite.name}: ended with {done.returncode}", cpu_s)
+    return Ending(done.returncode == 0, failed or f"{suite.name}: ended with {done.returncode}", cpu_s)
 
 
 def clock() -> float:

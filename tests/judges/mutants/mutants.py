@@ -3,7 +3,7 @@
 usage: mutants.py [--count N] [--seed S] [--only GLOB] [--afresh]
 
 A mutant is a file of the firmware with one line changed by universalmutator's rules. Only lines that some suite runs
-are mutated (./dev coverage tells of the others). A mutant that the compiler refuses, or of which it makes the same
+are mutated (./dev coverage lists the others). A mutant that the compiler refuses, or of which it makes the same
 object as without, does not count. Every other one is given to the suites that run its line, until one fails: then it
 is killed. A suite that includes a header is made anew with the header's mutant. The suites are the unit tests; power
 cuts, fuzzers and TOO_LONG take too long for each mutant.
@@ -248,7 +248,7 @@ def main() -> int:
     parser.add_argument("--only", default="*", help="files of this pattern")
     parser.add_argument("--survivors", action="store_true", help="judge the survivors of earlier runs again")
     parser.add_argument("--afresh", action="store_true", help="judge again what was judged")
-    parser.add_argument("--known", action="store_true", help="judge nothing, tell of what was judged")
+    parser.add_argument("--known", action="store_true", help="judge nothing, list what was judged")
     asked = parser.parse_args()
     bench.WORK.mkdir(parents=True, exist_ok=True)
     kept = {} if asked.afresh else read_kept()

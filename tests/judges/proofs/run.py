@@ -256,13 +256,13 @@ def main() -> int:
         for done in concurrent.futures.as_completed(waiting):
             outcomes[waiting[done]] = done.result()
             print(report.line(done.result()), flush=True)
-    told = [outcomes[proof.name] for proof in chosen]
-    for text in filter(None, map(report.trouble, told)):
+    results = [outcomes[proof.name] for proof in chosen]
+    for text in filter(None, map(report.trouble, results)):
         print(text)
-    good = sum(outcome.good for outcome in told)
+    good = sum(outcome.good for outcome in results)
     write_page(proofs, outcomes, version)
-    print(f"{good} passed, {len(told) - good} failed")
-    return 0 if good == len(told) else 1
+    print(f"{good} passed, {len(results) - good} failed")
+    return 0 if good == len(results) else 1
 
 
 if __name__ == "__main__":

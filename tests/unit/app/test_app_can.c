@@ -43,7 +43,7 @@ static int frames(uint32_t id, int count)
     return seen;
 }
 
-static void test_a_heartbeat_each_second_tells_mode_faults_and_dictionary(void)
+static void test_a_heartbeat_each_second_reports_mode_faults_and_dictionary(void)
 {
     brace_can_frame_t frame;
     TEST_ASSERT_TRUE(frame_with(0x705, 10, &frame)); /* the mode has changed */
@@ -77,7 +77,7 @@ static void test_a_newcomer_knows_the_faults_within_a_second(void)
     TEST_ASSERT_EQUAL(BRACE_SETTING_BENCH, frame.data[7]);
 }
 
-static void test_a_fault_is_told_at_once_and_so_is_its_end(void)
+static void test_a_fault_is_reported_at_once_and_so_is_its_end(void)
 {
     brace_can_frame_t frame;
     ticks(10);
@@ -152,7 +152,7 @@ static void test_only_requests_to_this_node_are_let_in(void)
     TEST_ASSERT_EQUAL_HEX32(0x7ff, fake.can_setup.filter_mask);
 }
 
-static void test_requests_that_found_no_room_are_counted_and_told(void)
+static void test_requests_that_found_no_room_are_counted_and_reported(void)
 {
     const brace_can_frame_t request = {.id = 0x605, .length = 8, .data = {1}};
     ticks(10);
@@ -270,15 +270,15 @@ static void test_only_a_request_that_does_not_exist_is_unknown(void)
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(test_a_heartbeat_each_second_tells_mode_faults_and_dictionary);
+    RUN_TEST(test_a_heartbeat_each_second_reports_mode_faults_and_dictionary);
     RUN_TEST(test_a_newcomer_knows_the_faults_within_a_second);
-    RUN_TEST(test_a_fault_is_told_at_once_and_so_is_its_end);
+    RUN_TEST(test_a_fault_is_reported_at_once_and_so_is_its_end);
     RUN_TEST(test_a_node_without_a_number_listens_and_is_silent);
     RUN_TEST(test_the_bit_rate_is_the_parameters);
     RUN_TEST(test_a_board_without_can_or_whose_can_does_not_start_works);
     RUN_TEST(test_a_set_up_that_failed_is_a_fault_and_is_tried_again);
     RUN_TEST(test_only_requests_to_this_node_are_let_in);
-    RUN_TEST(test_requests_that_found_no_room_are_counted_and_told);
+    RUN_TEST(test_requests_that_found_no_room_are_counted_and_reported);
     RUN_TEST(test_a_full_mailbox_delays_a_frame_and_does_not_lose_it);
     RUN_TEST(test_bus_off_is_a_fault_recovery_is_tried_and_K_stays_valid);
     RUN_TEST(test_a_port_that_is_closed_has_no_owner);

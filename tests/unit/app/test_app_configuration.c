@@ -124,7 +124,7 @@ static void test_how_long_a_master_may_be_silent(void)
 }
 
 /* A controller reports what it read from the store even before its first tick. */
-static void test_faults_are_told_before_the_first_tick(void)
+static void test_faults_are_reported_before_the_first_tick(void)
 {
     brace_fake_start(&fake);
     TEST_ASSERT_EQUAL(BRACE_OK, brace_app_start(&app, &fake.hal));
@@ -381,6 +381,6 @@ int main(void)
     RUN_TEST(test_idle_time_counts_from_the_start_and_from_each_request);
     RUN_TEST(test_a_set_that_has_changed_in_memory_is_taken_from_the_store);
     RUN_TEST(test_how_long_a_master_may_be_silent);
-    RUN_TEST(test_faults_are_told_before_the_first_tick);
+    RUN_TEST(test_faults_are_reported_before_the_first_tick);
     return UNITY_END();
 }

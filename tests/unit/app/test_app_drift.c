@@ -231,7 +231,7 @@ static int32_t watched_send(void *context, const brace_can_frame_t *frame)
     return whole_send(context, frame);
 }
 
-static void assert_every_wire_tells(const uint32_t told[DRIFT_VALUES])
+static void assert_every_wire_reports(const uint32_t reported[DRIFT_VALUES])
 {
     uint8_t data[8] = {BRACE_REQUEST_DRIFT, 7};
     brace_can_drift_answer_0_t first;
@@ -240,27 +240,27 @@ static void assert_every_wire_tells(const uint32_t told[DRIFT_VALUES])
     const reply_t reply = read_asks(4, REGISTER_DRIFT, 2 * DRIFT_VALUES);
     drain(); /* else watched_send throws an answer away with what nobody has read */
     for (uint32_t i = 0; i < DRIFT_VALUES; i++) {
-        TEST_ASSERT_EQUAL_HEX32(told[i], value_at(&reply, i));
-        TEST_ASSERT_EQUAL_HEX32(told[i], read_entry(ENTRY_DRIFT + i));
+        TEST_ASSERT_EQUAL_HEX32(reported[i], value_at(&reply, i));
+        TEST_ASSERT_EQUAL_HEX32(reported[i], read_entry(ENTRY_DRIFT + i));
     }
     const answer_t answer = ask(data);
     TEST_ASSERT_EQUAL(3, answer.count);
     brace_can_unpack_drift_answer_0(answer.part[0], &first);
     brace_can_unpack_drift_answer_1(answer.part[1], &loss);
     brace_can_unpack_drift_answer_2(answer.part[2], &readings);
-    TEST_ASSERT_EQUAL(told[0], first.state);
-    TEST_ASSERT_EQUAL(told[1], first.cause);
-    TEST_ASSERT_EQUAL(told[2], first.could_be);
+    TEST_ASSERT_EQUAL(reported[0], first.state);
+    TEST_ASSERT_EQUAL(reported[1], first.cause);
+    TEST_ASSERT_EQUAL(reported[2], first.could_be);
     TEST_ASSERT_FLOAT_WITHIN(6e-4f, float_at(&reply, 3), first.evidence);
     TEST_ASSERT_TRUE(isnan(float_at(&reply, 4)) ? isnan(loss.loss_ratio)
                                                 : fabsf(float_at(&reply, 4) - loss.loss_ratio) < 1e-5f);
-    TEST_ASSERT_EQUAL(told[6] > 0xffffu ? 0xffffu : told[6], readings.since_readings);
-    TEST_ASSERT_EQUAL(told[7], readings.readings);
-    TEST_ASSERT_EQUAL(told[8], first.next_step);
+    TEST_ASSERT_EQUAL(reported[6] > 0xffffu ? 0xffffu : reported[6], readings.since_readings);
+    TEST_ASSERT_EQUAL(reported[7], readings.readings);
+    TEST_ASSERT_EQUAL(reported[8], first.next_step);
 }
 
 /* Whoever hears of the alarm hears of the likeliest cause, and hears again when that is another one. The first readings
- * may point at the wrong part; tests at other postures tell that it is the tibia. */
+ * may point at the wrong part; tests at other postures show that it is the tibia. */
 static void test_every_wire_names_the_cause_of_a_drift(void)
 {
     const brace_loading_setup_t quick = quick_setup();
@@ -277,8 +277,8 @@ static void test_every_wire_names_the_cause_of_a_drift(void)
         ticks(2);
     }
     const brace_drift_report_t *report = brace_app_drift_report(&app);
-    const uint32_t told = emergencies;
-    TEST_ASSERT_TRUE(told <= 3u);
+    const uint32_t reported = emergencies;
+    TEST_ASSERT_TRUE(reported <= 3u);
     TEST_ASSERT_EQUAL(BRACE_DRIFT_CAUSE_TIBIA_LINK_OR_KNEE_JOINT, emergency.drift_cause);
     TEST_ASSERT_TRUE(report->evidence >= BRACE_DRIFT_ALARM);
     ASSERT_CLOSE(1.0 - 1.0 / 1.5, report->loss_ratio, 0.1);
@@ -287,16 +287,16 @@ static void test_every_wire_names_the_cause_of_a_drift(void)
                                             bits(report->loss_ratio), bits(report->loss_sigma_ratio),
                                             report->since_steps, report->steps,
                                             BRACE_DRIFT_NEXT_INSPECT_TIBIA_LINK_AND_KNEE_JOINT};
-    assert_every_wire_tells(drifted);
+    assert_every_wire_reports(drifted);
     TEST_ASSERT_EQUAL(BRACE_OK, brace_app_clear(&app, BRACE_FAULT_MODEL_DRIFT));
     ticks(5);
-    TEST_ASSERT_EQUAL(told + 1u, emergencies);
+    TEST_ASSERT_EQUAL(reported + 1u, emergencies);
     TEST_ASSERT_EQUAL_HEX32(0, emergency.faults);
     TEST_ASSERT_EQUAL(BRACE_DRIFT_CAUSE_NONE, emergency.drift_cause);
     const uint32_t unknown = bits(__builtin_nanf(""));
     const uint32_t watching[DRIFT_VALUES] = {BRACE_DRIFT_WATCHING, BRACE_DRIFT_CAUSE_NONE, 0, 0, unknown, unknown,
                                              UINT32_MAX, report->steps, BRACE_DRIFT_NEXT_NOTHING};
-    assert_every_wire_tells(watching);
+    assert_every_wire_reports(watching);
 }
 
 /* A baseline that walks away is an alarm without evidence, and has a cause all the same. */
@@ -436,7 +436,7 @@ static void test_readings_without_a_sensor_do_not_reach_the_check(void)
     TEST_ASSERT_EQUAL(0, watched_run(&along_x, run_at));
 }
 
-static void test_a_tick_that_is_late_is_told_whatever_it_works_at(void)
+static void test_a_tick_that_is_late_is_reported_whatever_it_works_at(void)
 {
     static const uint8_t phases[] = {LOADING_MOVE, LOADING_DWELL, LOADING_MODEL, LOADING_JUDGE};
     for (uint32_t i = 0; i < sizeof phases; i++) {
@@ -471,6 +471,6 @@ int main(void)
     RUN_TEST(test_a_set_that_is_stored_is_learned_anew_and_a_roll_back_comes_back_to_what_was_known);
     RUN_TEST(test_records_are_few_and_alarms_find_room);
     RUN_TEST(test_a_memory_that_does_not_keep_is_a_fault);
-    RUN_TEST(test_a_tick_that_is_late_is_told_whatever_it_works_at);
+    RUN_TEST(test_a_tick_that_is_late_is_reported_whatever_it_works_at);
     return UNITY_END();
 }

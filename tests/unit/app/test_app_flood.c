@@ -1,5 +1,5 @@
-/* Whatever is asked on whatever port, every tick in MONITOR, TAKING_UP and LOADING_TEST tells K of its own samples, and
- * every request is answered: K in its turn, all else in the tick that takes it. Prints one line for each limb and
+/* Whatever is asked on whatever port, every tick in MONITOR, TAKING_UP and LOADING_TEST reports K of its own samples,
+ * and every request is answered: K in its turn, all else in the tick that takes it. Prints one line for each limb and
  * flood; `./dev bench` makes a table of them.
  *
  * The limb is that of test_app_takeup.c: links held by the ground, each motor behind its gap pulled by a servo. One
@@ -26,7 +26,7 @@ enum {
     FLOOD_CAN = 1, FLOOD_SLCAN = 2, FLOOD_LINE = 4, FLOOD_TCP = 8, FLOOD_PORTS = 4,
     K_MOST_TICKS = 4 * 2 + 3,    /* four ports, two steps each, */
     SPACE_MOST_TICKS = 4 * 9 + 15, /* and nine of a limb in space; K's uncertainty has each fourth tick of all */
-    JOBS_TICKS = 1 + 1 + 1,  /* other jobs have a step after eight, a tick that tells much has none, nor the watch's, */
+    JOBS_TICKS = 1 + 1 + 1,  /* other jobs have a step after eight, a tick that sends much has none, nor the watch's, */
     SPACE_JOBS_TICKS = 4 + 4, /* and a step towards the buckling factor is due in each ninth tick */
     SIGMA_TICKS = 4 * 80, /* a round of K's uncertainty: 2 to 3 steps a K, 23 K, each fourth tick has a step, */
     SPACE_SIGMA_TICKS = 4 * 300, /* and nine steps, 32 K */
@@ -239,7 +239,7 @@ static bool is_answered_over_tcp(void)
 {
     uint8_t bytes[300];
     const uint32_t count = brace_fake_bytes_take(&fake, BRACE_SERIAL_MODBUS_TCP, bytes, sizeof bytes);
-    return count > 7u && (bytes[7] & 0x80u) == 0u; /* the highest bit tells an exception */
+    return count > 7u && (bytes[7] & 0x80u) == 0u; /* the highest bit marks an exception */
 }
 
 /* How long the answer is that begins so. */

@@ -1,7 +1,7 @@
 /* Force on the tip: from the sensor, its model undone, or from what the joints carry. */
 #include "loading_bench.h"
 
-/* What the controller would tell the backlash machine of a joint, if the force is known. */
+/* What the controller would give the backlash machine of a joint, if the force is known. */
 static void expect(int index, brace_backlash_sample_t *sample)
 {
     const controller_t *c = &app.controller;
@@ -34,7 +34,7 @@ static brace_parameters_t rigid_parameters(void)
     return p;
 }
 
-static void test_without_a_sensor_the_joints_tell_the_force_less_gravity(void)
+static void test_without_a_sensor_the_joints_measure_the_force_less_gravity(void)
 {
     brace_parameters_t p = rigid_parameters();
     p.gravity.tibia_n = 2.0f;
@@ -172,7 +172,7 @@ static void test_a_saturated_or_silent_sensor_is_not_used(void)
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(test_without_a_sensor_the_joints_tell_the_force_less_gravity);
+    RUN_TEST(test_without_a_sensor_the_joints_measure_the_force_less_gravity);
     RUN_TEST(test_the_sensed_force_says_what_the_joints_should_carry);
     RUN_TEST(test_the_sensor_s_noise_is_in_what_the_expected_load_may_be_off_by);
     RUN_TEST(test_dry_friction_is_in_it_the_constant_and_the_load_s_share);

@@ -1,4 +1,4 @@
-/* A sensor that tells the same again and again, with a new time stamp: seen by what the limb does meanwhile. And a
+/* A sensor that reports the same again and again, with a new time stamp: seen by what the limb does meanwhile. And a
  * watchdog that only a whole tick feeds. */
 #include <math.h>
 
@@ -170,7 +170,7 @@ static void test_a_joint_that_has_long_stood_may_take_its_time_to_answer(void)
 
 /* ---------------------------------------------------------------------------------- frozen while it moves -- */
 
-/* Motors follow their commands; one of them tells what it told when it froze. */
+/* Motors follow their commands; one of them reports what it reported when it froze. */
 static void follow(void *user, brace_fake_t *board, int32_t joint)
 {
     static const float stands_rad[] = {0.0f, 1.0f, 1.4f};
@@ -201,7 +201,7 @@ static void start_take_up(bool has_sensor)
     TEST_ASSERT_EQUAL(BRACE_MODE_TAKING_UP, now()->mode);
 }
 
-static void test_a_joint_that_is_told_to_move_and_tells_the_same_is_frozen(void)
+static void test_a_joint_that_is_commanded_to_move_and_reports_the_same_is_frozen(void)
 {
     start_take_up(true);
     frozen_joint = BRACE_TIBIA;
@@ -311,7 +311,7 @@ static void test_a_swing_that_friction_hides_moves_none(void)
     TEST_ASSERT_NOT_EQUAL(0, seen_after(SEEN_WITHIN_TICKS, swing_alone));
 }
 
-/* An encoder between two of its steps tells both in turns, and stands all the same. */
+/* An encoder between two of its steps reports both in turns, and stands all the same. */
 static void test_an_angle_stands_within_half_a_step(void)
 {
     swing_ratio = 0.32f;
@@ -448,7 +448,7 @@ int main(void)
     RUN_TEST(test_what_friction_hides_is_no_proof);
     RUN_TEST(test_a_limb_at_rest_is_not_frozen);
     RUN_TEST(test_a_joint_that_has_long_stood_may_take_its_time_to_answer);
-    RUN_TEST(test_a_joint_that_is_told_to_move_and_tells_the_same_is_frozen);
+    RUN_TEST(test_a_joint_that_is_commanded_to_move_and_reports_the_same_is_frozen);
     RUN_TEST(test_a_joint_that_follows_is_not);
     RUN_TEST(test_a_joint_at_the_end_of_its_torque_is_not);
     RUN_TEST(test_a_standing_angle_under_a_torque_that_nothing_holds_is_frozen);

@@ -1,4 +1,4 @@
-/* What is told while there is no K to use, and for how long what can no longer be known is still told. */
+/* What is reported while there is no K to use, and for how long what can no longer be known is still reported. */
 #include "app_bench.h"
 
 void setUp(void)
@@ -32,7 +32,7 @@ static void test_before_the_first_tick_and_without_samples_there_is_no_number(vo
     expect_no_k(BRACE_FLAG_STALE);
 }
 
-/* What a snapshot tells before the first tick: when, of which set, in which mode; every number is none. */
+/* What a snapshot reports before the first tick: when, of which set, in which mode; every number is none. */
 static void test_the_first_snapshot_knows_its_set_and_no_number(void)
 {
     brace_parameters_t p = bench_parameters();
@@ -55,13 +55,13 @@ static void test_the_first_snapshot_knows_its_set_and_no_number(void)
     for (int i = 0; i < BRACE_LINK_COUNT; i++) {
         TEST_ASSERT_TRUE(isnan(first->theta_rad[i]) && isnan(first->motor_rad[i]) && isnan(first->torque_n_mm[i]));
     }
-    bench_board(); /* nothing stored: the defaults are a fault, and told from the start */
+    bench_board(); /* nothing stored: the defaults are a fault, and reported from the start */
     TEST_ASSERT_EQUAL(BRACE_OK, brace_app_start(&app, &fake.hal));
     TEST_ASSERT_EQUAL(BRACE_PARAMETERS_DEFAULT, now()->parameter_origin);
     TEST_ASSERT_EQUAL_HEX32(BRACE_FAULT_PARAMETERS, now()->faults);
 }
 
-static void test_configuration_tells_no_k_and_why(void)
+static void test_configuration_reports_no_k_and_why(void)
 {
     ticks(5);
     TEST_ASSERT_EQUAL(0, now()->stiffness.now.flags);
@@ -134,7 +134,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_before_the_first_tick_and_without_samples_there_is_no_number);
     RUN_TEST(test_the_first_snapshot_knows_its_set_and_no_number);
-    RUN_TEST(test_configuration_tells_no_k_and_why);
+    RUN_TEST(test_configuration_reports_no_k_and_why);
     RUN_TEST(test_a_fault_with_sound_samples_is_flagged_too);
     RUN_TEST(test_a_posture_where_there_is_no_k_is_flagged);
     RUN_TEST(test_no_flank_is_proven_by_old_samples);

@@ -90,7 +90,7 @@ static void test_the_base_s_rotation_is_no_part_of_the_joint_s_angle(void)
     ASSERT_CLOSE(1.0 + 0.25 * (double)expected.hip_turn_rad, now()->theta_rad[BRACE_FEMUR], 1e-5);
 }
 
-static void test_K_without_load_is_told_beside_it(void)
+static void test_K_without_load_is_reported_beside_it(void)
 {
     start_pressed(0.0f, 10.0f);
     brace_planar_t planar;
@@ -149,7 +149,7 @@ static void test_a_spring_that_hardens_turns_by_its_secant_and_yields_by_its_slo
     ASSERT_CLOSE(expected.displacement.z_mm, now()->load.moved_z_mm, 1e-2);
 }
 
-/* Without a sensor the joints tell the force: their torques about the axes of the limb as it stands bent. The motors
+/* Without a sensor the joints measure the force: their torques about the axes of the limb as it stands bent. The motors
  * here carry what a force of (3, 7) N and the weights turn about them, worked out from the equilibrium's shape. */
 static void test_without_a_sensor_the_force_follows_from_the_levers_of_the_bent_limb(void)
 {
@@ -201,7 +201,7 @@ static void expect_no_load(void)
     ASSERT_CLOSE(unbent.tip.z_mm, now()->tip_mm.z_mm, 1e-4);
 }
 
-/* Near the straight knee the joints tell no force. */
+/* Near the straight knee the joints measure no force. */
 static void test_without_a_force_K_is_the_one_without_load_and_flagged(void)
 {
     bench_start(&parameters);
@@ -261,7 +261,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_K_and_the_equilibrium_are_those_under_the_sensed_force_and_the_weight);
     RUN_TEST(test_the_base_s_rotation_is_no_part_of_the_joint_s_angle);
-    RUN_TEST(test_K_without_load_is_told_beside_it);
+    RUN_TEST(test_K_without_load_is_reported_beside_it);
     RUN_TEST(test_a_joint_measured_behind_its_gear_stands_where_it_is_measured);
     RUN_TEST(test_a_spring_that_hardens_turns_by_its_secant_and_yields_by_its_slope);
     RUN_TEST(test_without_a_sensor_the_force_follows_from_the_levers_of_the_bent_limb);

@@ -156,7 +156,7 @@ static void test_rows_are_a_pass_in_the_columns_of_a_dataset(void)
 }
 
 /* Counter-clockwise by the tip force's moments about the joints, as physics has them, and counted from the preload. */
-static void test_link_encoders_tell_deflections_of_a_dataset(void)
+static void test_link_encoders_give_deflections_of_a_dataset(void)
 {
     drive_rad_per_n_mm = 1.5e-5;
     ticks(50);
@@ -314,7 +314,7 @@ int main(void)
     RUN_TEST(test_commanded_displacement_has_the_servo_in_it);
     RUN_TEST(test_what_is_off_the_axis_is_taken_off_by_the_model);
     RUN_TEST(test_rows_are_a_pass_in_the_columns_of_a_dataset);
-    RUN_TEST(test_link_encoders_tell_deflections_of_a_dataset);
+    RUN_TEST(test_link_encoders_give_deflections_of_a_dataset);
     RUN_TEST(test_the_drift_check_s_K_is_at_the_measured_posture);
     RUN_TEST(test_one_job_works_in_a_tick);
     RUN_TEST(test_runs_repetitions_and_postures_are_counted);

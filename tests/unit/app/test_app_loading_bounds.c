@@ -71,7 +71,7 @@ static void test_a_tip_that_nothing_holds_gives_no_slope_but_no_harm(void)
     TEST_ASSERT_TRUE(result()->z_x < -3.0f);
 }
 
-static void test_motors_that_do_not_follow_are_told(void)
+static void test_motors_that_do_not_follow_are_reported(void)
 {
     fake.play = NULL;
     run(&along_x);
@@ -100,13 +100,13 @@ static void test_a_motor_that_goes_where_it_was_not_sent_ends_the_test(void)
 static void test_the_drives_hold_the_torque_s_bound_themselves(void)
 {
     brace_loading_setup_t setup = along_x;
-    const float asked_n_mm[] = {3000.0f, 20000.0f}, told_n_mm[] = {3000.0f, 10000.0f}; /* the drives' range */
+    const float asked_n_mm[] = {3000.0f, 20000.0f}, commanded_n_mm[] = {3000.0f, 10000.0f}; /* the drives' range */
     for (int i = 0; i < 2; i++) {
         setup.torque_max_n_mm = asked_n_mm[i];
         TEST_ASSERT_EQUAL(BRACE_OK, brace_app_loading_start(&app, &setup));
         ticks(100);
-        TEST_ASSERT_EQUAL_FLOAT(told_n_mm[i], fake.joint[BRACE_FEMUR].command.torque_limit_n_mm);
-        TEST_ASSERT_EQUAL_FLOAT(told_n_mm[i], fake.joint[BRACE_TIBIA].command.torque_limit_n_mm);
+        TEST_ASSERT_EQUAL_FLOAT(commanded_n_mm[i], fake.joint[BRACE_FEMUR].command.torque_limit_n_mm);
+        TEST_ASSERT_EQUAL_FLOAT(commanded_n_mm[i], fake.joint[BRACE_TIBIA].command.torque_limit_n_mm);
         TEST_ASSERT_EQUAL(BRACE_OK, brace_app_loading_stop(&app));
         ticks(200);
         TEST_ASSERT_EQUAL(BRACE_MODE_MONITOR, now()->mode);
@@ -283,7 +283,7 @@ static void test_setups_that_cannot_be_are_refused(void)
 static void test_the_largest_step_is_taken_as_a_frame_carries_it(void)
 {
     static const float step_mm[] = {50.001f, 50.0f};
-    static const brace_status_t told[] = {BRACE_E_RANGE, BRACE_OK};
+    static const brace_status_t answers[] = {BRACE_E_RANGE, BRACE_OK};
     for (int i = 0; i < 2; i++) {
         brace_can_loading_test_start_request_t asked = {.steps_per_side = 2, .step_mm = step_mm[i], .dwell_ms = 20};
         uint8_t data[8];
@@ -291,7 +291,7 @@ static void test_the_largest_step_is_taken_as_a_frame_carries_it(void)
         brace_can_unpack_loading_test_start_request(data, &asked);
         brace_loading_setup_t s = along_x;
         s.step_mm = asked.step_mm;
-        TEST_ASSERT_EQUAL(told[i], brace_app_loading_start(&app, &s));
+        TEST_ASSERT_EQUAL(answers[i], brace_app_loading_start(&app, &s));
     }
 }
 
@@ -328,7 +328,7 @@ int main(void)
     RUN_TEST(test_the_force_is_bounded_on_every_side);
     RUN_TEST(test_the_torque_is_bounded);
     RUN_TEST(test_a_tip_that_nothing_holds_gives_no_slope_but_no_harm);
-    RUN_TEST(test_motors_that_do_not_follow_are_told);
+    RUN_TEST(test_motors_that_do_not_follow_are_reported);
     RUN_TEST(test_a_motor_that_goes_where_it_was_not_sent_ends_the_test);
     RUN_TEST(test_the_drives_hold_the_torque_s_bound_themselves);
     RUN_TEST(test_a_coxa_joint_is_left_alone);

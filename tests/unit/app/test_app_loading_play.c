@@ -1,4 +1,4 @@
-/* A loading test of a limb with play: every tick of it watches the play and tells K. */
+/* A loading test of a limb with play: every tick of it watches the play and reports K. */
 #include "can_bench.h"
 #include "loading_bench.h"
 
@@ -29,7 +29,7 @@ static void ask_for_the_dearest(void)
 }
 
 /* To the end of a test, with or without somebody who asks whenever the answer before has come. Every tick senses,
- * commands the drives, and tells K of its own samples. */
+ * commands the drives, and reports K of its own samples. */
 static void run_and_watch_every_tick(bool asked)
 {
     for (int i = 0; i < 60000 && app.controller.mode.now == BRACE_MODE_LOADING_TEST; i++) {
@@ -48,7 +48,7 @@ static void run_and_watch_every_tick(bool asked)
     }
 }
 
-static void test_every_tick_senses_commands_and_tells_k(void)
+static void test_every_tick_senses_commands_and_reports_k(void)
 {
     for (int asked = 0; asked < 2; asked++) {
         setUp();
@@ -97,7 +97,7 @@ static void test_play_that_was_taken_up_is_held_when_it_is_done(void)
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(test_every_tick_senses_commands_and_tells_k);
+    RUN_TEST(test_every_tick_senses_commands_and_reports_k);
     RUN_TEST(test_flanks_that_carry_are_known_through_and_after_it);
     RUN_TEST(test_play_that_was_taken_up_is_held_when_it_is_done);
     return UNITY_END();

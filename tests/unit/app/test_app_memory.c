@@ -122,7 +122,7 @@ static void test_defaults_are_mended_too(void)
     TEST_ASSERT_BITS_LOW(BRACE_FAULT_MEMORY, now()->faults);
 }
 
-/* The memory does not answer: the fault stays, and K is never told. */
+/* The memory does not answer: the fault stays, and K is never reported. */
 static void test_what_cannot_be_mended_stays_a_fault(void)
 {
     brace_fake_fail_next(&fake, BRACE_FAKE_NVM_READ, 100000, BRACE_HAL_E_DEVICE);

@@ -16,7 +16,7 @@ static void test_the_line_is_set_up_as_the_standard_wants_it(void)
     TEST_ASSERT_EQUAL(BRACE_PARITY_EVEN, fake.parity[BRACE_SERIAL_MODBUS]);
 }
 
-static void test_probes_tell_the_word_order(void)
+static void test_probes_show_the_word_order(void)
 {
     const reply_t reply = read_asks(4, 0, 4);
     const uint8_t expected[] = {4, 8, 0x46, 0x40, 0xe6, 0x00, 0x01, 0x02, 0x03, 0x04};
@@ -236,7 +236,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_an_age_is_never_negative);
     RUN_TEST(test_the_line_is_set_up_as_the_standard_wants_it);
-    RUN_TEST(test_probes_tell_the_word_order);
+    RUN_TEST(test_probes_show_the_word_order);
     RUN_TEST(test_k_is_the_snapshots);
     RUN_TEST(test_what_is_not_known_is_nan_and_all_ones_never_zero);
     RUN_TEST(test_a_block_is_one_snapshot);

@@ -103,7 +103,7 @@ static void test_everybody_obeys_and_nobody_answers(void)
     TEST_ASSERT_EQUAL(0, line_asks(0, first, sizeof first).count);
     TEST_ASSERT_EQUAL(0, line_asks(0, second, sizeof second).count);
     TEST_ASSERT_NOT_EQUAL(BRACE_MODE_CONFIGURATION, app.controller.mode.now);
-    /* Nobody could tell who has read: what everybody is asked for is not even looked up. */
+    /* Nobody could know who has read: what everybody is asked for is not even looked up. */
     const uint8_t nowhere[] = {4, 0xff, 0xf0, 0, 2};
     const uint16_t refused = app.wires.modbus.server.refused, unanswered = app.wires.modbus.server.unanswered;
     TEST_ASSERT_EQUAL(0, line_asks(0, nowhere, sizeof nowhere).count);

@@ -1,4 +1,4 @@
-/* A set that was stored and is not whole any more: the set before it is in force, and everybody is told. */
+/* A set that was stored and is not whole any more: the set before it is in force, and every wire reports that. */
 #include <string.h>
 
 #include "app_bench.h"
@@ -42,11 +42,11 @@ static void rot(void)
     fake.nvm[1][200] ^= 8u;
 }
 
-static void expect_old(bool is_told)
+static void expect_old(bool is_reported)
 {
     TEST_ASSERT_EQUAL_FLOAT(k_first_n_per_mm, k_now());
-    TEST_ASSERT_EQUAL_HEX32(is_told ? BRACE_FAULT_OLD_PARAMETERS : 0u, now()->faults);
-    TEST_ASSERT_EQUAL_HEX32(is_told ? BRACE_FLAG_UNCALIBRATED : 0u, engaged_flags() & BRACE_FLAG_UNCALIBRATED);
+    TEST_ASSERT_EQUAL_HEX32(is_reported ? BRACE_FAULT_OLD_PARAMETERS : 0u, now()->faults);
+    TEST_ASSERT_EQUAL_HEX32(is_reported ? BRACE_FLAG_UNCALIBRATED : 0u, engaged_flags() & BRACE_FLAG_UNCALIBRATED);
     TEST_ASSERT_EQUAL_HEX32(engaged_flags(), now()->stiffness.now.flags);
     TEST_ASSERT_EQUAL(BRACE_PARAMETERS_SLOT_A, now()->parameter_origin);
     TEST_ASSERT_EQUAL(1, now()->parameter_sequence);

@@ -40,7 +40,7 @@ static brace_loaded_stiffness_t expected(float theta1_rad, float theta2_rad, flo
 
 /* ----------------------------------------------------------------------------------------------- CAN -- */
 
-static void assert_told(const answer_t *answer, const brace_loaded_stiffness_t *k)
+static void assert_reported(const answer_t *answer, const brace_loaded_stiffness_t *k)
 {
     brace_can_k_under_load_at_posture_answer_0_t a;
     brace_can_k_under_load_at_posture_answer_3_t d;
@@ -82,7 +82,7 @@ static void test_K_under_a_force_over_CAN_and_the_force_is_used_up(void)
         (void)ask_for_force(force_n[i][0], force_n[i][1]);
         const brace_loaded_stiffness_t k = expected(0.8f, 1.2f, force_n[i][0], force_n[i][1]);
         answer_t answer = ask_under_load(0.8f, 1.2f);
-        assert_told(&answer, &k);
+        assert_reported(&answer, &k);
         answer = ask_under_load(0.8f, 1.2f); /* the force belonged to that question */
         TEST_ASSERT_EQUAL(BRACE_REFUSED_ORDER, refusal_of(&answer, BRACE_REQUEST_K_UNDER_LOAD_AT_POSTURE).status);
     }
@@ -97,7 +97,7 @@ static void test_at_a_tip_the_posture_is_the_one_before_the_load_moves_it(void)
         &(brace_can_k_under_load_at_tip_knee_up_request_t){4, (float)x, (float)z}, data);
     const answer_t answer = ask_within(data, K_TICKS);
     const brace_loaded_stiffness_t k = expected(0.7f, 1.2f, 0.0f, 8.0f);
-    assert_told(&answer, &k);
+    assert_reported(&answer, &k);
 }
 
 /* The old questions mean no force on the tip; the limb weighs all the same. */
@@ -131,7 +131,7 @@ static void test_a_warm_joint_yields_more_wherever_it_is_asked(void)
     parameters.limb.joint[BRACE_FEMUR].compliance_rad_per_n_mm *= 1.2f;
     parameters.limb.joint[BRACE_TIBIA].compliance_rad_per_n_mm *= 1.5f;
     const brace_loaded_stiffness_t k = expected(0.8f, 1.2f, 2.0f, 5.0f);
-    assert_told(&answer, &k);
+    assert_reported(&answer, &k);
 }
 
 static question_inputs_t inputs_of_job(void)
@@ -193,7 +193,7 @@ static void test_what_was_in_work_is_forgotten_with_the_rest(void)
     ASSERT_CLOSE(k.stiffness.k_xx_n_per_mm, answer.k.k_xx_n_per_mm, 4e-4);
 }
 
-/* An answer that nobody has taken gives way to the next one, and is not told to whom the next one is not for. Who still
+/* An answer that nobody has taken gives way to the next one, and does not go to whom the next one is not for. Who still
  * waits keeps its place. */
 static void test_an_answer_goes_to_its_asker_alone(void)
 {
@@ -286,14 +286,14 @@ static void asked_over_modbus(asks_t asks)
         const uint32_t count = tip ? write_of(ASKED_TIP_FORCE, at_tip, 4, 0, pdu)
                                    : write_of(ASKED_POSTURE_FORCE, at_posture, 4, -1, pdu);
         TEST_ASSERT_EQUAL(5, asks(UNIT, pdu, count).count);
-        const reply_t told = asks(UNIT, read, sizeof read);
+        const reply_t reported = asks(UNIT, read, sizeof read);
         const brace_loaded_stiffness_t k =
             tip ? expected(0.7f, 1.2f, -6.0f, 3.0f) : expected(0.8f, 1.2f, 0.0f, 10.0f);
-        ASSERT_CLOSE(k.stiffness.k_xx_n_per_mm, float_at(&told, 0), 1e-4);
-        ASSERT_CLOSE(k.stiffness.k_zz_n_per_mm, float_at(&told, 2), 1e-4);
-        ASSERT_CLOSE(k.displacement.x_mm, float_at(&told, 6), 1e-3);
-        ASSERT_CLOSE(k.displacement.z_mm, float_at(&told, 7), 1e-3);
-        TEST_ASSERT_EQUAL_FLOAT(k.buckling_factor, float_at(&told, 8));
+        ASSERT_CLOSE(k.stiffness.k_xx_n_per_mm, float_at(&reported, 0), 1e-4);
+        ASSERT_CLOSE(k.stiffness.k_zz_n_per_mm, float_at(&reported, 2), 1e-4);
+        ASSERT_CLOSE(k.displacement.x_mm, float_at(&reported, 6), 1e-3);
+        ASSERT_CLOSE(k.displacement.z_mm, float_at(&reported, 7), 1e-3);
+        TEST_ASSERT_EQUAL_FLOAT(k.buckling_factor, float_at(&reported, 8));
     }
 }
 
@@ -304,11 +304,11 @@ static void test_a_force_that_folds_the_limb_has_no_K_over_Modbus(void)
     uint8_t pdu[64];
     asked_over_modbus(line_asks);
     TEST_ASSERT_EQUAL(5, line_asks(UNIT, pdu, write_of(ASKED_POSTURE_FORCE, folds, 4, -1, pdu)).count);
-    const reply_t told = read_asks(4, LOADED, 20), asked = read_asks(3, ASKED_POSTURE_FORCE, 2);
+    const reply_t reported = read_asks(4, LOADED, 20), asked = read_asks(3, ASKED_POSTURE_FORCE, 2);
     for (uint32_t i = 0; i < 9u; i++) {
-        TEST_ASSERT_TRUE(isnan(float_at(&told, i)));
+        TEST_ASSERT_TRUE(isnan(float_at(&reported, i)));
     }
-    TEST_ASSERT_EQUAL_HEX32(UINT32_MAX, value_at(&told, 9));
+    TEST_ASSERT_EQUAL_HEX32(UINT32_MAX, value_at(&reported, 9));
     TEST_ASSERT_EQUAL_FLOAT(-300.0f, float_at(&asked, 0));
 }
 
@@ -460,12 +460,12 @@ static answer_t set_gravity(float direction_rad, float lean_rad)
 static void test_the_main_computer_sets_where_down_is_until_the_next_start(void)
 {
     const float unknown = __builtin_nanf("");
-    brace_can_set_gravity_answer_0_t told;
+    brace_can_set_gravity_answer_0_t reported;
     assert_down(DOWN_RAD, 0.0f);
     answer_t answer = set_gravity(0.4f, -0.3f);
-    brace_can_unpack_set_gravity_answer_0(answer.part[0], &told);
-    ASSERT_CLOSE(0.4, told.direction_rad, 1e-6);
-    ASSERT_CLOSE(-0.3, told.lean_rad, 1e-6);
+    brace_can_unpack_set_gravity_answer_0(answer.part[0], &reported);
+    ASSERT_CLOSE(0.4, reported.direction_rad, 1e-6);
+    ASSERT_CLOSE(-0.3, reported.lean_rad, 1e-6);
     assert_down(0.4f, -0.3f);
     answer = set_gravity(4.0f, 0.0f);
     TEST_ASSERT_EQUAL(BRACE_E_RANGE, refusal_of(&answer, BRACE_REQUEST_SET_GRAVITY).status);
@@ -487,9 +487,9 @@ static void test_down_is_set_over_Modbus_too(void)
     uint8_t pdu[32];
     const uint32_t count = write_of(ASKED_GRAVITY, values, 2, -1, pdu);
     TEST_ASSERT_EQUAL(5, line_asks(UNIT, pdu, count).count);
-    const reply_t told = line_asks(UNIT, read, sizeof read);
-    ASSERT_CLOSE(2.0, float_at(&told, 0), 1e-6);
-    ASSERT_CLOSE(0.5, float_at(&told, 1), 1e-6);
+    const reply_t reported = line_asks(UNIT, read, sizeof read);
+    ASSERT_CLOSE(2.0, float_at(&reported, 0), 1e-6);
+    ASSERT_CLOSE(0.5, float_at(&reported, 1), 1e-6);
     assert_down(2.0f, 0.5f);
 }
 
@@ -534,7 +534,7 @@ static void start_in_space(void)
     TEST_ASSERT_TRUE(now()->space.is_valid && now()->load.is_counted);
 }
 
-/* Asked for where the limb stands, under the load that it bears, the job finds the K that the tick tells: nine steps,
+/* Asked for where the limb stands, under the load that it bears, the job finds the K that the tick reports: nine steps,
  * of which a tick does one or two. */
 static void test_K_in_space_is_that_of_the_tick(void)
 {
@@ -554,12 +554,12 @@ static void test_K_in_space_is_that_of_the_tick(void)
     }
     TEST_ASSERT_EQUAL(BRACE_OK, status);
     TEST_ASSERT_LESS_OR_EQUAL(1 + 9, waited);
-    const brace_stiffness_spatial_t *told = &now()->space.now, *k = &found.in_space;
-    const float largest = told->lambda_n_per_mm[2];
-    TEST_ASSERT_FLOAT_WITHIN(1e-4f * largest, told->k_xx_n_per_mm, k->k_xx_n_per_mm);
-    TEST_ASSERT_FLOAT_WITHIN(1e-4f * largest, told->k_xy_n_per_mm, k->k_xy_n_per_mm);
-    TEST_ASSERT_FLOAT_WITHIN(1e-4f * largest, told->k_yz_n_per_mm, k->k_yz_n_per_mm);
-    TEST_ASSERT_FLOAT_WITHIN(1e-4f * largest, told->k_zz_n_per_mm, k->k_zz_n_per_mm);
+    const brace_stiffness_spatial_t *reported = &now()->space.now, *k = &found.in_space;
+    const float largest = reported->lambda_n_per_mm[2];
+    TEST_ASSERT_FLOAT_WITHIN(1e-4f * largest, reported->k_xx_n_per_mm, k->k_xx_n_per_mm);
+    TEST_ASSERT_FLOAT_WITHIN(1e-4f * largest, reported->k_xy_n_per_mm, k->k_xy_n_per_mm);
+    TEST_ASSERT_FLOAT_WITHIN(1e-4f * largest, reported->k_yz_n_per_mm, k->k_yz_n_per_mm);
+    TEST_ASSERT_FLOAT_WITHIN(1e-4f * largest, reported->k_zz_n_per_mm, k->k_zz_n_per_mm);
     TEST_ASSERT_FLOAT_WITHIN(1e-3f, load->moved_y_mm, found.moved_across_mm);
 }
 

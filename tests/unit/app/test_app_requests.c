@@ -73,7 +73,7 @@ static void test_what_each_mode_takes(void)
     }
 }
 
-/* What has begun is told from then on, and not from the next tick. */
+/* What has begun is reported from then on, and not from the next tick. */
 static void test_the_mode_changes_with_the_request(void)
 {
     TEST_ASSERT_EQUAL(BRACE_OK, start_test());
@@ -169,35 +169,35 @@ static void test_each_fault_is_cleared_alone(void)
     }
 }
 
-/* Two commits are ten seconds apart. The one that comes too soon is told how long to wait, and counted. */
+/* Two commits are ten seconds apart. The one that comes too soon learns how long to wait, and counted. */
 static void test_a_commit_that_comes_too_soon(void)
 {
     uint32_t wait_ms = 7;
-    brace_session_report_t told;
+    brace_session_report_t reported;
     TEST_ASSERT_EQUAL(BRACE_OK, brace_app_may_commit(&app, &wait_ms));
     TEST_ASSERT_EQUAL_UINT32(0, wait_ms);
     app.controller.parameters.apart_us = 0;
     TEST_ASSERT_EQUAL(BRACE_REFUSED_EARLY, brace_app_may_commit(&app, &wait_ms));
     TEST_ASSERT_EQUAL_UINT32(10000, wait_ms);
-    brace_app_session(&app, &told);
-    TEST_ASSERT_EQUAL_UINT32(1, told.commits_refused);
-    TEST_ASSERT_EQUAL(BRACE_REFUSED_EARLY, told.last_refusal);
+    brace_app_session(&app, &reported);
+    TEST_ASSERT_EQUAL_UINT32(1, reported.commits_refused);
+    TEST_ASSERT_EQUAL(BRACE_REFUSED_EARLY, reported.last_refusal);
 }
 
-/* The controller tells why it last refused a request, of any client and kind. An accepted request keeps that reason. */
-static void test_the_last_refusal_is_told(void)
+/* The controller reports why it last refused a request of any client and kind. An accepted one keeps that reason. */
+static void test_the_last_refusal_is_reported(void)
 {
     const brace_who_t owner = {BRACE_ASKER_CAN, 1}, other = {BRACE_ASKER_MODBUS_TCP, 2};
-    brace_session_report_t told;
-    brace_app_session(&app, &told);
-    TEST_ASSERT_EQUAL(BRACE_OK, told.last_refusal);
+    brace_session_report_t reported;
+    brace_app_session(&app, &reported);
+    TEST_ASSERT_EQUAL(BRACE_OK, reported.last_refusal);
     TEST_ASSERT_EQUAL(BRACE_OK, brace_app_may_command(&app, BRACE_COMMAND_MOVES, owner, NULL, NULL, 0));
     const brace_sign_t sign = sign_now();
     TEST_ASSERT_EQUAL(BRACE_REFUSED_OWNED, brace_app_life(&app, other, &sign));
     TEST_ASSERT_EQUAL(BRACE_OK, brace_app_life(&app, owner, &sign));
-    brace_app_session(&app, &told);
-    TEST_ASSERT_EQUAL(BRACE_REFUSED_OWNED, told.last_refusal);
-    TEST_ASSERT_EQUAL(1, told.strangers);
+    brace_app_session(&app, &reported);
+    TEST_ASSERT_EQUAL(BRACE_REFUSED_OWNED, reported.last_refusal);
+    TEST_ASSERT_EQUAL(1, reported.strangers);
 }
 
 /* Each bound of each joint's ceiling, at it and just beyond: the parameter that passes it is named. */
@@ -239,7 +239,7 @@ int main(void)
     RUN_TEST(test_configuration_asked_for_again_goes_on);
     RUN_TEST(test_each_fault_is_cleared_alone);
     RUN_TEST(test_a_commit_that_comes_too_soon);
-    RUN_TEST(test_the_last_refusal_is_told);
+    RUN_TEST(test_the_last_refusal_is_reported);
     RUN_TEST(test_each_ceiling_of_the_board);
     return UNITY_END();
 }

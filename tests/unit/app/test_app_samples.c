@@ -86,7 +86,7 @@ static void test_a_snapshot_is_as_old_as_its_older_sample_across_the_clock_s_wra
     }
 }
 
-static void test_play_that_no_load_can_tell_is_always_open(void)
+static void test_play_that_no_load_can_show_is_always_open(void)
 {
     brace_parameters_t p = bench_parameters();
     p.limb.joint[BRACE_FEMUR].gap_rad = 0.005f;
@@ -234,7 +234,7 @@ static void test_every_tick_without_sound_joints_is_invalid(void)
     }
 }
 
-static void test_coxa_is_told_and_not_needed(void)
+static void test_coxa_is_reported_and_not_needed(void)
 {
     fake.joint[BRACE_COXA].absent = false;
     fake.joint[BRACE_COXA].sample.motor_rad = 0.25f;
@@ -327,7 +327,7 @@ static void test_a_stuck_encoder_is_found_in_drives_that_are_sampled_every_other
     }
 }
 
-static void test_a_link_that_moves_away_from_a_standing_encoder_tells_too(void)
+static void test_a_link_that_moves_away_from_a_standing_encoder_shows_it_too(void)
 {
     fake.joint[BRACE_TIBIA].sample.link_rad = 1.4f;
     ticks(300);
@@ -432,7 +432,7 @@ static void test_a_force_that_stays_the_last_one_is_not_known_for_long(void)
     TEST_ASSERT_TRUE(now()->force_is_sensed);
 }
 
-static void test_a_force_sensor_that_never_had_a_reading_tells_none(void)
+static void test_a_force_sensor_that_never_had_a_reading_reports_none(void)
 {
     const brace_parameters_t p = bench_parameters();
     bench_board();
@@ -501,7 +501,7 @@ static void test_a_joint_without_a_motor_s_encoder_is_measured_behind_its_gear(v
     ticks(5);
     TEST_ASSERT_TRUE(now()->k_is_valid);
     ASSERT_CLOSE(k_xx, now()->stiffness.now.k_xx_n_per_mm, 1e-6);
-    TEST_ASSERT_TRUE(now()->motor_rad[BRACE_FEMUR] != now()->motor_rad[BRACE_FEMUR]); /* absent, and told so */
+    TEST_ASSERT_TRUE(now()->motor_rad[BRACE_FEMUR] != now()->motor_rad[BRACE_FEMUR]); /* absent, and reported so */
     TEST_ASSERT_EQUAL(0, now()->faults);
     TEST_ASSERT_EQUAL(0, counters().samples_bad);
     fake.joint[BRACE_FEMUR].sample.link_rad += 1.0f; /* no joint gets there in a millisecond */
@@ -521,7 +521,7 @@ int main(void)
     RUN_TEST(test_a_sample_that_never_ages_in_name_is_not_believed);
     RUN_TEST(test_a_sample_taken_within_the_tick_is_not_stale);
     RUN_TEST(test_a_snapshot_is_as_old_as_its_older_sample_across_the_clock_s_wrap);
-    RUN_TEST(test_play_that_no_load_can_tell_is_always_open);
+    RUN_TEST(test_play_that_no_load_can_show_is_always_open);
     RUN_TEST(test_absurd_samples_are_never_used);
     RUN_TEST(test_one_wild_angle_changes_nothing);
     RUN_TEST(test_each_joint_that_jumps_is_named);
@@ -529,19 +529,19 @@ int main(void)
     RUN_TEST(test_springs_of_an_unknown_temperature_are_flagged);
     RUN_TEST(test_the_fastest_joint_is_followed);
     RUN_TEST(test_every_tick_without_sound_joints_is_invalid);
-    RUN_TEST(test_coxa_is_told_and_not_needed);
+    RUN_TEST(test_coxa_is_reported_and_not_needed);
     RUN_TEST(test_a_posture_beyond_the_travel_is_out_of_range);
     RUN_TEST(test_zero_offsets_are_added);
     RUN_TEST(test_an_encoder_that_follows_its_torque_is_alive);
     RUN_TEST(test_an_encoder_that_stands_while_the_torque_swings_is_stuck);
     RUN_TEST(test_a_stuck_encoder_is_found_in_drives_that_are_sampled_every_other_tick);
-    RUN_TEST(test_a_link_that_moves_away_from_a_standing_encoder_tells_too);
+    RUN_TEST(test_a_link_that_moves_away_from_a_standing_encoder_shows_it_too);
     RUN_TEST(test_a_limb_at_rest_is_not_stuck);
     RUN_TEST(test_one_wild_torque_while_the_limb_stands_blames_no_encoder);
     RUN_TEST(test_wild_torques_that_go_on_are_the_sensor_s);
     RUN_TEST(test_a_torque_that_flickers_blames_no_encoder);
     RUN_TEST(test_a_force_that_stays_the_last_one_is_not_known_for_long);
-    RUN_TEST(test_a_force_sensor_that_never_had_a_reading_tells_none);
+    RUN_TEST(test_a_force_sensor_that_never_had_a_reading_reports_none);
     RUN_TEST(test_a_sample_from_the_future_does_not_stay_young);
     RUN_TEST(test_an_absurd_link_angle_is_none);
     RUN_TEST(test_a_joint_without_a_motor_s_encoder_is_measured_behind_its_gear);

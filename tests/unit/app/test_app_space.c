@@ -1,5 +1,5 @@
 /* K in space of a limb whose coxa joint is fitted: what it is, what the coxa joint's play and sensor make of it, and
- * that every wire tells it whole. Where a joint is moved, the board is that of test_app_takeup.c. */
+ * that every wire reports it whole. Where a joint is moved, the board is that of test_app_takeup.c. */
 #include "can_bench.h"
 #include "modbus_master.h"
 #include "reference_spatial.h"
@@ -212,7 +212,7 @@ static void assert_answers(const answer_t *answer, const under_load_t *expected,
     ASSERT_CLOSE(expected->moved_mm[2], f.dz_mm, 6e-3);
 }
 
-/* Where the limb is and under its load, K is what it would be told elsewhere: the load couples plane and across. */
+/* Where the limb is and under its load, K is what a question elsewhere would get: the load couples plane and across. */
 static void test_K_here_is_K_as_asked_for_here(void)
 {
     for (int joint = 0; joint < BRACE_LINK_COUNT; joint++) {
@@ -253,12 +253,12 @@ static void test_K_in_space_elsewhere_counts_a_force_once(void)
     for (uint32_t i = 0; i < sizeof forces_n / sizeof *forces_n; i++) {
         const float *n = forces_n[i];
         uint8_t data[8];
-        brace_can_tip_force_in_space_answer_0_t told;
+        brace_can_tip_force_in_space_answer_0_t reported;
         brace_can_pack_tip_force_in_space_request(&(brace_can_tip_force_in_space_request_t){3, n[0], n[1], n[2]}, data);
         answer_t answer = ask(data);
         TEST_ASSERT_EQUAL(1, answer.count);
-        brace_can_unpack_tip_force_in_space_answer_0(answer.part[0], &told);
-        ASSERT_CLOSE(n[1], told.fy_n, 6e-3);
+        brace_can_unpack_tip_force_in_space_answer_0(answer.part[0], &reported);
+        ASSERT_CLOSE(n[1], reported.fy_n, 6e-3);
         const under_load_t expected = under_load(n);
         answer = ask_in_space();
         assert_answers(&answer, &expected, true);
@@ -292,17 +292,17 @@ static void asked_over_modbus(reply_t (*asks)(uint8_t unit, const uint8_t *pdu, 
                 bits(value < 3u ? forces_n[i][value] : load_posture_rad[value - 3u]) >> (24u - 8u * (at % 4u)));
         }
         TEST_ASSERT_EQUAL(5, asks(UNIT, pdu, sizeof pdu).count);
-        const reply_t told = asks(UNIT, read, sizeof read);
-        TEST_ASSERT_EQUAL_HEX32(0u, value_at(&told, 9));
-        TEST_ASSERT_EQUAL(1, value_at(&told, 10));
+        const reply_t reported = asks(UNIT, read, sizeof read);
+        TEST_ASSERT_EQUAL_HEX32(0u, value_at(&reported, 9));
+        TEST_ASSERT_EQUAL(1, value_at(&reported, 10));
         const under_load_t expected = under_load(forces_n[i]);
         for (uint32_t axis = 0; axis < 3u; axis++) {
-            ASSERT_CLOSE(expected.moved_mm[axis], float_at(&told, 11u + axis), 0.0);
+            ASSERT_CLOSE(expected.moved_mm[axis], float_at(&reported, 11u + axis), 0.0);
         }
-        ASSERT_CLOSE(expected.k.k_xx_n_per_mm, float_at(&told, 0), 0.0);
-        ASSERT_CLOSE(expected.k.k_xy_n_per_mm, float_at(&told, 1), 0.0);
-        ASSERT_CLOSE(expected.k.k_zz_n_per_mm, float_at(&told, 5), 0.0);
-        ASSERT_CLOSE(expected.k.lambda_n_per_mm[0], float_at(&told, 6), 0.0);
+        ASSERT_CLOSE(expected.k.k_xx_n_per_mm, float_at(&reported, 0), 0.0);
+        ASSERT_CLOSE(expected.k.k_xy_n_per_mm, float_at(&reported, 1), 0.0);
+        ASSERT_CLOSE(expected.k.k_zz_n_per_mm, float_at(&reported, 5), 0.0);
+        ASSERT_CLOSE(expected.k.lambda_n_per_mm[0], float_at(&reported, 6), 0.0);
     }
 }
 
@@ -495,13 +495,13 @@ static void test_its_frames_count_in_what_the_bus_may_carry(void)
     const uint32_t count = frames_of_a_second(&in_space);
     TEST_ASSERT_TRUE(count <= allowed + 11u && count >= allowed - 22u);
     TEST_ASSERT_UINT32_WITHIN(14, allowed * 7u / 11u, in_space);
-    bench_start(&p); /* the same limb without a coxa joint tells its plane only, and more often */
+    bench_start(&p); /* the same limb without a coxa joint reports its plane only, and more often */
     ticks(50);
     TEST_ASSERT_TRUE(frames_of_a_second(&in_space) <= allowed + 4u);
     TEST_ASSERT_EQUAL(0, in_space);
 }
 
-/* What a limb in space tells of the load across its plane: two frames with each load, of the same snapshot. */
+/* What a limb in space reports of the load across its plane: two frames with each load, of the same snapshot. */
 static void test_the_load_across_the_plane_is_sent_with_the_load(void)
 {
     brace_parameters_t p = space_parameters();
@@ -560,7 +560,7 @@ enum { ENTRY_IN_SPACE = 0x1000 + 58, ENTRY_THETA0, ENTRY_K_XX, ENTRY_K_ACROSS = 
        ENTRY_FAULTS = 0x1000 + 7, ENTRY_TAKE_UP = 0x1000 + 97 };
 
 /* One read of registers is one snapshot, and an entry over CAN is the same number. */
-static void test_registers_and_entries_tell_it(void)
+static void test_registers_and_entries_report_it(void)
 {
     fake.joint[BRACE_COXA].sample.motor_rad = 0.7f;
     bench_believe();
@@ -611,7 +611,7 @@ static void test_an_open_gap_of_the_coxa_joint_carries_nothing_across(void)
     assert_parts_are(&parts, now());
     TEST_ASSERT_EQUAL_FLOAT(0.0f, parts.g.k_across_n_per_mm);
     TEST_ASSERT_EQUAL_FLOAT(0.0f, entry_float(ENTRY_K_ACROSS));
-    for (int i = 0; i < 300; i++) { /* a load that tells its flank closes the gap */
+    for (int i = 0; i < 300; i++) { /* a load that decides the flank closes the gap */
         fake.joint[BRACE_COXA].sample.torque_n_mm = 1500.0f;
         ticks(1);
     }
@@ -739,7 +739,7 @@ static void test_the_coxa_joint_is_taken_up_and_carries_across(void)
     TEST_ASSERT_TRUE(parts.g.k_across_n_per_mm > 0.0f);
 }
 
-static void test_every_wire_tells_why_a_take_up_failed(void)
+static void test_every_wire_reports_why_a_take_up_failed(void)
 {
     for (uint32_t joint = BRACE_COXA; joint < BRACE_LINK_COUNT; joint++) {
         start_with_play();
@@ -777,11 +777,11 @@ int main(void)
     RUN_TEST(test_over_CAN_FD_it_is_one_frame_more);
     RUN_TEST(test_its_frames_count_in_what_the_bus_may_carry);
     RUN_TEST(test_the_load_across_the_plane_is_sent_with_the_load);
-    RUN_TEST(test_registers_and_entries_tell_it);
+    RUN_TEST(test_registers_and_entries_report_it);
     RUN_TEST(test_an_open_gap_of_the_coxa_joint_carries_nothing_across);
     RUN_TEST(test_without_its_sensor_K_in_space_is_not_known_and_the_planes_stays);
     RUN_TEST(test_where_there_is_no_coxa_joint_nothing_is_a_number);
     RUN_TEST(test_the_coxa_joint_is_taken_up_and_carries_across);
-    RUN_TEST(test_every_wire_tells_why_a_take_up_failed);
+    RUN_TEST(test_every_wire_reports_why_a_take_up_failed);
     return UNITY_END();
 }

@@ -114,7 +114,7 @@ static void test_one_joint_is_taken_up_held_and_let_go(void)
     TEST_ASSERT_TRUE(isinf(fake.joint[BRACE_FEMUR].command.torque_limit_n_mm));
     const uint32_t commands = fake.calls[BRACE_FAKE_JOINT_COMMAND];
     ticks(10);
-    TEST_ASSERT_EQUAL(commands, fake.calls[BRACE_FAKE_JOINT_COMMAND]); /* nothing left to tell */
+    TEST_ASSERT_EQUAL(commands, fake.calls[BRACE_FAKE_JOINT_COMMAND]); /* nothing left to command */
 }
 
 /* Where a link stands whose motor carries its load through the joint's spring: it stays behind. The controller works
@@ -252,7 +252,7 @@ static void test_a_drive_too_weak_for_a_take_up_counts_as_open(void)
     TEST_ASSERT_BITS(BRACE_FLAG_GAP_OPEN, BRACE_FLAG_GAP_OPEN, now()->stiffness.now.flags);
 }
 
-static void test_a_load_that_tells_the_flank_closes_the_gap_without_a_take_up(void)
+static void test_a_load_that_decides_the_flank_closes_the_gap_without_a_take_up(void)
 {
     fake.play = NULL;
     for (int i = 0; i < 300; i++) {
@@ -280,6 +280,6 @@ int main(void)
     RUN_TEST(test_requests_that_cannot_be);
     RUN_TEST(test_a_limb_that_cannot_be_moved_or_has_no_play_refuses);
     RUN_TEST(test_a_drive_too_weak_for_a_take_up_counts_as_open);
-    RUN_TEST(test_a_load_that_tells_the_flank_closes_the_gap_without_a_take_up);
+    RUN_TEST(test_a_load_that_decides_the_flank_closes_the_gap_without_a_take_up);
     return UNITY_END();
 }

@@ -27,7 +27,7 @@ static brace_loaded_joint_t joint_spring(int index)
     return (brace_loaded_joint_t){stands ? 0.0f : compliance_rad_per_n_mm, compliance_rad_per_n_mm};
 }
 
-static brace_stiffness_sigma_t told(void)
+static brace_stiffness_sigma_t reported(void)
 {
     TEST_ASSERT_TRUE(now()->sigma_is_known);
     return now()->sigma;
@@ -80,7 +80,7 @@ static void expect_not_known(void)
 
 static void expect_no_more_than_parameters(void)
 {
-    const brace_stiffness_sigma_t sigma = told(), expected = by_parameters();
+    const brace_stiffness_sigma_t sigma = reported(), expected = by_parameters();
     expect_same(expected.k_xx_n_per_mm, sigma.k_xx_n_per_mm);
     expect_same(expected.k_xz_n_per_mm, sigma.k_xz_n_per_mm);
     expect_same(expected.k_zz_n_per_mm, sigma.k_zz_n_per_mm);
@@ -101,7 +101,7 @@ static void start_carrying(float femur_n_mm, float tibia_n_mm)
     TEST_ASSERT_FALSE(now()->force_is_sensed);
 }
 
-/* K of a limb whose joints have carried these torques for long: what the controller tells then. */
+/* K of a limb whose joints have carried these torques for long: what the controller reports then. */
 static brace_stiffness_t k_carrying(float femur_n_mm, float tibia_n_mm)
 {
     start_carrying(femur_n_mm, tibia_n_mm);
@@ -114,24 +114,25 @@ static float with_spans(float sigma, float from, float to, float or_to)
 }
 
 /* What sigma should be where the femur joint's load and that of the tibia joint may be others: each adds a span, from
- * the K that is told to K with that load. */
+ * the K that is reported to K with that load. */
 typedef struct {
-    brace_stiffness_sigma_t told, expected;
+    brace_stiffness_sigma_t reported, expected;
     double span_n_per_mm, span_rad;
 } spans_t;
 
 static spans_t spans_to(float femur_n_mm, float tibia_n_mm)
 {
     const brace_stiffness_t k = now()->stiffness.engaged;
-    const float femur_told_n_mm = now()->play[BRACE_FEMUR].load_n_mm;
-    const float tibia_told_n_mm = now()->play[BRACE_TIBIA].load_n_mm;
-    const brace_stiffness_sigma_t sigma = told(), least = by_parameters();
-    const brace_stiffness_t a = k_carrying(femur_n_mm, tibia_told_n_mm), b = k_carrying(femur_told_n_mm, tibia_n_mm);
+    const float femur_reported_n_mm = now()->play[BRACE_FEMUR].load_n_mm;
+    const float tibia_reported_n_mm = now()->play[BRACE_TIBIA].load_n_mm;
+    const brace_stiffness_sigma_t sigma = reported(), least = by_parameters();
+    const brace_stiffness_t a = k_carrying(femur_n_mm, tibia_reported_n_mm);
+    const brace_stiffness_t b = k_carrying(femur_reported_n_mm, tibia_n_mm);
     const double span = fmax(fabs((double)(a.k_xz_n_per_mm - k.k_xz_n_per_mm)),
                              fabs((double)(b.k_xz_n_per_mm - k.k_xz_n_per_mm)));
     TEST_ASSERT_TRUE(span > 0.05); /* or this test shows nothing */
     return (spans_t){
-        .told = sigma,
+        .reported = sigma,
         .expected = {with_spans(least.k_xx_n_per_mm, k.k_xx_n_per_mm, a.k_xx_n_per_mm, b.k_xx_n_per_mm),
                      with_spans(least.k_xz_n_per_mm, k.k_xz_n_per_mm, a.k_xz_n_per_mm, b.k_xz_n_per_mm),
                      with_spans(least.k_zz_n_per_mm, k.k_zz_n_per_mm, a.k_zz_n_per_mm, b.k_zz_n_per_mm),
@@ -147,13 +148,13 @@ static spans_t spans_to(float femur_n_mm, float tibia_n_mm)
 static void expect_spans_to(float femur_n_mm, float tibia_n_mm)
 {
     const spans_t s = spans_to(femur_n_mm, tibia_n_mm);
-    const double most = 0.15 * s.span_n_per_mm; /* levers are those under the load told, not under the other */
-    ASSERT_CLOSE(s.expected.k_xx_n_per_mm, s.told.k_xx_n_per_mm, most);
-    ASSERT_CLOSE(s.expected.k_xz_n_per_mm, s.told.k_xz_n_per_mm, most);
-    ASSERT_CLOSE(s.expected.k_zz_n_per_mm, s.told.k_zz_n_per_mm, most);
-    ASSERT_CLOSE(s.expected.lambda_min_n_per_mm, s.told.lambda_min_n_per_mm, most);
-    ASSERT_CLOSE(s.expected.lambda_max_n_per_mm, s.told.lambda_max_n_per_mm, most);
-    ASSERT_CLOSE(s.expected.stiff_axis_rad, s.told.stiff_axis_rad, 0.2 * s.span_rad);
+    const double most = 0.15 * s.span_n_per_mm; /* levers are those under the load reported, not under the other */
+    ASSERT_CLOSE(s.expected.k_xx_n_per_mm, s.reported.k_xx_n_per_mm, most);
+    ASSERT_CLOSE(s.expected.k_xz_n_per_mm, s.reported.k_xz_n_per_mm, most);
+    ASSERT_CLOSE(s.expected.k_zz_n_per_mm, s.reported.k_zz_n_per_mm, most);
+    ASSERT_CLOSE(s.expected.lambda_min_n_per_mm, s.reported.lambda_min_n_per_mm, most);
+    ASSERT_CLOSE(s.expected.lambda_max_n_per_mm, s.reported.lambda_max_n_per_mm, most);
+    ASSERT_CLOSE(s.expected.stiff_axis_rad, s.reported.stiff_axis_rad, 0.2 * s.span_rad);
 }
 
 static void test_a_sensed_load_leaves_open_what_the_parameters_do(void)
@@ -162,7 +163,7 @@ static void test_a_sensed_load_leaves_open_what_the_parameters_do(void)
     fake.force_x_n = 3.0f;
     fake.force_z_n = 12.0f;
     ticks(100);
-    fake.joint[BRACE_FEMUR].sample.torque_n_mm = 3000.0f; /* the sensor tells the load, not the joints */
+    fake.joint[BRACE_FEMUR].sample.torque_n_mm = 3000.0f; /* the sensor measures the load, not the joints */
     ticks(1);
     TEST_ASSERT_TRUE(now()->force_is_sensed);
     expect_no_more_than_parameters();
@@ -191,7 +192,7 @@ static void test_a_load_that_the_mean_has_not_followed_counts_from_its_first_sam
     expect_spans_to(-2000.0f - 4000.0f / sqrtf(3.0f), 1500.0f + 2500.0f / sqrtf(3.0f)); /* of three samples, one */
 }
 
-static void test_once_three_samples_tell_another_load_all_of_it_counts(void)
+static void test_once_three_samples_report_another_load_all_of_it_counts(void)
 {
     start_carrying(-2000.0f, 1500.0f);
     fake.joint[BRACE_FEMUR].sample.torque_n_mm = -6000.0f;
@@ -205,11 +206,11 @@ static void test_it_counts_less_as_the_mean_follows_and_no_more_once_it_has(void
     start_carrying(-2000.0f, 1500.0f);
     fake.joint[BRACE_FEMUR].sample.torque_n_mm = -4000.0f; /* more beside a standing angle is a stuck encoder */
     ticks(1);
-    float before_n_per_mm = told().k_xx_n_per_mm;
+    float before_n_per_mm = reported().k_xx_n_per_mm;
     for (int i = 0; i < 4; i++) {
         ticks(15);
-        TEST_ASSERT_TRUE(told().k_xx_n_per_mm < before_n_per_mm);
-        before_n_per_mm = told().k_xx_n_per_mm;
+        TEST_ASSERT_TRUE(reported().k_xx_n_per_mm < before_n_per_mm);
+        before_n_per_mm = reported().k_xx_n_per_mm;
     }
     ticks(400);
     expect_no_more_than_parameters();
@@ -239,7 +240,7 @@ static void test_a_spring_that_hardens_does_so_by_the_newest_load(void)
 }
 
 /* A load that has come moves the motor before its torque grows: what it carries is the torque less what its own inertia
- * takes. A tick's way that is longer by 8e-5 rad than the one before tells 80 rad/s2: 4,000 N mm of 50 N mm s2/rad. */
+ * takes. A tick's way that is longer by 8e-5 rad than the one before is 80 rad/s2: 4,000 N mm of 50 N mm s2/rad. */
 static void test_what_accelerates_a_motor_is_load_too(void)
 {
     parameters.drive[BRACE_FEMUR].motor_inertia_n_mm_s2_per_rad = 50.0f;
@@ -265,7 +266,7 @@ static void test_a_motor_that_keeps_its_speed_carries_its_torque(void)
 }
 
 /* Behind the spring, a joint turns as soon as a load comes; its motor may not have moved at all. */
-static void test_an_encoder_behind_the_gear_tells_no_acceleration_of_the_motor(void)
+static void test_an_encoder_behind_the_gear_reports_no_acceleration_of_the_motor(void)
 {
     parameters.drive[BRACE_FEMUR].motor_inertia_n_mm_s2_per_rad = 50.0f;
     start_carrying(-2000.0f, 1500.0f);
@@ -277,7 +278,7 @@ static void test_an_encoder_behind_the_gear_tells_no_acceleration_of_the_motor(v
     expect_no_more_than_parameters();
 }
 
-/* Three samples tell how fast a motor becomes faster. Before, its torque may be load or all for itself. Five tell three
+/* Three samples show how fast a motor becomes faster. Before, its torque may be load or all for itself. Five give three
  * such loads. */
 static void test_a_load_by_fewer_than_five_samples_leaves_all_open(void)
 {
@@ -302,7 +303,7 @@ static void test_a_load_by_fewer_than_five_samples_leaves_all_open(void)
     expect_no_more_than_parameters();
 }
 
-/* Half a gap may lie between the told angle and the true one. */
+/* Half a gap may lie between the reported angle and the true one. */
 static void test_a_joint_that_may_stand_anywhere_in_its_gap_counts_with_its_angle(void)
 {
     parameters.limb.joint[BRACE_FEMUR].gap_rad = parameters.limb.joint[BRACE_TIBIA].gap_rad = 0.006f;
@@ -324,7 +325,7 @@ static void test_a_newest_load_without_an_equilibrium_leaves_all_open(void)
     expect_not_known();
 }
 
-/* Across the plane nobody but the coxa joint tells the load. */
+/* Across the plane only the coxa joint measures the load. */
 static void test_of_a_limb_in_space_the_coxa_joint_s_load_counts_beside_a_sensor(void)
 {
     parameters.limb.joint[BRACE_COXA].compliance_rad_per_n_mm = 8e-6f;
@@ -338,16 +339,16 @@ static void test_of_a_limb_in_space_the_coxa_joint_s_load_counts_beside_a_sensor
     ticks(500);
     TEST_ASSERT_TRUE(now()->force_is_sensed && now()->load.is_counted);
     const brace_k_sigma_t least = by_parameters_in_space();
-    expect_same(least.plane.k_xx_n_per_mm, told().k_xx_n_per_mm);
-    expect_same(least.plane.lambda_min_n_per_mm, told().lambda_min_n_per_mm);
+    expect_same(least.plane.k_xx_n_per_mm, reported().k_xx_n_per_mm);
+    expect_same(least.plane.lambda_min_n_per_mm, reported().lambda_min_n_per_mm);
     expect_same(least.space.k_xy_n_per_mm, now()->sigma_space.k_xy_n_per_mm);
     expect_same(least.space.k_yy_n_per_mm, now()->sigma_space.k_yy_n_per_mm);
     expect_same(least.space.lambda_n_per_mm[2], now()->sigma_space.lambda_n_per_mm[2]);
     expect_same(least.space.across_n_per_mm, now()->sigma_space.across_n_per_mm);
     fake.joint[BRACE_COXA].sample.torque_n_mm = -4000.0f;
     ticks(3);
-    TEST_ASSERT_TRUE(told().k_xx_n_per_mm > 1.01f * least.plane.k_xx_n_per_mm ||
-                     told().k_zz_n_per_mm > 1.01f * least.plane.k_zz_n_per_mm ||
+    TEST_ASSERT_TRUE(reported().k_xx_n_per_mm > 1.01f * least.plane.k_xx_n_per_mm ||
+                     reported().k_zz_n_per_mm > 1.01f * least.plane.k_zz_n_per_mm ||
                      now()->sigma_space.k_yy_n_per_mm > 1.01f * least.space.k_yy_n_per_mm);
 }
 
@@ -358,15 +359,16 @@ static void test_a_limb_that_is_turned_is_as_uncertain(void)
     const float half_turn_rad = 3.14159265f;
     parameters.drive[BRACE_FEMUR].motor_friction_n_mm = parameters.drive[BRACE_TIBIA].motor_friction_n_mm = 2000.0f;
     start_carrying(-2000.0f, 1500.0f);
-    const brace_stiffness_sigma_t sigma = told();
+    const brace_stiffness_sigma_t sigma = reported();
     const float upright_rad = 0.5f * half_turn_rad - now()->stiffness.engaged.stiff_axis_rad;
     for (int i = -20; i <= 20; i++) {
         const float turn_rad = upright_rad + 0.01f * (float)i, theta1_rad = 1.0f + turn_rad;
         fake.joint[BRACE_FEMUR].sample.motor_rad = theta1_rad > 3.0f ? theta1_rad - half_turn_rad : theta1_rad;
         bench_believe();
         ticks(100);
-        ASSERT_CLOSE(sigma.stiff_axis_rad, told().stiff_axis_rad, 1e-3 + 1e-2 * (double)sigma.stiff_axis_rad);
-        ASSERT_CLOSE(sigma.lambda_max_n_per_mm, told().lambda_max_n_per_mm, 1e-2 * (double)sigma.lambda_max_n_per_mm);
+        ASSERT_CLOSE(sigma.stiff_axis_rad, reported().stiff_axis_rad, 1e-3 + 1e-2 * (double)sigma.stiff_axis_rad);
+        ASSERT_CLOSE(sigma.lambda_max_n_per_mm, reported().lambda_max_n_per_mm,
+                     1e-2 * (double)sigma.lambda_max_n_per_mm);
     }
 }
 
@@ -389,13 +391,13 @@ int main(void)
     RUN_TEST(test_a_load_by_the_joints_that_stands_leaves_open_the_same);
     RUN_TEST(test_what_the_friction_of_the_motors_may_hold_counts);
     RUN_TEST(test_a_load_that_the_mean_has_not_followed_counts_from_its_first_sample_on);
-    RUN_TEST(test_once_three_samples_tell_another_load_all_of_it_counts);
+    RUN_TEST(test_once_three_samples_report_another_load_all_of_it_counts);
     RUN_TEST(test_it_counts_less_as_the_mean_follows_and_no_more_once_it_has);
     RUN_TEST(test_a_joint_with_play_has_a_mean_of_its_own);
     RUN_TEST(test_a_spring_that_hardens_does_so_by_the_newest_load);
     RUN_TEST(test_what_accelerates_a_motor_is_load_too);
     RUN_TEST(test_a_motor_that_keeps_its_speed_carries_its_torque);
-    RUN_TEST(test_an_encoder_behind_the_gear_tells_no_acceleration_of_the_motor);
+    RUN_TEST(test_an_encoder_behind_the_gear_reports_no_acceleration_of_the_motor);
     RUN_TEST(test_a_load_by_fewer_than_five_samples_leaves_all_open);
     RUN_TEST(test_a_joint_that_may_stand_anywhere_in_its_gap_counts_with_its_angle);
     RUN_TEST(test_a_newest_load_without_an_equilibrium_leaves_all_open);

@@ -1,5 +1,5 @@
 /* The clock goes round every 71.6 minutes, at any moment of whatever the controller is at. One scene with all of that
- * in it is played far from that moment, and then across it at many places: whatever the controller tells, orders or
+ * in it is played far from that moment, and then across it at many places: whatever the controller reports, commands or
  * answers has to be the same, tick by tick, but for the clock itself. A board shows that at few places. The sanitized
  * build looks for faults of memory, which lie in the same code at each place: it plays every tenth of the host's. */
 #include "can_bench.h"
@@ -12,7 +12,7 @@ enum { PLACES = ON_BOARD ? 5 : 250 };
 #endif
 enum { UNIT = 17, SCENE_TICKS = 5000, FAR_US = 1000000000 };
 
-static uint32_t told[SCENE_TICKS]; /* of each tick, as a sum of all that it told */
+static uint32_t reported[SCENE_TICKS]; /* of each tick, as a sum of all that it reported */
 
 void setUp(void) {}
 void tearDown(void) {}
@@ -22,7 +22,7 @@ static uint32_t with(uint32_t sum, const void *bytes, size_t count)
     return brace_crc32(sum, bytes, (uint32_t)count);
 }
 
-/* What a tick told: the snapshot, the drives' commands, frames, bytes. */
+/* What a tick reported: the snapshot, the drives' commands, frames, bytes. */
 static uint32_t sum_of_tick(uint32_t start_us)
 {
     const brace_snapshot_t *s = now();
@@ -110,11 +110,11 @@ static void scene(uint32_t start_us, bool compare)
         }
         ticks(1);
         const uint32_t sum = sum_of_tick(start_us);
-        if (compare && sum != told[tick]) {
+        if (compare && sum != reported[tick]) {
             printf("tick %d, the clock at %08x\n", tick, (unsigned)fake.now_us);
-            TEST_ASSERT_EQUAL_HEX32(told[tick], sum);
+            TEST_ASSERT_EQUAL_HEX32(reported[tick], sum);
         }
-        told[tick] = sum;
+        reported[tick] = sum;
     }
     TEST_ASSERT_EQUAL(BRACE_MODE_MONITOR, app.controller.mode.now); /* it has been left */
     TEST_ASSERT_EQUAL(0, now()->faults & BRACE_FAULTS_NO_K);
@@ -129,7 +129,7 @@ static void test_nothing_depends_on_where_the_clock_stands(void)
     }
 }
 
-static uint32_t age_told_us(void)
+static uint32_t age_reported_us(void)
 {
     return app.wires.measured.age_us;
 }
@@ -140,20 +140,20 @@ static void test_a_sample_that_is_old_stays_old(void)
     const brace_parameters_t p = bench_parameters();
     bench_start(&p);
     ticks(100);
-    TEST_ASSERT_TRUE(age_told_us() <= TICK_US);
+    TEST_ASSERT_TRUE(age_reported_us() <= TICK_US);
     fake.joint[BRACE_FEMUR].not_newer = true;
     ticks(1);
-    uint32_t last_us = age_told_us();
+    uint32_t last_us = age_reported_us();
     for (int second = 0; second < 10000; second++) { /* 2 3/4 hours; a tick a second */
         fake.now_us += 999000u;
         ticks(1);
-        TEST_ASSERT_TRUE(age_told_us() >= last_us);
-        last_us = age_told_us();
+        TEST_ASSERT_TRUE(age_reported_us() >= last_us);
+        last_us = age_reported_us();
     }
     TEST_ASSERT_TRUE(last_us > 1000000000u);
     fake.joint[BRACE_FEMUR].not_newer = false;
     ticks(5);
-    TEST_ASSERT_TRUE(age_told_us() <= TICK_US);
+    TEST_ASSERT_TRUE(age_reported_us() <= TICK_US);
 }
 
 int main(void)

@@ -1,12 +1,12 @@
-/* A question for K is answered in turn, any other request in the tick that takes it, and every tick tells K of its own
- * samples, whatever else goes on. */
+/* A question for K is answered in turn, any other request in the tick that takes it, and every tick reports K of its
+ * own samples, whatever else goes on. */
 #include "can_bench.h"
 #include "modbus_master.h"
 
 enum { QUESTIONS = ON_BOARD ? 500 : 4000 }; /* waits are counted in ticks */
 
 /* A K takes three ticks: taken, worked out, answered. Masters of a port take turns, so one other question may stand
- * before it, and moves it on by two where it is about K. Other jobs have a step after eight, and a tick that tells much
+ * before it, and moves it on by two where it is about K. Other jobs have a step after eight, and a tick that sends much
  * has none. While a set is put in force, no K is worked out: the model may still be that of the set before. */
 enum { JOBS_TICKS = 2, K_MOST_TICKS = K_TICKS + 2 + JOBS_TICKS, IN_FORCE_TICKS = 9 };
 
@@ -111,17 +111,17 @@ typedef struct {
 } traffic_t;
 
 static uint32_t last_sequence;
-/* Ticks in MONITOR, TAKING_UP and LOADING_TEST; and those of them that tell K of their own samples. */
+/* Ticks in MONITOR, TAKING_UP and LOADING_TEST; and those of them that report K of their own samples. */
 static uint32_t ticks_watched, ticks_with_k;
 
 /* After every tick: a new snapshot, of the tick's own samples. */
 static void watch_k(void)
 {
     const brace_snapshot_t *snapshot = now();
-    const bool tells_k = snapshot->mode == BRACE_MODE_MONITOR || snapshot->mode == BRACE_MODE_TAKING_UP ||
+    const bool reports_k = snapshot->mode == BRACE_MODE_MONITOR || snapshot->mode == BRACE_MODE_TAKING_UP ||
                          snapshot->mode == BRACE_MODE_LOADING_TEST;
-    ticks_watched += tells_k;
-    ticks_with_k += tells_k && snapshot->k_is_valid && snapshot->taken_us == fake.now_us &&
+    ticks_watched += reports_k;
+    ticks_with_k += reports_k && snapshot->k_is_valid && snapshot->taken_us == fake.now_us &&
                     snapshot->sequence == last_sequence + 1u;
     last_sequence = snapshot->sequence;
 }
@@ -205,7 +205,7 @@ static brace_parameters_t with_play(brace_parameters_t p)
     return p;
 }
 
-/* Motors go where they are told. */
+/* Motors go where they are commanded. */
 static void follow(void *user, brace_fake_t *board, int32_t joint)
 {
     static const float stands_rad[] = {0.0f, 1.0f, 1.4f};

@@ -48,7 +48,7 @@ static void check_k(const answer_t *answer, uint32_t code, const brace_stiffness
     TEST_ASSERT_EQUAL_HEX32(k->flags, d.flags);
 }
 
-static void test_K_asked_where_the_limb_is_is_the_K_told_two_ticks_later(void)
+static void test_K_asked_where_the_limb_is_is_the_K_reported_two_ticks_later(void)
 {
     const brace_stiffness_t k = now()->stiffness.now;
     const answer_t answer = ask_k(now()->theta_rad[BRACE_FEMUR], now()->theta_rad[BRACE_TIBIA], K_TICKS);
@@ -106,7 +106,7 @@ static void test_K_where_there_is_none_is_refused(void)
     answer = ask(data);
     TEST_ASSERT_EQUAL(BRACE_E_UNREACHABLE, refusal_of(&answer, BRACE_REQUEST_K_AT_TIP_KNEE_UP).status);
     TEST_ASSERT_EQUAL_HEX8(1, answer.part[0][1]);
-    answer = ask_k(-2.5f, 0.5f, PATIENCE_TICKS); /* outside the travel: told, and flagged */
+    answer = ask_k(-2.5f, 0.5f, PATIENCE_TICKS); /* outside the travel: answered, and flagged */
     brace_can_k_at_posture_answer_3_t d;
     brace_can_unpack_k_at_posture_answer_3(answer.part[3], &d);
     TEST_ASSERT_EQUAL_HEX32(BRACE_FLAG_OUT_OF_RANGE, d.flags & BRACE_FLAG_OUT_OF_RANGE);
@@ -172,7 +172,7 @@ static void test_entries_are_read_and_those_that_are_none_refused(void)
     }
 }
 
-static void test_identify_tells_version_hashes_node(void)
+static void test_identify_reports_version_hashes_node(void)
 {
     const uint8_t data[8] = {BRACE_REQUEST_IDENTIFY, 0x33};
     brace_can_identify_answer_0_t who;
@@ -203,7 +203,7 @@ static void test_identify_tells_version_hashes_node(void)
 }
 
 /* A limb without a coxa joint, that has learned nothing yet and has never taken up play. */
-static void test_space_drift_and_take_up_are_told_or_refused(void)
+static void test_space_drift_and_take_up_are_reported_or_refused(void)
 {
     uint8_t data[8];
     brace_can_drift_answer_0_t drift;
@@ -516,7 +516,7 @@ static void test_stop_is_heard_while_something_moves(void)
     TEST_ASSERT_EQUAL(BRACE_E_RANGE, refusal_of(&answer, BRACE_REQUEST_WRITE_ENTRY).status);
 }
 
-/* The way back takes its time: who asks for the next test meanwhile is told to ask again, and then has it. */
+/* The way back takes its time: who asks for the next test meanwhile is asked to wait and ask again, and then has it. */
 static void test_the_next_loading_test_waits_for_the_way_back(void)
 {
     uint8_t data[8];
@@ -678,31 +678,31 @@ static void test_one_request_is_answered_in_a_tick(void)
 /* Questions in every tick leave no room for process data, but for one frame in seventeen ticks. */
 static void test_process_data_go_on_while_each_tick_answers(void)
 {
-    int told = 0;
+    int sent = 0;
     for (int i = 0; i < 400; i++) {
         brace_can_frame_t frame;
         const uint8_t data[8] = {BRACE_REQUEST_IDENTIFY, 1};
         arrives(0x600u + NODE, data, 8);
         ticks(1);
         while (brace_fake_frame_take(&fake, &frame)) {
-            told += frame.id >= 0x180u && frame.id < 0x580u ? 1 : 0;
+            sent += frame.id >= 0x180u && frame.id < 0x580u ? 1 : 0;
         }
     }
-    TEST_ASSERT_GREATER_OR_EQUAL(400 / 17 - 1, told);
+    TEST_ASSERT_GREATER_OR_EQUAL(400 / 17 - 1, sent);
 }
 
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(test_K_asked_where_the_limb_is_is_the_K_told_two_ticks_later);
+    RUN_TEST(test_K_asked_where_the_limb_is_is_the_K_reported_two_ticks_later);
     RUN_TEST(test_K_at_the_tip_is_K_at_its_posture_both_knees);
     RUN_TEST(test_K_elsewhere_leaves_the_limbs_own_alone);
     RUN_TEST(test_K_where_there_is_none_is_refused);
     RUN_TEST(test_sag_undoes_contact_force);
     RUN_TEST(test_friction_margin_is_of_the_force_of_now);
     RUN_TEST(test_entries_are_read_and_those_that_are_none_refused);
-    RUN_TEST(test_identify_tells_version_hashes_node);
-    RUN_TEST(test_space_drift_and_take_up_are_told_or_refused);
+    RUN_TEST(test_identify_reports_version_hashes_node);
+    RUN_TEST(test_space_drift_and_take_up_are_reported_or_refused);
     RUN_TEST(test_what_is_no_request_is_counted_and_not_answered);
     RUN_TEST(test_configuration_needs_its_key);
     RUN_TEST(test_a_written_entry_is_in_force_only_after_its_commit);

@@ -46,7 +46,7 @@ static void test_a_drift_names_what_to_look_at(void)
     static const struct {
         brace_drift_cause_t cause;
         brace_drift_next_t next;
-    } told[] = {
+    } reported[] = {
         {BRACE_DRIFT_FEMUR, BRACE_DRIFT_NEXT_INSPECT_FEMUR_LINK},
         {BRACE_DRIFT_TIBIA_OR_KNEE, BRACE_DRIFT_NEXT_INSPECT_TIBIA_LINK_AND_KNEE_JOINT},
         {BRACE_DRIFT_FEMUR_JOINT_OR_BASE, BRACE_DRIFT_NEXT_INSPECT_FEMUR_JOINT_AND_BASE},
@@ -54,9 +54,9 @@ static void test_a_drift_names_what_to_look_at(void)
     };
     job.report.state = BRACE_DRIFT_DRIFTED;
     for (int i = 0; i < 4; i++) {
-        job.report.cause = told[i].cause;
-        job.report.could_be = 1u << told[i].cause;
-        TEST_ASSERT_EQUAL(told[i].next, drift_job_next_step(&job));
+        job.report.cause = reported[i].cause;
+        job.report.could_be = 1u << reported[i].cause;
+        TEST_ASSERT_EQUAL(reported[i].next, drift_job_next_step(&job));
         job.report.could_be = 3; /* two causes explain it */
         TEST_ASSERT_EQUAL(BRACE_DRIFT_NEXT_TEST_ANOTHER_POSTURE, drift_job_next_step(&job));
     }

@@ -132,10 +132,10 @@ static void be_soft(bool is_spatial)
     bench_model(&model, &parameters, is_spatial);
 }
 
-/* The application tells the core's equilibrium by its own conventions: its knee turns with the sense of theta2, the
+/* The application reports the core's equilibrium by its own conventions: its knee turns with the sense of theta2, the
  * core's with the opposite one. Nothing is promised of a limb that moves far. Without an FPU the application asks the
  * integers, which differ by the third order of the bend. */
-static void test_a_limb_in_space_is_told_as_the_core_finds_it(void)
+static void test_a_limb_in_space_is_reported_as_the_core_finds_it(void)
 {
     static const float unbent_rad[] = {0.0f, 1.0f, 1.4f};
     static const brace_vec3_t forces_n[] = {{-3.0f, 2.0f, 5.0f}, {4.0f, -6.0f, 8.0f}, {10.0f, 30.0f, 25.0f}};
@@ -208,7 +208,7 @@ static void test_a_limb_that_its_load_folds_is_refused(void)
         be_soft(is_spatial != 0);
         model_springs(&model, &parameters, no_load_n_mm, at_25_degc, springs);
         memset(&untouched, 0x55, sizeof untouched);
-        int told = 0, refused_late = 0;
+        int answered = 0, refused_late = 0;
         for (int i = 0; i < FORCES; i++) {
             rest = untouched;
             place = (model_place_t){0};
@@ -218,7 +218,7 @@ static void test_a_limb_that_its_load_folds_is_refused(void)
                                         &rest);
                 TEST_ASSERT_TRUE(whole[i] == BRACE_OK || memcmp(&untouched, &rest, sizeof rest) == 0);
             }
-            told += whole[i] == BRACE_OK;
+            answered += whole[i] == BRACE_OK;
         }
         for (int i = 0; i < FORCES; i++) {
             rest = untouched;
@@ -231,14 +231,14 @@ static void test_a_limb_that_its_load_folds_is_refused(void)
             TEST_ASSERT_FALSE(work.is_under_way);
             TEST_ASSERT_TRUE(status == BRACE_OK || memcmp(&untouched, &rest, sizeof rest) == 0);
         }
-        TEST_ASSERT_TRUE(told > 0 && told < FORCES);
+        TEST_ASSERT_TRUE(answered > 0 && answered < FORCES);
 #ifndef __SOFTFP__ /* the integers may see at the first step that their words do not hold such a load */
         TEST_ASSERT_TRUE(is_spatial == 0 || refused_late > 0);
 #endif
     }
 }
 
-static void test_a_limb_in_its_plane_is_told_as_the_core_finds_it(void)
+static void test_a_limb_in_its_plane_is_reported_as_the_core_finds_it(void)
 {
     static const float unbent_rad[] = {0.0f, 1.0f, 1.4f};
     static const brace_vec3_t forces_n[] = {{-3.0f, 0.0f, 5.0f}, {4.0f, 0.0f, -8.0f}, {20.0f, 0.0f, 20.0f}};
@@ -281,8 +281,8 @@ int main(void)
     RUN_TEST(test_without_a_load_and_beyond_any_a_spring_is_as_at_rest);
     RUN_TEST(test_rigid_and_endlessly_soft_springs);
     RUN_TEST(test_k_takes_each_spring_at_its_joint);
-    RUN_TEST(test_a_limb_in_space_is_told_as_the_core_finds_it);
+    RUN_TEST(test_a_limb_in_space_is_reported_as_the_core_finds_it);
     RUN_TEST(test_a_limb_that_its_load_folds_is_refused);
-    RUN_TEST(test_a_limb_in_its_plane_is_told_as_the_core_finds_it);
+    RUN_TEST(test_a_limb_in_its_plane_is_reported_as_the_core_finds_it);
     return UNITY_END();
 }

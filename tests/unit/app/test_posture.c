@@ -95,7 +95,7 @@ static void test_where_the_levers_do_not_allow_it_no_force_is_told(void)
 }
 
 /* The coxa's motor carries the force across by the tip's lever, and what leans over, by its own. */
-static void test_a_force_across_is_told_by_the_coxa_joint(void)
+static void test_a_force_across_is_measured_by_the_coxa_joint(void)
 {
     stand(1.0f, 1.4f);
     const float tip_mm = parameters.limb.coxa_mm + posture.pose.tip.x_mm;
@@ -165,7 +165,7 @@ static void test_a_load_takes_the_limb_where_it_says(void)
 }
 
 /* The limb leans over, and its tip stands beside its plane. All moments about the coxa joint's axis must balance the
- * force that the posture tells. When the load has turned the plane, the direction outwards turns with it. */
+ * force that the posture gives. When the load has turned the plane, the direction outwards turns with it. */
 static void test_moments_about_the_coxa_joint_are_in_balance(void)
 {
     static const float leans[] = {0.0f, 0.4f, -0.7f}, coxas_n_mm[] = {100.0f, -350.0f}, x_ns[] = {4.0f, -9.0f};
@@ -182,18 +182,18 @@ static void test_moments_about_the_coxa_joint_are_in_balance(void)
         here.tibia_mm = (brace_vec_t){posture.pose.tip.x_mm - posture.pose.knee.x_mm,
                                       posture.pose.tip.z_mm - posture.pose.knee.z_mm};
         posture_settle(&posture, &here);
-        const float told_n = posture_force_across_n(&posture, &parameters, leaning, coxa_n_mm, is_turned, &x_n);
+        const float reported_n = posture_force_across_n(&posture, &parameters, leaning, coxa_n_mm, is_turned, &x_n);
         const double coxa = (double)parameters.limb.coxa_mm, knee = coxa + (double)posture.pose.knee.x_mm;
         const double tip = coxa + (double)posture.pose.tip.x_mm, knee_aside = 5.0, tip_aside = 12.0;
         /* each weight acts at the middle of its link: how far that is outwards and aside */
         const double weight[3] = {2.0, 1.5, 1.0}, out[3] = {0.5 * (coxa + knee), knee, 0.5 * (knee + tip)};
         const double aside[3] = {0.5 * knee_aside, knee_aside, 0.5 * (knee_aside + tip_aside)};
-        double about = (double)coxa_n_mm + tip * (double)told_n - tip_aside * (double)x_n;
+        double about = (double)coxa_n_mm + tip * (double)reported_n - tip_aside * (double)x_n;
         for (int w = 0; w < 3; w++) {
             about += weight[w] * (out[w] * (double)leaning.y - aside[w] * (double)leaning.x);
         }
         TEST_ASSERT_DOUBLE_WITHIN(2e-2, 0.0, about);
-        ASSERT_CLOSE((double)x_ns[i / 6 % 2] - (is_turned ? 0.05 * (double)told_n : 0.0), x_n, 1e-5);
+        ASSERT_CLOSE((double)x_ns[i / 6 % 2] - (is_turned ? 0.05 * (double)reported_n : 0.0), x_n, 1e-5);
     }
 }
 
@@ -208,7 +208,7 @@ static void expect_down(const gravity_t *gravity, double direction_rad, double l
     ASSERT_CLOSE(lean_rad, gravity->lean_rad, 1e-6);
 }
 
-static void test_down_is_as_told_until_it_is_told_no_more(void)
+static void test_down_is_as_sent_until_it_is_sent_no_more(void)
 {
     gravity_t gravity = {.is_told = false};
     brace_gravity_t said = {.direction_rad = -1.2f, .lean_rad = 0.3f};
@@ -217,11 +217,11 @@ static void test_down_is_as_told_until_it_is_told_no_more(void)
     said.direction_rad = -1.0f;
     gravity_configure(&gravity, &said);
     expect_down(&gravity, -1.0, 0.3);
-    TEST_ASSERT_EQUAL(BRACE_OK, gravity_tell(&gravity, &said, 2.0f, -0.5f));
+    TEST_ASSERT_EQUAL(BRACE_OK, gravity_set(&gravity, &said, 2.0f, -0.5f));
     expect_down(&gravity, 2.0, -0.5);
-    gravity_configure(&gravity, &said); /* new parameters leave the direction that was told */
+    gravity_configure(&gravity, &said); /* new parameters leave the direction that was sent */
     expect_down(&gravity, 2.0, -0.5);
-    TEST_ASSERT_EQUAL(BRACE_OK, gravity_tell(&gravity, &said, NAN, NAN));
+    TEST_ASSERT_EQUAL(BRACE_OK, gravity_set(&gravity, &said, NAN, NAN));
     expect_down(&gravity, -1.0, 0.3);
     said.lean_rad = -0.1f;
     gravity_configure(&gravity, &said);
@@ -235,17 +235,17 @@ static void test_down_out_of_range_changes_nothing(void)
     gravity_t gravity = {.is_told = false};
     gravity_configure(&gravity, &said);
     for (float sign = -1.0f; sign <= 1.0f; sign += 2.0f) {
-        TEST_ASSERT_EQUAL(BRACE_E_RANGE, gravity_tell(&gravity, &said, sign * nextafterf(direction, 4.0f), 0.0f));
-        TEST_ASSERT_EQUAL(BRACE_E_RANGE, gravity_tell(&gravity, &said, 0.0f, sign * nextafterf(lean, 4.0f)));
-        TEST_ASSERT_EQUAL(BRACE_E_RANGE, gravity_tell(&gravity, &said, sign * INFINITY, 0.0f));
+        TEST_ASSERT_EQUAL(BRACE_E_RANGE, gravity_set(&gravity, &said, sign * nextafterf(direction, 4.0f), 0.0f));
+        TEST_ASSERT_EQUAL(BRACE_E_RANGE, gravity_set(&gravity, &said, 0.0f, sign * nextafterf(lean, 4.0f)));
+        TEST_ASSERT_EQUAL(BRACE_E_RANGE, gravity_set(&gravity, &said, sign * INFINITY, 0.0f));
     }
-    TEST_ASSERT_EQUAL(BRACE_E_NOT_FINITE, gravity_tell(&gravity, &said, NAN, 0.0f));
-    TEST_ASSERT_EQUAL(BRACE_E_NOT_FINITE, gravity_tell(&gravity, &said, 0.0f, NAN));
+    TEST_ASSERT_EQUAL(BRACE_E_NOT_FINITE, gravity_set(&gravity, &said, NAN, 0.0f));
+    TEST_ASSERT_EQUAL(BRACE_E_NOT_FINITE, gravity_set(&gravity, &said, 0.0f, NAN));
     expect_down(&gravity, -1.2, 0.3);
     gravity_configure(&gravity, &said);
     expect_down(&gravity, -1.2, 0.3);
     for (float sign = -1.0f; sign <= 1.0f; sign += 2.0f) {
-        TEST_ASSERT_EQUAL(BRACE_OK, gravity_tell(&gravity, &said, sign * direction, sign * lean));
+        TEST_ASSERT_EQUAL(BRACE_OK, gravity_set(&gravity, &said, sign * direction, sign * lean));
         expect_down(&gravity, (double)(sign * direction), (double)(sign * lean));
     }
 }
@@ -267,10 +267,10 @@ int main(void)
     RUN_TEST(test_weights_hang_where_they_are);
     RUN_TEST(test_where_the_levers_do_not_allow_it_no_force_is_told);
     RUN_TEST(test_what_has_levers);
-    RUN_TEST(test_a_force_across_is_told_by_the_coxa_joint);
+    RUN_TEST(test_a_force_across_is_measured_by_the_coxa_joint);
     RUN_TEST(test_a_load_takes_the_limb_where_it_says);
     RUN_TEST(test_moments_about_the_coxa_joint_are_in_balance);
-    RUN_TEST(test_down_is_as_told_until_it_is_told_no_more);
+    RUN_TEST(test_down_is_as_sent_until_it_is_sent_no_more);
     RUN_TEST(test_down_out_of_range_changes_nothing);
     RUN_TEST(test_angles_that_are_none_give_no_levers);
     return UNITY_END();

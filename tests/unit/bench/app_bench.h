@@ -72,16 +72,16 @@ static const brace_who_t *living_master;
 /* The sign of life that a master of a bench gives now. */
 static inline brace_sign_t sign_now(void)
 {
-    brace_session_report_t told;
-    brace_app_session(&app, &told);
-    return (brace_sign_t){.heard = told.has_begin ? told.begin : told.number, .heard_bits = 32};
+    brace_session_report_t reported;
+    brace_app_session(&app, &reported);
+    return (brace_sign_t){.heard = reported.has_begin ? reported.begin : reported.number, .heard_bits = 32};
 }
 
 static inline bool something_waits(void)
 {
-    brace_session_report_t told;
-    brace_app_session(&app, &told);
-    return told.has_begin;
+    brace_session_report_t reported;
+    brace_app_session(&app, &reported);
+    return reported.has_begin;
 }
 
 static inline void bench_board(void)

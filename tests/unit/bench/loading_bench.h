@@ -31,7 +31,7 @@ static inline float noise(void) /* uniform, one sigma noise_n */
     return noise_n * 3.4641016f * ((float)(noise_state >> 8) / 16777216.0f - 0.5f);
 }
 
-/* What the world is told, and what follows from it. An emulated processor without a floating point unit takes long to
+/* What the world is given, and what follows from it. An emulated processor without a floating point unit takes long to
  * work it out in double, so that is done only when something has changed. */
 typedef struct {
     double theta1, theta2, servo_n_mm_per_rad, preload_x_n, preload_z_n, weight_n, drive_rad_per_n_mm;

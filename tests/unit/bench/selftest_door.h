@@ -1,5 +1,5 @@
-/* A door that tells the truth, for tests of the port self-test, and what those judge by. A test of lies opens it, puts
- * entries in place that lie as `world.lie` says, and expects each lie to be named. */
+/* A door that reports the truth, for tests of the port self-test, and what those judge by. A test of lies opens it,
+ * puts entries in place that lie as `world.lie` says, and expects each lie to be named. */
 #ifndef SELFTEST_DOOR_H
 #define SELFTEST_DOOR_H
 
@@ -299,7 +299,7 @@ static inline const brace_selftest_finding_t *first_failure(void)
     return NULL;
 }
 
-static inline bool is_told(const char *entry, const char *words)
+static inline bool is_reported(const char *entry, const char *words)
 {
     for (uint32_t i = 0u; i < finding_count; i++) {
         if (findings[i].verdict == BRACE_SELFTEST_FAIL && strcmp(findings[i].entry, entry) == 0 &&
@@ -327,7 +327,7 @@ static inline void expect_each_named(const named_t *named, uint32_t count, void 
         TEST_ASSERT_GREATER_THAN_INT32_MESSAGE(0, failures, which);
         TEST_ASSERT_NOT_NULL_MESSAGE(first_failure(), which);
         TEST_ASSERT_EQUAL_STRING_MESSAGE(named[i].entry, first_failure()->entry, which);
-        TEST_ASSERT_TRUE_MESSAGE(is_told(named[i].entry, named[i].words), which);
+        TEST_ASSERT_TRUE_MESSAGE(is_reported(named[i].entry, named[i].words), which);
     }
 }
 

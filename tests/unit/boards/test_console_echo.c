@@ -43,7 +43,7 @@ static void assert_nothing_changed(const char *which)
 }
 
 /* The banner comes back, and nobody types: it says so once, and is silent. */
-static void test_a_terminal_that_echoes_changes_nothing_and_is_told_once(void)
+static void test_a_terminal_that_echoes_changes_nothing_and_is_reported_once(void)
 {
     for (uint32_t end = LINUX_TERMINAL; end < FAR_ENDS; end++) {
         char which[24];
@@ -101,7 +101,7 @@ static void test_it_hears_again_when_it_has_been_quiet_for_2_s(void)
 }
 
 /* The line took nothing for a while, as without a cable; then somebody plugs an echo in. */
-static void test_an_echo_is_told_where_nobody_has_listened(void)
+static void test_an_echo_is_reported_where_nobody_has_listened(void)
 {
     start_at(SILENT);
     console.text.gone = true;
@@ -221,10 +221,10 @@ static void test_two_consoles_on_one_line_fall_silent(void)
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(test_a_terminal_that_echoes_changes_nothing_and_is_told_once);
+    RUN_TEST(test_a_terminal_that_echoes_changes_nothing_and_is_reported_once);
     RUN_TEST(test_whatever_a_person_types_at_an_echoing_terminal);
     RUN_TEST(test_it_hears_again_when_it_has_been_quiet_for_2_s);
-    RUN_TEST(test_an_echo_is_told_where_nobody_has_listened);
+    RUN_TEST(test_an_echo_is_reported_where_nobody_has_listened);
     RUN_TEST(test_an_echo_ends_a_question);
     RUN_TEST(test_random_bytes_change_nothing);
     RUN_TEST(test_random_words_change_nothing);

@@ -128,7 +128,7 @@ static int32_t answer(void *context, const uint8_t key[BRACE_HAL_KEY_BYTES])
     return found;
 }
 
-static void test_what_the_memory_holds_is_told(void)
+static void test_what_the_memory_holds_is_reported(void)
 {
     static const struct {
         int32_t found;
@@ -149,7 +149,7 @@ static void test_what_the_memory_holds_is_told(void)
     }
 }
 
-static void test_memory_that_refuses_is_told(void)
+static void test_memory_that_refuses_is_reported(void)
 {
     fake.hal.key_write = answer;
     found = BRACE_HAL_E_DEVICE;
@@ -209,8 +209,8 @@ int main(void)
     RUN_TEST(test_a_slip_ends_the_entry);
     RUN_TEST(test_a_board_with_a_key_keeps_it);
     RUN_TEST(test_a_board_that_keeps_none_says_so);
-    RUN_TEST(test_what_the_memory_holds_is_told);
-    RUN_TEST(test_memory_that_refuses_is_told);
+    RUN_TEST(test_what_the_memory_holds_is_reported);
+    RUN_TEST(test_memory_that_refuses_is_reported);
     RUN_TEST(test_an_echo_ends_the_entry);
     RUN_TEST(test_an_entry_that_nobody_goes_on_with_ends);
     RUN_TEST(test_the_key_is_not_shown);

@@ -49,7 +49,7 @@ static void test_what_is_empty_is_no_line(void)
     TEST_ASSERT_EQUAL(TYPED_LINE, take("^C\r"));
 }
 
-/* Such a line is told, but holds nothing that could be a word. */
+/* Such a line is reported, but holds nothing that could be a word. */
 static void test_what_no_key_types_is_no_word(void)
 {
     static const char *const lines[] = {"rest\x01" "art\r", "\x1b[A\r", "restart\x80\r", "\xff" "restart\r"};

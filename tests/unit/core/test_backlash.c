@@ -82,7 +82,7 @@ static void a_load_engages_its_flank_whatever_the_motion(void)
     }
 }
 
-static void nothing_is_told_of_a_load_within_friction(void)
+static void nothing_is_decided_of_a_load_within_friction(void)
 {
     stand(0.0, 150.0, 2000);
     TEST_ASSERT_EQUAL_INT(BRACE_BACKLASH_UNKNOWN, out.state);
@@ -152,7 +152,7 @@ static void a_load_reversal_of_a_standing_motor_is_seen(void)
     TEST_ASSERT_TRUE(out.valid);
 }
 
-static void an_expected_load_tells_but_never_proves(void)
+static void an_expected_load_decides_but_never_proves(void)
 {
     for (int i = 0; i < 300; i++) {
         now_us += 1000u;
@@ -488,7 +488,7 @@ static void a_load_that_goes_away_ends_the_takeup(void)
     TEST_ASSERT_EQUAL_INT(BRACE_TAKEUP_LET_GO, out.phase);
 }
 
-static void what_a_joint_promises_is_told(void)
+static void what_a_joint_promises_is_reported(void)
 {
     TEST_ASSERT_EQUAL_FLOAT(0.0f, brace_takeup_preload_min_n_mm(NULL));
     TEST_ASSERT_TRUE(brace_takeup_preload_min_n_mm(&joint) > 200.0f); /* more than friction */
@@ -550,7 +550,7 @@ static void parameters_out_of_range_are_refused(void)
     p.takeup.reach_max_rad = 2.1f;
     TEST_ASSERT_EQUAL_INT(BRACE_E_RANGE, brace_backlash_init(&fresh, &p));
     p = sound_params();
-    p.takeup.torque_max_n_mm = 900.0f; /* could not be told from friction and noise */
+    p.takeup.torque_max_n_mm = 900.0f; /* could not be distinguished from friction and noise */
     TEST_ASSERT_EQUAL_INT(BRACE_E_PARAMETER, brace_backlash_init(&fresh, &p));
     TEST_ASSERT_EQUAL_INT(0, memcmp(&before, &fresh, sizeof fresh));
     const brace_backlash_sample_t sample = {.now_us = 1000};
@@ -650,12 +650,12 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(a_load_engages_its_flank_whatever_the_motion);
-    RUN_TEST(nothing_is_told_of_a_load_within_friction);
+    RUN_TEST(nothing_is_decided_of_a_load_within_friction);
     RUN_TEST(a_lost_load_is_not_valid_past_the_detection_time);
     RUN_TEST(a_reversal_crosses_with_the_motors_travel);
     RUN_TEST(noise_alone_proves_nothing);
     RUN_TEST(a_load_reversal_of_a_standing_motor_is_seen);
-    RUN_TEST(an_expected_load_tells_but_never_proves);
+    RUN_TEST(an_expected_load_decides_but_never_proves);
     RUN_TEST(bad_and_late_samples_are_a_fault_that_heals);
     RUN_TEST(a_takeup_preloads_verifies_and_lets_go);
     RUN_TEST(a_servo_that_lags_takes_up);
@@ -665,7 +665,7 @@ int main(void)
     RUN_TEST(each_parameter_has_its_bounds);
     RUN_TEST(every_bound_has_its_own_result);
     RUN_TEST(a_load_that_goes_away_ends_the_takeup);
-    RUN_TEST(what_a_joint_promises_is_told);
+    RUN_TEST(what_a_joint_promises_is_reported);
     RUN_TEST(an_expectation_that_is_none_is_a_bad_sample);
     RUN_TEST(a_takeup_that_has_not_begun_is_taken_back);
     RUN_TEST(parameters_out_of_range_are_refused);

@@ -129,7 +129,7 @@ static void a_first_sample_is_the_load_and_proves_nothing(void)
     TEST_ASSERT_EQUAL_UINT32(0, joint.negative_us);
     TEST_ASSERT_EQUAL_INT(0, backlash_load_proven(&joint));
     const brace_backlash_sample_t sample = sample_of(0.3, 1500.0);
-    TEST_ASSERT_EQUAL_INT(0, backlash_load_told(&joint, &sample, 0.7f));
+    TEST_ASSERT_EQUAL_INT(0, backlash_load_decided(&joint, &sample, 0.7f));
     observe(0.3, 1500.0);
     TEST_ASSERT_TRUE(backlash_load_standing(&joint)); /* it has not been seen to move */
 }
@@ -249,11 +249,11 @@ static void an_expected_load_narrows_what_is_shown(void)
                {100.0f, 100.0f, 0},  {-100.0f, 100.0f, 0}}; /* a load that may be zero shows no flank */
     for (uint32_t i = 0; i < sizeof row / sizeof *row; i++) {
         brace_backlash_sample_t sample = sample_of(0.0, 100.0);
-        TEST_ASSERT_EQUAL_INT(0, backlash_load_told(&joint, &sample, 0.7f));
+        TEST_ASSERT_EQUAL_INT(0, backlash_load_decided(&joint, &sample, 0.7f));
         sample.load_is_expected = true;
         sample.expected_n_mm = row[i].expected_n_mm;
         sample.expected_off_n_mm = row[i].off_n_mm;
-        TEST_ASSERT_EQUAL_INT(row[i].flank, backlash_load_told(&joint, &sample, 0.7f));
+        TEST_ASSERT_EQUAL_INT(row[i].flank, backlash_load_decided(&joint, &sample, 0.7f));
     }
 }
 

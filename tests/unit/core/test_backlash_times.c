@@ -104,7 +104,7 @@ static void a_flank_is_remembered_for_a_quarter_of_a_second(void)
         setUp();
         stand(0.0, flank * 2500.0, 300);
         TEST_ASSERT_EQUAL_INT(flank, out.flank);
-        while (joint.untold_us == 0u) { /* the mean takes its time to forget the load */
+        while (joint.undecided_us == 0u) { /* the mean takes its time to forget the load */
             stand(0.0, 0.0, 1);
         }
         TEST_ASSERT_EQUAL_INT(flank, out.flank);

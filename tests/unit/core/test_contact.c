@@ -392,8 +392,8 @@ static void limits_are_inclusive(void)
     TEST_ASSERT_EQUAL_INT(BRACE_E_NOT_FINITE, brace_check_range((float)NAN, least, most));
 }
 
-/* Of several refusals the first is told, as check.h says. */
-static void the_first_refusal_is_told(void)
+/* Of several refusals the first is reported, as check.h says. */
+static void the_first_refusal_is_reported(void)
 {
     static const brace_status_t status[] = {BRACE_OK, BRACE_E_RANGE, BRACE_E_NOT_FINITE, BRACE_E_SINGULAR};
     for (int i = 0; i < 16; i++) {
@@ -419,6 +419,6 @@ int main(void)
     RUN_TEST(the_eigenvalues_have_their_bounds);
     RUN_TEST(bad_input_is_refused_and_touches_nothing);
     RUN_TEST(limits_are_inclusive);
-    RUN_TEST(the_first_refusal_is_told);
+    RUN_TEST(the_first_refusal_is_reported);
     return UNITY_END();
 }

@@ -53,7 +53,7 @@ static brace_limb_t warmed(void)
     return limb;
 }
 
-/* One run of the real limb at a posture, under a load that nobody told of; the readings until an alarm. */
+/* One run of the real limb at a posture, under an unknown load; the readings until an alarm. */
 static int run(int posture, int along_z)
 {
     const brace_limb_t limb = warmed();
@@ -210,8 +210,8 @@ static void give_evidence(int cause, float evidence, float log_likelihood)
     drift.score[cause] = sqrtf(2.0f * 50.0f * log_likelihood);
 }
 
-/* A cause counts from half of an alarm's evidence on. The likeliest is told, and every one that is nearly as likely:
- * less by 3 and a tenth at most. */
+/* A cause counts from half of an alarm's evidence on. The likeliest is reported, and every one that is nearly as
+ * likely: less by 3 and a tenth at most. */
 static void test_a_report_names_what_the_readings_support(void)
 {
     const float half = 0.5f * BRACE_DRIFT_ALARM;
@@ -351,7 +351,7 @@ static void check_loss(int link, brace_drift_cause_t cause)
     }
     TEST_ASSERT_EQUAL(BRACE_DRIFT_DRIFTED, drift.state);
     TEST_ASSERT_LESS_OR_EQUAL(30, readings);
-    rounds(1); /* other postures tell the causes apart */
+    rounds(1); /* other postures separate the causes */
     const brace_drift_report_t now = report();
     TEST_ASSERT_EQUAL(cause, now.cause);
     TEST_ASSERT_EQUAL(1u << cause, now.could_be & 1u << cause);
@@ -362,12 +362,12 @@ static void check_loss(int link, brace_drift_cause_t cause)
     ASSERT_CLOSE(0.1, report().loss_ratio, 0.015);
 }
 
-static void test_a_tenth_of_the_femurs_stiffness_lost_is_told(void)
+static void test_a_tenth_of_the_femurs_stiffness_lost_is_reported(void)
 {
     check_loss(BRACE_FEMUR, BRACE_DRIFT_FEMUR);
 }
 
-static void test_a_tenth_of_the_tibias_stiffness_lost_is_told(void)
+static void test_a_tenth_of_the_tibias_stiffness_lost_is_reported(void)
 {
     check_loss(BRACE_TIBIA, BRACE_DRIFT_TIBIA_OR_KNEE);
 }
@@ -462,7 +462,7 @@ static void test_a_calibration_that_does_not_fit_shows_in_the_baseline(void)
     TEST_ASSERT_TRUE(report().baseline_sigmas > 5.0f);
 }
 
-static void test_the_outlook_tells_where_a_loss_shows(void)
+static void test_the_outlook_shows_where_a_loss_shows(void)
 {
     learn_a_slightly_other_limb();
     brace_drift_outlook_t stretched, bent;
@@ -501,7 +501,7 @@ static void test_a_run_is_of_one_posture_and_of_64_readings(void)
 static void test_a_run_knows_nothing_of_the_run_before(void)
 {
     const brace_stiffness_t model = stiffness_of(&believed, postures[0]);
-    brace_drift_t told[2];
+    brace_drift_t reported[2];
     for (int is_off = 0; is_off < 2; is_off++) {
         brace_drift_reading_t reading = {postures[0][0], postures[0][1], 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
         reading.dx_mm = reading.dz_mm = is_off != 0 ? 1e4f : 0.0f;
@@ -514,10 +514,10 @@ static void test_a_run_knows_nothing_of_the_run_before(void)
             reading.fx_n = 4.01f + 0.2f * (float)i, reading.fz_n = -3.03f;
             TEST_ASSERT_EQUAL(BRACE_OK, brace_drift_step(&drift, &believed, &model, &reading));
         }
-        told[is_off] = drift;
+        reported[is_off] = drift;
     }
-    TEST_ASSERT_EQUAL_MEMORY(told[0].run_mean, told[1].run_mean, sizeof told[0].run_mean);
-    TEST_ASSERT_EQUAL_MEMORY(told[0].offset, told[1].offset, sizeof told[0].offset);
+    TEST_ASSERT_EQUAL_MEMORY(reported[0].run_mean, reported[1].run_mean, sizeof reported[0].run_mean);
+    TEST_ASSERT_EQUAL_MEMORY(reported[0].offset, reported[1].offset, sizeof reported[0].offset);
 }
 
 static void test_refused_calls_leave_everything_as_it_was(void)
@@ -597,8 +597,8 @@ int main(void)
     RUN_TEST(test_watching_begins_without_evidence);
     RUN_TEST(test_readings_that_fit_are_no_evidence);
     RUN_TEST(test_what_the_model_may_be_off_is_no_evidence);
-    RUN_TEST(test_a_tenth_of_the_femurs_stiffness_lost_is_told);
-    RUN_TEST(test_a_tenth_of_the_tibias_stiffness_lost_is_told);
+    RUN_TEST(test_a_tenth_of_the_femurs_stiffness_lost_is_reported);
+    RUN_TEST(test_a_tenth_of_the_tibias_stiffness_lost_is_reported);
     RUN_TEST(test_a_spring_that_goes_soft_is_not_taken_for_the_femur);
     RUN_TEST(test_an_alarm_stays_until_reset);
     RUN_TEST(test_one_wild_reading_is_no_alarm);
@@ -606,7 +606,7 @@ int main(void)
     RUN_TEST(test_a_baseline_that_has_walked_away_is_an_alarm);
     RUN_TEST(test_short_runs_count_the_noise_of_their_first_reading);
     RUN_TEST(test_a_calibration_that_does_not_fit_shows_in_the_baseline);
-    RUN_TEST(test_the_outlook_tells_where_a_loss_shows);
+    RUN_TEST(test_the_outlook_shows_where_a_loss_shows);
     RUN_TEST(test_a_run_is_of_one_posture_and_of_64_readings);
     RUN_TEST(test_a_run_knows_nothing_of_the_run_before);
     RUN_TEST(test_refused_calls_leave_everything_as_it_was);

@@ -361,7 +361,7 @@ static void test_a_report_is_of_the_likeliest_cause(void)
 {
     const double share[CAUSES] = {1.0, (double)drift_compliances(&believed).tibia_share, 1.0};
     for (int cause = 0; cause < CAUSES; cause++) {
-        brace_drift_report_t told;
+        brace_drift_report_t reported;
         for (int c = 0; c < CAUSES; c++) {
             drift.evidence[c] = c == cause ? 30.0f : 15.0f;
             drift.score[c] = c == cause ? 90.0f : 4.0f;
@@ -370,15 +370,15 @@ static void test_a_report_is_of_the_likeliest_cause(void)
         }
         for (int unexplained = 0; unexplained < 2; unexplained++) {
             drift.evidence[CAUSES] = unexplained != 0 ? 40.0f : 1.0f;
-            TEST_ASSERT_EQUAL(BRACE_OK, brace_drift_report(&drift, &believed, &told));
-            TEST_ASSERT_EQUAL(cause, told.cause);
-            TEST_ASSERT_EQUAL_HEX32(1u << cause, told.could_be);
-            TEST_ASSERT_EQUAL_FLOAT(unexplained != 0 ? 40.0f : 30.0f, told.evidence);
-            TEST_ASSERT_EQUAL_UINT32(7 + cause, told.since_steps);
+            TEST_ASSERT_EQUAL(BRACE_OK, brace_drift_report(&drift, &believed, &reported));
+            TEST_ASSERT_EQUAL(cause, reported.cause);
+            TEST_ASSERT_EQUAL_HEX32(1u << cause, reported.could_be);
+            TEST_ASSERT_EQUAL_FLOAT(unexplained != 0 ? 40.0f : 30.0f, reported.evidence);
+            TEST_ASSERT_EQUAL_UINT32(7 + cause, reported.since_steps);
             const double information = 100.0 + 10.0 * cause, size = 90.0 / information;
-            TEST_ASSERT_DOUBLE_WITHIN(1e-5, size / (share[cause] + size), told.loss_ratio);
+            TEST_ASSERT_DOUBLE_WITHIN(1e-5, size / (share[cause] + size), reported.loss_ratio);
             TEST_ASSERT_DOUBLE_WITHIN(1e-5 / share[cause], 1.0 / sqrt(information) / share[cause],
-                                      told.loss_sigma_ratio);
+                                      reported.loss_sigma_ratio);
         }
     }
 }

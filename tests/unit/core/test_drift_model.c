@@ -133,7 +133,7 @@ static void test_the_tibia_s_share(void)
 }
 
 /* At a rate and a temperature for which a compliance would be negative, the force does not depend on the rate. */
-static void test_joints_colder_than_any_tell_no_rate(void)
+static void test_joints_colder_than_any_show_no_rate(void)
 {
     be(SAMPLE_PAPER, 0.3f, 0.5f);
     reading = (brace_drift_reading_t){
@@ -184,7 +184,7 @@ int main(void)
     RUN_TEST(test_the_force_shifts_as_the_limb_s_own_K_does);
     RUN_TEST(test_a_softer_femur_is_that_limb);
     RUN_TEST(test_the_tibia_s_share);
-    RUN_TEST(test_joints_colder_than_any_tell_no_rate);
+    RUN_TEST(test_joints_colder_than_any_show_no_rate);
     RUN_TEST(test_warmth_softens_both_joints);
     return UNITY_END();
 }

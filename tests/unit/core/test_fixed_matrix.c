@@ -190,9 +190,9 @@ static double tensor_of(uint64_t entry, int format)
 
 /* The pivots' product is the determinant. What the coordinates yield, seen at the tip, is C = L' (I + c G)^-1 c L, and
  * the springs' ends add their own. */
-static void test_what_a_limb_s_matrix_tells_of_the_tip(void)
+static void test_what_a_limb_s_matrix_shows_of_the_tip(void)
 {
-    int told = 0;
+    int answered = 0;
     for (int n = 0; n < 300 * TIMES; n++) {
         take_any_limb(n % 2 == 0 ? 0.1 : 0.5);
         const minors_t minors = minors_at(1.0);
@@ -214,7 +214,7 @@ static void test_what_a_limb_s_matrix_tells_of_the_tip(void)
         if (lost >= LOST) {
             continue;
         }
-        told++;
+        answered++;
         double wanted[2][2] = {{0.0}};
         for (int axis = 0; axis < 2; axis++) {
             double m[COORDINATES][COORDINATES], x[COORDINATES];
@@ -244,7 +244,7 @@ static void test_what_a_limb_s_matrix_tells_of_the_tip(void)
         TEST_ASSERT_DOUBLE_WITHIN(1e-12, moved[1], tensor_of(springs.xz, 60));
         TEST_ASSERT_DOUBLE_WITHIN(1e-12, moved[2], tensor_of(springs.zz, 60));
     }
-    TEST_ASSERT_TRUE(told > 100 * TIMES);
+    TEST_ASSERT_TRUE(answered > 100 * TIMES);
 }
 
 /* --- at a multiple of the load -------------------------------------------------------------------------------- */
@@ -410,7 +410,7 @@ static void test_the_search_for_the_buckling_factor(void)
 static void test_K_is_C_inverted_and_turned(void)
 {
     const double turn = 6.283185307179586;
-    int told = 0, flagged = 0, refused = 0;
+    int answered = 0, flagged = 0, refused = 0;
     for (int n = 0; n < 500 * TIMES; n++) {
         const double size = pow(2.0, any(-36.0, 11.0)), slender = pow(10.0, any(-9.0, 0.0)), axis = any(-3.2, 3.2);
         const double x = cos(axis), z = sin(axis), theta1 = any(-0.5, 0.5) * turn, least = 0.25 * size * slender;
@@ -435,7 +435,7 @@ static void test_K_is_C_inverted_and_turned(void)
         }
         TEST_ASSERT_EQUAL(BRACE_OK, status);
         TEST_ASSERT_EQUAL(ratio < 2e-5 ? BRACE_FLAG_NEAR_SINGULAR : 0u, is.flags);
-        told++;
+        answered++;
         flagged += ratio < 2e-5 ? 1 : 0;
         const double k_xx = zz / det, k_zz = xx / det, k_xz = -xz / det;
         const double unit = ldexp(1.0, -exponent), most = largest / det, p = cos(theta1), q = sin(theta1);
@@ -452,13 +452,13 @@ static void test_K_is_C_inverted_and_turned(void)
             TEST_ASSERT_TRUE(fabs((double)is.stiff_axis_rad) < 0.25 * turn + 1e-6);
         }
     }
-    TEST_ASSERT_TRUE(told > 200 * TIMES && flagged > 50 * TIMES && refused > 50 * TIMES);
+    TEST_ASSERT_TRUE(answered > 200 * TIMES && flagged > 50 * TIMES && refused > 50 * TIMES);
 }
 
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(test_what_a_limb_s_matrix_tells_of_the_tip);
+    RUN_TEST(test_what_a_limb_s_matrix_shows_of_the_tip);
     RUN_TEST(test_the_determinant_at_a_multiple_of_the_load);
     RUN_TEST(test_the_search_for_the_buckling_factor);
     RUN_TEST(test_K_is_C_inverted_and_turned);

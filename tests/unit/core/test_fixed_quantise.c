@@ -23,7 +23,7 @@ static void test_a_number_becomes_the_nearest_word(void)
     TEST_ASSERT_EQUAL_INT32(-INT32_MAX, quantised(NAN, 31));
 }
 
-/* exponent_above tells the exponent of the next power of two above a number. For a number near zero it tells
+/* exponent_above returns the exponent of the next power of two above a number. For a number near zero it returns
  * LEAST_EXPONENT. */
 static void test_the_power_of_two_above_a_number(void)
 {

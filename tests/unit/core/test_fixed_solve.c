@@ -49,7 +49,7 @@ static eliminated_t eliminated(const double m[6], double bend, double least)
 /* Matrices of every size and softness, so that each number is by itself the first to leave its word. */
 static void test_a_link_s_matrix_is_eliminated_within_its_words(void)
 {
-    int told = 0, refused = 0;
+    int solved = 0, refused = 0;
     for (int n = 0; n < 800 * TIMES; n++) {
         const double bend = pow(10.0, any(-2.5, 0.59));
         int32_t words[6];
@@ -62,15 +62,15 @@ static void test_a_link_s_matrix_is_eliminated_within_its_words(void)
         const bool is_on_the_way = n % 2 == 0;
         const eliminated_t e = eliminated(m, number(word(bend, 29), 29), is_on_the_way ? 0.25 : 0.0);
         fixed_factors_t f;
-        const bool is_told = fixed_factors_of(&matrix, word(bend, 29), is_on_the_way, &f);
+        const bool is_solved = fixed_factors_of(&matrix, word(bend, 29), is_on_the_way, &f);
         if (fabs(e.worst) > 1e-4) {
-            TEST_ASSERT_EQUAL(e.worst < 0.0, is_told);
+            TEST_ASSERT_EQUAL(e.worst < 0.0, is_solved);
         }
-        if (e.worst >= 0.0 || !is_told) {
+        if (e.worst >= 0.0 || !is_solved) {
             refused++;
             continue;
         }
-        told++;
+        solved++;
         const double within = 1e-5 / (e.pivot_a * e.pivot_a * e.pivot_b); /* of q27, over the small pivots */
         TEST_ASSERT_DOUBLE_WITHIN(within, e.pivot_a, number(f.pivot_a, 27));
         TEST_ASSERT_DOUBLE_WITHIN(within, e.pivot_b, number(f.pivot_b, 27));
@@ -81,14 +81,14 @@ static void test_a_link_s_matrix_is_eliminated_within_its_words(void)
         TEST_ASSERT_DOUBLE_WITHIN(within, e.root_by_b, number(f.root_by_b, 27));
         TEST_ASSERT_DOUBLE_WITHIN(within, e.resists, number(f.resists, 27));
     }
-    TEST_ASSERT_TRUE(told > 200 * TIMES && refused > 80 * TIMES);
+    TEST_ASSERT_TRUE(solved > 200 * TIMES && refused > 80 * TIMES);
 }
 
 /* On the way to the equilibrium: what drives a link's root when its curvatures are eliminated, with what is beyond the
  * link; and how far they turn then. What the matrix refuses, and what drives it out of its words, is refused. */
 static void test_a_link_is_solved_within_its_words(void)
 {
-    int told = 0, refused = 0;
+    int solved = 0, refused = 0;
     for (int n = 0; n < 400 * TIMES; n++) {
         double m[6], drives[3];
         int32_t w[6], d[3];
@@ -109,19 +109,19 @@ static void test_a_link_is_solved_within_its_words(void)
             drives[i] = number(d[i], 27) + end_drives + beyond_drives;
         }
         fixed_solved_t s = {.driven = 0}; /* as if all were sound, should nothing be written */
-        const bool is_told = fixed_solve_in(&pull, word(bend, 29), word(beyond, 27), word(beyond_drives, 27), &s);
+        const bool is_solved = fixed_solve_in(&pull, word(bend, 29), word(beyond, 27), word(beyond_drives, 27), &s);
         const eliminated_t e = eliminated(m, number(word(bend, 29), 29), 0.25);
         const double from_a = e.b_by_a * drives[1], on_b = drives[2] - from_a;
         const double less = e.root_by_a * drives[1] + e.root_by_b * on_b;
         const double worst = worse(worse(e.worst, from_a, 4.0), less, 4.0);
         if (fabs(worst) > 1e-3) {
-            TEST_ASSERT_EQUAL(worst < 0.0, is_told);
+            TEST_ASSERT_EQUAL(worst < 0.0, is_solved);
         }
-        if (worst >= 0.0 || !is_told) {
+        if (worst >= 0.0 || !is_solved) {
             refused++;
             continue;
         }
-        told++;
+        solved++;
         const double within = 1e-5 / (e.pivot_a * e.pivot_a * e.pivot_b);
         TEST_ASSERT_DOUBLE_WITHIN(within, drives[1], number(s.a_driven, 27));
         TEST_ASSERT_DOUBLE_WITHIN(within, on_b, number(s.b_driven, 27));
@@ -140,7 +140,7 @@ static void test_a_link_is_solved_within_its_words(void)
             TEST_ASSERT_DOUBLE_WITHIN(4.0 * within, a, number(shape.a, 27));
         }
     }
-    TEST_ASSERT_TRUE(told > 200 * TIMES && refused > 20 * TIMES);
+    TEST_ASSERT_TRUE(solved > 200 * TIMES && refused > 20 * TIMES);
 }
 
 /* A joint's pivot, from a sixteenth to 5. */
@@ -153,11 +153,11 @@ static void test_a_joint_s_pivot_stays_within_its_word(void)
             continue;
         }
         int32_t pivot;
-        const bool is_told = fixed_joint_of(word(yields, 29), word(resists, 27), false, &pivot);
+        const bool is_solved = fixed_joint_of(word(yields, 29), word(resists, 27), false, &pivot);
         if (fabs(pivot_wanted - 0.0625) > 1e-5 && fabs(pivot_wanted - 5.0) > 1e-5) {
-            TEST_ASSERT_EQUAL(pivot_wanted > 0.0625 && pivot_wanted < 5.0, is_told);
+            TEST_ASSERT_EQUAL(pivot_wanted > 0.0625 && pivot_wanted < 5.0, is_solved);
         }
-        if (is_told) {
+        if (is_solved) {
             TEST_ASSERT_DOUBLE_WITHIN(1e-7, pivot_wanted, number(pivot, 27));
         }
     }

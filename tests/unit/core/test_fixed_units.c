@@ -151,12 +151,12 @@ static int32_t q28(double number)
     return (int32_t)(number * 0x1p28);
 }
 
-/* A lever is told up to 8 units, whatever it was made of. */
+/* A lever fits up to 8 units, whatever it was made of. */
 static void test_a_lever_beyond_its_word_is_noted(void)
 {
     static const struct {
         double lever, other, ratio;
-        bool is_told;
+        bool fits;
     } row[] = {{7.0, 1.0, -0.999, true},  {7.0, 1.0, -1.001, false},
                {-7.0, 1.0, 0.999, true}, {-7.0, 1.0, 1.001, false},
                {5.0, 3.9, 3.3, true},     {-4.1, 3.9, 1.1, false},   {0.0, 4.5, 1.7, true},    {0.0, 4.5, 1.8, false},
@@ -170,8 +170,8 @@ static void test_a_lever_beyond_its_word_is_noted(void)
             const int32_t by = (int32_t)(row[i].ratio * 0x1p27);
             const fixed_vec_t left = (part & 2) == 0 ? less_scaled(v, a, by, none, 0, &lost)
                                                      : less_scaled(v, none, 0, a, by, &lost);
-            TEST_ASSERT_EQUAL(row[i].is_told, lost < LOST);
-            if (row[i].is_told) {
+            TEST_ASSERT_EQUAL(row[i].fits, lost < LOST);
+            if (row[i].fits) {
                 const double is = (double)((part & 1) == 0 ? left.x : left.z) / 0x1p28;
                 TEST_ASSERT_DOUBLE_WITHIN(1e-7, row[i].lever - row[i].ratio * row[i].other, is);
             }

@@ -51,7 +51,7 @@ static void the_rank_one_formula_is_met(void)
     }
 }
 
-/* The tip turned about the free joint meets no force; what is left is the eigenform told; flags and bounds. */
+/* The tip turned about the free joint meets no force; what is left is the eigenform reported; flags and bounds. */
 static void nothing_is_carried_about_the_free_joint(void)
 {
     for (int s = 0; s < SAMPLE_SLENDER; s++) {
@@ -110,7 +110,7 @@ static void it_is_the_limit_of_a_soft_joint(void)
     }
 }
 
-/* An axis has no direction: of its two ends that with x >= 0 is told, and straight up of those with x = 0. */
+/* An axis has no direction: of its two ends that with x >= 0 is reported, and straight up of those with x = 0. */
 static void the_axis_of_what_is_carried_points_outwards(void)
 {
     const brace_stiffness_t k = stiffness_of(&sample_limb[SAMPLE_PAPER], postures[0]);
@@ -159,9 +159,9 @@ static void a_tip_on_a_free_joints_axis_is_refused_and_touches_nothing(void)
     TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_gap_stiffness_known(&k, &at_axis, BRACE_GAP_TIBIA, &gap));
 }
 
-/* An axis has no direction: it is told as the half with x >= 0, and upwards where x is 0. A joint that is free and at the
- * tip itself carries nothing that a lever could tell. */
-static void the_axis_of_a_free_joint_is_told_one_way(void)
+/* An axis has no direction: it is reported as the half with x >= 0, and upwards where x is 0. A joint that is free and
+ * at the tip itself carries nothing that a lever could show. */
+static void the_axis_of_a_free_joint_is_reported_one_way(void)
 {
     static const brace_point_t lever[] = {{0.0f, 200.0f}, {0.0f, -200.0f}, {200.0f, 0.0f}, {-200.0f, 0.0f}};
     static const double axis_rad[] = {0.0, 0.0, 1.5707963, 1.5707963};
@@ -192,6 +192,6 @@ int main(void)
     RUN_TEST(the_axis_of_what_is_carried_points_outwards);
     RUN_TEST(both_free_carry_nothing_and_none_free_changes_nothing);
     RUN_TEST(a_tip_on_a_free_joints_axis_is_refused_and_touches_nothing);
-    RUN_TEST(the_axis_of_a_free_joint_is_told_one_way);
+    RUN_TEST(the_axis_of_a_free_joint_is_reported_one_way);
     return UNITY_END();
 }

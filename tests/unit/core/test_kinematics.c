@@ -426,7 +426,7 @@ static void bad_input_is_refused_and_touches_nothing(void)
     TEST_ASSERT_TRUE(angle == 7.0f && tip.x_mm == 300.0f);
 }
 
-static void a_direction_is_told_of_every_angle_in_range(void)
+static void a_direction_is_reported_of_every_angle_in_range(void)
 {
     for (int i = -79; i <= 79; i++) {
         const float angle_rad = 0.1f * (float)i;
@@ -460,6 +460,6 @@ int main(void)
     RUN_TEST(unreachable_is_refused);
     RUN_TEST(the_edge_itself_is_reached);
     RUN_TEST(bad_input_is_refused_and_touches_nothing);
-    RUN_TEST(a_direction_is_told_of_every_angle_in_range);
+    RUN_TEST(a_direction_is_reported_of_every_angle_in_range);
     return UNITY_END();
 }

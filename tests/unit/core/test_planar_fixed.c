@@ -77,7 +77,7 @@ static void test_every_sample_over_the_workspace(void)
 /* Ellipsoids tilted either way, as far as they go. */
 static void test_every_tilt_over_the_knee_s_angles(void)
 {
-    int told = 0;
+    int answered = 0;
     for (int i = 0; i < 64; i++) {
         brace_limb_t limb = sample_limb[i % 2 == 0 ? SAMPLE_TILTED : SAMPLE_PAPER];
         limb.link[BRACE_FEMUR].tilt_rad = 0.4f * (float)(i / 2 % 8 - 4);
@@ -85,7 +85,7 @@ static void test_every_tilt_over_the_knee_s_angles(void)
         if (brace_planar_fixed_collapse(&limb, &fixed) != BRACE_OK || fixed.flags != 0u) {
             continue;
         }
-        told++;
+        answered++;
         for (int j = -12; j <= 12; j++) {
             const int32_t theta2 = q28(PI * j / 12.0);
             const brace_stiffness_t k = stiffness_at(q28(0.3), theta2);
@@ -93,7 +93,7 @@ static void test_every_tilt_over_the_knee_s_angles(void)
             TEST_ASSERT_TRUE(reference_error(&r, &k) < ERROR_LIMIT);
         }
     }
-    TEST_ASSERT_TRUE(told > 40);
+    TEST_ASSERT_TRUE(answered > 40);
 }
 
 static void test_close_to_straight_and_folded(void)
@@ -236,7 +236,7 @@ static void test_cell_table_points_where_its_cells_are(void)
     }
 }
 
-/* Whether K can be told from det C depends on det over mean^2, whatever the unit of length and however stiff the limb.
+/* Whether K can be found from det C depends on det over mean^2, whatever the unit of length and however stiff the limb.
  * A tilted limb is flagged sooner. */
 static void test_judging_does_not_depend_on_units(void)
 {

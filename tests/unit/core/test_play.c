@@ -46,7 +46,7 @@ static void test_a_named_side_counts_where_the_load_holds_the_same(void)
     expect(brace_play_engagement(1, false, true, -1), 1, false, false);
     expect(brace_play_engagement(1, false, true, 1), 1, true, true);
     expect(brace_play_engagement(1, true, true, -1), 1, true, false); /* proven: whatever the load says */
-    expect(brace_play_engagement(-1, false, false, 0), -1, true, true); /* nobody tells the load */
+    expect(brace_play_engagement(-1, false, false, 0), -1, true, true); /* nothing measures the load */
 }
 
 static brace_backlash_t watched(void)

@@ -219,7 +219,7 @@ static void expect_refused(const brace_slope_t *slope, int method, brace_status_
     TEST_ASSERT_EQUAL_INT(0, memcmp(&before, &result, sizeof result));
 }
 
-static void too_few_steps_are_told(void)
+static void too_few_steps_are_reported(void)
 {
     brace_slope_t slope = started(0.0f, 0.0f, 0.0f);
     for (int used = 0; used < 4; used++) {
@@ -381,7 +381,7 @@ static void an_undetermined_lambda_min_is_flagged(void)
     run_test(&along_z, -1.1, 0.9, 0.1);
     brace_slope_stiffness(&along_x, &along_z, BRACE_SLOPE_LEAST_SQUARES, &k);
     TEST_ASSERT_EQUAL_UINT32(0, k.symmetric.flags);
-    /* Row 1 as printed is not positive definite: told, not hidden. */
+    /* Row 1 as printed is not positive definite: reported, not hidden. */
     run_test(&along_x, 0.5, -1.7, 0.0);
     run_test(&along_z, -1.7, 1.0, 0.0);
     brace_slope_stiffness(&along_x, &along_z, BRACE_SLOPE_LEAST_SQUARES, &k);
@@ -417,7 +417,7 @@ int main(void)
     RUN_TEST(leftover_play_biases_the_mean_of_ratios);
     RUN_TEST(a_wrong_preload_reading_spares_the_free_intercept);
     RUN_TEST(a_step_without_displacement_is_counted_and_skipped);
-    RUN_TEST(too_few_steps_are_told);
+    RUN_TEST(too_few_steps_are_reported);
     RUN_TEST(bad_input_is_refused_and_touches_nothing);
     RUN_TEST(tiny_steps_do_no_harm);
     RUN_TEST(two_tests_give_k);

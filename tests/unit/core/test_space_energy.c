@@ -253,18 +253,18 @@ static double third_order(double turn_rad)
     return turn_rad * turn_rad * turn_rad;
 }
 
-/* The solver tells the tip's place twice: as the end of the stretched parts, and as the place for which it tells K.
+/* The solver returns the tip's place twice: as the end of the stretched parts, and as the place for which it returns K.
  * Both must be the same place. */
 static void test_the_parts_end_at_the_tip(void)
 {
     state = 21u;
-    int told = 0;
+    int answered = 0;
     for (int n = 0; n < LIMBS; n++) {
         const double turn_rad = turn_of(n);
         if (!take_any_limb(turn_rad)) {
             continue;
         }
-        told++;
+        answered++;
         const brace_space_link_t *const links[] = {&loaded.coxa, &loaded.femur, &loaded.tibia};
         double q[COORDINATES] = {0.0};
         for (int i = 0; i < BRACE_LINK_COUNT; i++) {
@@ -285,14 +285,14 @@ static void test_the_parts_end_at_the_tip(void)
         TEST_ASSERT_DOUBLE_WITHIN(within_mm, z_mm + (double)r.displacement_mm.z, at.y + base_z_mm);
         TEST_ASSERT_DOUBLE_WITHIN(within_mm, (double)r.displacement_mm.y, -at.z);
     }
-    TEST_ASSERT_GREATER_OR_EQUAL(LIMBS - 1, told);
+    TEST_ASSERT_GREATER_OR_EQUAL(LIMBS - 1, answered);
 }
 
 /* At multiples of the load, up to the one at which the limb folds. */
 static void test_the_determinant_is_that_of_the_load_s_work(void)
 {
     state = 22u;
-    int told = 0;
+    int answered = 0;
     for (int n = 0; n < LIMBS; n++) {
         const double turn_rad = turn_of(n);
         if (!take_any_limb(turn_rad)) {
@@ -310,10 +310,10 @@ static void test_the_determinant_is_that_of_the_load_s_work(void)
             if (fabs(wanted) > 0.1) {
                 TEST_ASSERT_EQUAL(stands, stands_by_parts);
             }
-            told++;
+            answered++;
         }
     }
-    TEST_ASSERT_TRUE(told > 2 * LIMBS);
+    TEST_ASSERT_TRUE(answered > 2 * LIMBS);
 }
 
 int main(void)

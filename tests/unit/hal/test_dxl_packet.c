@@ -67,7 +67,7 @@ static void test_a_header_within_the_parameters_is_stuffed_and_comes_back(void)
     TEST_ASSERT_EQUAL(5, dxl_unstuff(&packet, back, 4)); /* more than there is room for */
 }
 
-static void test_what_finds_no_room_is_told(void)
+static void test_what_finds_no_room_is_reported(void)
 {
     dxl_begin(&out, 1, DXL_WRITE);
     for (uint32_t i = 0; i < DXL_OUT_BYTES; i++) {
@@ -219,7 +219,7 @@ static void test_up_to_two_flipped_bits_anywhere_are_seen(void)
 }
 
 /* The CRC is linear: damage is missed when the flipped bits' own remainders cancel. Three cancel when two make a third.
- * So the remainders of all single bits tell of all packets of this length, whatever is in them. */
+ * So the remainders of all single bits stand for all packets of this length, whatever is in them. */
 static void test_up_to_three_flipped_bits_in_any_packet_of_ours_are_seen(void)
 {
     enum { BITS = 8 * 96 };
@@ -307,7 +307,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_the_manuals_examples_of_packets);
     RUN_TEST(test_a_header_within_the_parameters_is_stuffed_and_comes_back);
-    RUN_TEST(test_what_finds_no_room_is_told);
+    RUN_TEST(test_what_finds_no_room_is_reported);
     RUN_TEST(test_packets_come_byte_by_byte_and_in_one_piece);
     RUN_TEST(test_it_finds_the_next_packet_behind_noise_and_damage);
     RUN_TEST(test_a_length_beyond_all_room_does_not_stop_it);

@@ -37,7 +37,7 @@ static void test_joints_say_what_they_were_given_and_when(void)
     TEST_ASSERT_EQUAL(4, fake.calls[BRACE_FAKE_JOINT_READ]);
 }
 
-static void test_calls_fail_when_they_were_told_to_and_leave_outputs_alone(void)
+static void test_calls_fail_when_they_were_set_to_and_leave_outputs_alone(void)
 {
     brace_hal_joint_t joint = {.motor_rad = 9.0f};
     TEST_ASSERT_TRUE(brace_fake_fail(&fake, BRACE_FAKE_JOINT_READ, 2, 3, BRACE_HAL_E_DEVICE));
@@ -141,7 +141,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_joints_say_what_they_were_given_and_when);
-    RUN_TEST(test_calls_fail_when_they_were_told_to_and_leave_outputs_alone);
+    RUN_TEST(test_calls_fail_when_they_were_set_to_and_leave_outputs_alone);
     RUN_TEST(test_memory_is_flash);
     RUN_TEST(test_frames_and_bytes_queue_in_order);
     RUN_TEST(test_an_urgent_frame_finds_room_and_goes_first);

@@ -1,5 +1,5 @@
-/* The port self-test against a door that tells the truth, with entries left out, and when it is asked for what can not
- * be. What it makes of lies: test_hal_selftest_*.c. */
+/* The port self-test against a door that reports the truth, with entries left out, and when it is asked for what can
+ * not be. What it makes of lies: test_hal_selftest_*.c. */
 #include "brace_hal_blank.h"
 #include "selftest_door.h"
 
@@ -79,7 +79,7 @@ static void a_line_is_served_while_a_check_waits(void)
         brace_selftest_setup_t setup = setup_of(BRACE_SELFTEST_KEEP_NVM);
         setup.serve = served == 1u ? serve : NULL;
         (void)brace_selftest_run(&door, &setup, NULL);
-        TEST_ASSERT_EQUAL(served == 0u, is_told("joint_read(1)", "AGAIN for ever"));
+        TEST_ASSERT_EQUAL(served == 0u, is_reported("joint_read(1)", "AGAIN for ever"));
     }
 }
 
@@ -121,14 +121,14 @@ static void impossible_requests_are_refused(void)
 }
 
 /* The porter's start: everything is named that is still to be filled in, and it ends. */
-static void the_blank_door_is_told_what_it_lacks(void)
+static void what_the_blank_door_lacks_is_reported(void)
 {
     open_door();
     const brace_selftest_setup_t setup = setup_of(0);
     const int32_t failures = brace_selftest_run(brace_hal_blank(), &setup, NULL);
     static const char *const lacking[] = {"now_us", "joint_read(1)", "joint_read(2)", "nvm_shape"};
     for (uint32_t i = 0u; i < sizeof lacking / sizeof lacking[0]; i++) {
-        TEST_ASSERT_TRUE_MESSAGE(is_told(lacking[i], ""), lacking[i]);
+        TEST_ASSERT_TRUE_MESSAGE(is_reported(lacking[i], ""), lacking[i]);
     }
     TEST_ASSERT_GREATER_OR_EQUAL_INT32(4, failures);
 }
@@ -143,6 +143,6 @@ int main(void)
     RUN_TEST(memory_is_kept_when_asked);
     RUN_TEST(what_is_optional_may_be_absent);
     RUN_TEST(impossible_requests_are_refused);
-    RUN_TEST(the_blank_door_is_told_what_it_lacks);
+    RUN_TEST(what_the_blank_door_lacks_is_reported);
     return UNITY_END();
 }

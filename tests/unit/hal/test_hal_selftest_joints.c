@@ -1,4 +1,4 @@
-/* The port self-test and what joints and the tip's sensor tell: each lie is named, and nothing else blamed before
+/* The port self-test and what joints and the tip's sensor report: each lie is named, and nothing else blamed before
  * it. */
 #include "selftest_door.h"
 
@@ -109,7 +109,7 @@ static void one_encoder_behind_the_gear_is_enough(void)
         setup.joints_are_moved = true;
         world.moves = moves == 1u;
         TEST_ASSERT_EQUAL_INT32(moves == 1u ? 0 : 2, brace_selftest_run(&door, &setup, NULL));
-        TEST_ASSERT_EQUAL(moves == 0u, is_told("joint_read(2)", "stuck"));
+        TEST_ASSERT_EQUAL(moves == 0u, is_reported("joint_read(2)", "stuck"));
     }
 }
 

@@ -135,7 +135,7 @@ static void test_a_share_that_heartbeats_use_up_leaves_little(void)
     TEST_ASSERT_LESS_OR_EQUAL(2u * of(&seen, 0x700) + 12u, seen.all);
 }
 
-/* Where nothing else is to be sent, two frames leave in each tick until a snapshot is told. A port that nobody has
+/* Where nothing else is to be sent, two frames leave in each tick until a snapshot is sent. A port that nobody has
  * opened takes none of them away. */
 static void test_a_snapshot_leaves_two_frames_at_a_time(void)
 {
@@ -194,7 +194,7 @@ static void test_all_frames_of_a_snapshot_are_of_one_tick(void)
                 TEST_ASSERT_FLOAT_WITHIN(0.3f, 1e-3f * (float)(fake.now_us - taken_us[a.sequence]), a.age_ms);
                 delayed += a.age_ms > 1.5f;
                 TEST_ASSERT_NOT_EQUAL(last, a.sequence);
-                TEST_ASSERT_EQUAL(pairs, begun); /* no snapshot is left half told for a newer one */
+                TEST_ASSERT_EQUAL(pairs, begun); /* no snapshot is left half sent for a newer one */
                 begun++;
                 last = a.sequence;
             } else if (frame.id == 0x280 + NODE) {
@@ -290,7 +290,7 @@ static void test_four_limbs_take_less_than_a_quarter_of_the_bus_and_begin_apart(
 
 enum { FLOOD_S = ON_BOARD ? 1 : 3, FLOOD_TICKS = 1000 * FLOOD_S };
 
-/* Every tick tells K of its own samples, and all process data leave. */
+/* Every tick reports K of its own samples, and all process data leave. */
 static void flood(const uint8_t *data, uint8_t length, uint32_t id)
 {
     count_t seen = {0};
@@ -464,15 +464,15 @@ static void test_both_ports_carry_the_same_and_neither_waits_for_the_other(void)
         TEST_ASSERT_FALSE(frame.id == 0x580u + NODE && frame.data[1] != 0xab);
     }
     TEST_ASSERT_EQUAL(5, parts);
-    fake.joint[BRACE_TIBIA].not_newer = true; /* a fault is told on both */
+    fake.joint[BRACE_TIBIA].not_newer = true; /* a fault is is_sent on both */
     text = hears(40);
     TEST_ASSERT_NOT_NULL(strstr(text, "t0858"));
     TEST_ASSERT_NOT_NULL(strstr(text, "t7058"));
-    bool told = false;
+    bool is_sent = false;
     while (brace_fake_frame_take(&fake, &frame)) {
-        told = told || frame.id == 0x080u + NODE;
+        is_sent = is_sent || frame.id == 0x080u + NODE;
     }
-    TEST_ASSERT_TRUE(told);
+    TEST_ASSERT_TRUE(is_sent);
 }
 
 static int32_t (*whole_write)(void *context, brace_serial_port_t port, const uint8_t *bytes, uint32_t count);

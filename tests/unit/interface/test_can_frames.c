@@ -126,7 +126,7 @@ static void test_what_a_frame_cannot_carry_is_counted(void)
     }
 }
 
-/* The byte of a frame that is told without a member: of a request its code, of an answer its code and its part, of a
+/* The byte of a frame that is sent without a member: of a request its code, of an answer its code and its part, of a
  * message in parts its part. Zeros are sent as zeros beside it. */
 static const frame_t *frame_named(const char *name)
 {

@@ -10,8 +10,8 @@
 
 #define AGE_MS 12.5f
 
-/* Frame, its member, and the entry that it tells. */
-#define TOLD(X) \
+/* Frame, its member, and the entry that it carries. */
+#define REPORTED(X) \
     X(stiffness_a, k_xx_n_per_mm, k_xx_n_per_mm) \
     X(stiffness_a, k_xz_n_per_mm, k_xz_n_per_mm) \
     X(stiffness_b, k_zz_n_per_mm, k_zz_n_per_mm) \
@@ -152,18 +152,18 @@ static void fill(brace_measured_t *measured)
 }
 
 /* A member that is a number with a step, or a whole one: both are 32 bits. */
-static void compare(const char *name, const void *told, const void *entry)
+static void compare(const char *name, const void *reported, const void *entry)
 {
-    uint32_t told_word, word;
-    float told_value, value;
-    memcpy(&told_word, told, 4);
+    uint32_t reported_word, word;
+    float reported_value, value;
+    memcpy(&reported_word, reported, 4);
     memcpy(&word, entry, 4);
-    memcpy(&told_value, told, 4);
+    memcpy(&reported_value, reported, 4);
     memcpy(&value, entry, 4);
     if (word < 0x10000000u) {
-        TEST_ASSERT_EQUAL_HEX32_MESSAGE(word, told_word & (word > 255u ? UINT32_MAX : 0xffu), name);
+        TEST_ASSERT_EQUAL_HEX32_MESSAGE(word, reported_word & (word > 255u ? UINT32_MAX : 0xffu), name);
     } else {
-        TEST_ASSERT_TRUE_MESSAGE(fabsf(told_value - value) < 0.0019f, name); /* half of what tells entries apart */
+        TEST_ASSERT_TRUE_MESSAGE(fabsf(reported_value - value) < 0.0019f, name); /* half of what separates entries */
     }
 }
 
@@ -179,7 +179,7 @@ static void test_each_member_is_its_entry(void)
         brace_can_unpack_##frame(data, &message);                            \
         compare(#frame " " #member, &message.member, &measured.entry);       \
     }
-    TOLD(CHECK)
+    REPORTED(CHECK)
 #undef CHECK
 }
 

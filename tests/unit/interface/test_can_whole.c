@@ -50,7 +50,7 @@ static uint8_t any_byte(void)
     return (uint8_t)(seed >> 24);
 }
 
-/* A count, a code, a value, what is not known or has no bound: as a field may be told, whatever it is. */
+/* A count, a code, a value, what is not known or has no bound: as a field may be sent, whatever it is. */
 static uint32_t any_value(void)
 {
     const float value = ((float)any_byte() - 128.0f) * (any_byte() < 128u ? 0.37f : 0.0037f);
@@ -192,7 +192,7 @@ static void test_an_answer_says_what_its_frames_say(void)
     }
 }
 
-/* Each number that an answer with flags tells, far beyond its range: SATURATED, and nothing else in the flags. */
+/* Each number that an answer with flags carries, far beyond its range: SATURATED, and nothing else in the flags. */
 static void test_a_value_beyond_its_range_is_flagged(void)
 {
     static const float far = 1e9f;

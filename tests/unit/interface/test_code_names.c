@@ -5,10 +5,10 @@
 #include "brace/code_names.h"
 #include "unity.h"
 
-typedef const char *(*told_t)(int32_t number);
+typedef const char *(*lookup_t)(int32_t number);
 
 static const struct {
-    told_t name, text;
+    lookup_t name, text;
     const char *first; /* the name of number 0 */
     int32_t least, most;
 } tables[] = {

@@ -113,7 +113,7 @@ static void test_a_value_that_any_frame_of_the_snapshot_limits_is_flagged(void)
         float *value;
         float most;
         bool is_in_space;
-    } told[] = {
+    } reported[] = {
         {&measured.k_xx_n_per_mm, BRACE_CAN_STIFFNESS_A_K_XX_N_PER_MM_MOST, false},
         {&measured.k_xz_n_per_mm, BRACE_CAN_STIFFNESS_A_K_XZ_N_PER_MM_MOST, false},
         {&measured.k_zz_n_per_mm, BRACE_CAN_STIFFNESS_B_K_ZZ_N_PER_MM_MOST, false},
@@ -129,14 +129,14 @@ static void test_a_value_that_any_frame_of_the_snapshot_limits_is_flagged(void)
         {&measured.space_lambda_3_n_per_mm, BRACE_CAN_SPACE_4_LAMBDA_3_N_PER_MM_MOST, true},
     };
     const uint32_t in_plane = BRACE_FLAG_STALE, in_space = BRACE_FLAG_GAP_OPEN, saturated = BRACE_FLAG_SATURATED;
-    for (size_t i = 0; i < sizeof told / sizeof *told; i++) {
-        *told[i].value = told[i].most;
+    for (size_t i = 0; i < sizeof reported / sizeof *reported; i++) {
+        *reported[i].value = reported[i].most;
         TEST_ASSERT_EQUAL_HEX32(in_plane, flags_in_plane(&measured));
         TEST_ASSERT_EQUAL_HEX32(in_space, flags_in_space(&measured));
-        *told[i].value = -1.001f * told[i].most;
-        TEST_ASSERT_EQUAL_HEX32(in_plane | (told[i].is_in_space ? 0u : saturated), flags_in_plane(&measured));
-        TEST_ASSERT_EQUAL_HEX32(in_space | (told[i].is_in_space ? saturated : 0u), flags_in_space(&measured));
-        *told[i].value = NAN;
+        *reported[i].value = -1.001f * reported[i].most;
+        TEST_ASSERT_EQUAL_HEX32(in_plane | (reported[i].is_in_space ? 0u : saturated), flags_in_plane(&measured));
+        TEST_ASSERT_EQUAL_HEX32(in_space | (reported[i].is_in_space ? saturated : 0u), flags_in_space(&measured));
+        *reported[i].value = NAN;
         TEST_ASSERT_EQUAL_HEX32(in_plane, flags_in_plane(&measured));
         TEST_ASSERT_EQUAL_HEX32(in_space, flags_in_space(&measured));
     }
@@ -167,7 +167,7 @@ static void test_a_value_that_any_frame_of_the_load_limits_is_flagged(void)
         float *value;
         float most;
         bool is_across;
-    } told[] = {
+    } reported[] = {
         {&measured.unloaded_k_xx_n_per_mm, BRACE_CAN_LOAD_0_UNLOADED_K_XX_N_PER_MM_MOST, false},
         {&measured.unloaded_k_xz_n_per_mm, BRACE_CAN_LOAD_0_UNLOADED_K_XZ_N_PER_MM_MOST, false},
         {&measured.unloaded_k_zz_n_per_mm, BRACE_CAN_LOAD_1_UNLOADED_K_ZZ_N_PER_MM_MOST, false},
@@ -181,14 +181,14 @@ static void test_a_value_that_any_frame_of_the_load_limits_is_flagged(void)
         {&measured.unloaded_k_across_n_per_mm, BRACE_CAN_LOAD_ACROSS_1_UNLOADED_K_ACROSS_N_PER_MM_MOST, true},
     };
     const uint32_t in_plane = BRACE_FLAG_STALE, across = BRACE_FLAG_GAP_OPEN, saturated = BRACE_FLAG_SATURATED;
-    for (size_t i = 0; i < sizeof told / sizeof *told; i++) {
-        *told[i].value = -told[i].most;
+    for (size_t i = 0; i < sizeof reported / sizeof *reported; i++) {
+        *reported[i].value = -reported[i].most;
         TEST_ASSERT_EQUAL_HEX32(in_plane, flags_of_load(&measured));
         TEST_ASSERT_EQUAL_HEX32(across, flags_of_load_across(&measured));
-        *told[i].value = 1.001f * told[i].most;
-        TEST_ASSERT_EQUAL_HEX32(in_plane | (told[i].is_across ? 0u : saturated), flags_of_load(&measured));
-        TEST_ASSERT_EQUAL_HEX32(across | (told[i].is_across ? saturated : 0u), flags_of_load_across(&measured));
-        *told[i].value = NAN;
+        *reported[i].value = 1.001f * reported[i].most;
+        TEST_ASSERT_EQUAL_HEX32(in_plane | (reported[i].is_across ? 0u : saturated), flags_of_load(&measured));
+        TEST_ASSERT_EQUAL_HEX32(across | (reported[i].is_across ? saturated : 0u), flags_of_load_across(&measured));
+        *reported[i].value = NAN;
     }
 }
 
@@ -218,15 +218,16 @@ static void test_an_uncertainty_that_is_too_large_is_not_known(void)
 {
     uint8_t data[8];
     brace_measured_t measured = {0};
-    float *const told[] = {&measured.sigma_k_xx_n_per_mm, &measured.sigma_k_xz_n_per_mm, &measured.sigma_k_zz_n_per_mm};
+    float *const reported[] = {&measured.sigma_k_xx_n_per_mm, &measured.sigma_k_xz_n_per_mm,
+                               &measured.sigma_k_zz_n_per_mm};
     for (uint32_t i = 0; i < 3u; i++) {
         brace_can_sigma_0_t frame;
-        *told[i] = BRACE_CAN_SIGMA_0_K_XX_N_PER_MM_MOST;
+        *reported[i] = BRACE_CAN_SIGMA_0_K_XX_N_PER_MM_MOST;
         brace_can_make_sigma_0(&measured, 0.0f, data);
         brace_can_unpack_sigma_0(data, &frame);
         const float *got[] = {&frame.k_xx_n_per_mm, &frame.k_xz_n_per_mm, &frame.k_zz_n_per_mm};
         TEST_ASSERT_FLOAT_WITHIN(0.001f, BRACE_CAN_SIGMA_0_K_XX_N_PER_MM_MOST, *got[i]);
-        *told[i] = i == 1u ? INFINITY : BRACE_CAN_SIGMA_0_K_XX_N_PER_MM_MOST + 0.01f;
+        *reported[i] = i == 1u ? INFINITY : BRACE_CAN_SIGMA_0_K_XX_N_PER_MM_MOST + 0.01f;
         brace_can_make_sigma_0(&measured, 0.0f, data);
         brace_can_unpack_sigma_0(data, &frame);
         TEST_ASSERT_TRUE(isnan(*got[i]));
@@ -319,7 +320,7 @@ static void test_what_nobody_has_asked_is_not_known(void)
 }
 
 /* An old reader takes the byte for one number, which is not 0 while any fault is there. */
-static void test_an_emergency_tells_the_cause_of_a_drift(void)
+static void test_an_emergency_reports_the_cause_of_a_drift(void)
 {
     uint8_t data[8];
     const brace_can_emergency_t sent = {.error_code = 0xff01,
@@ -451,7 +452,7 @@ int main(void)
     RUN_TEST(test_an_answer_s_frames_carry_its_fields);
     RUN_TEST(test_a_request_s_frame_carries_its_fields);
     RUN_TEST(test_what_nobody_has_asked_is_not_known);
-    RUN_TEST(test_an_emergency_tells_the_cause_of_a_drift);
+    RUN_TEST(test_an_emergency_reports_the_cause_of_a_drift);
     RUN_TEST(test_names_and_sentences);
     RUN_TEST(test_causes_of_a_drift_are_those_of_the_core);
     RUN_TEST(test_ranges_of_the_limb_are_in_its_order);

@@ -6,7 +6,7 @@
 
 enum { SLOT_BYTES = 8192, IDENTITY = 0x1234 };
 
-/* A memory that a unit is written into once; and the ways in which it may not do what it is told. */
+/* A memory that a unit is written into once; and the ways in which it may not do what it is asked. */
 static struct {
     uint8_t bytes[2][SLOT_BYTES];
     bool read_refused, write_refused, write_lost;

@@ -3,7 +3,7 @@
 #include "brace/store.h"
 #include "unity.h"
 
-/* A memory of the simplest kind, with the ways in which it may not do what it is told. */
+/* A memory of the simplest kind, with the ways in which it may not do what it is asked. */
 static struct {
     uint8_t bytes[2][4096];
     bool write_refused, read_refused, erase_refused, write_lost, erase_lost;
@@ -292,16 +292,16 @@ static void put_refused_block(uint32_t slot, uint32_t sequence)
     memcpy(block + BRACE_STORE_MARKS_AT + 4, &crc, 4);
 }
 
-static void expect_untold(const brace_slot_report_t *told)
+static void expect_unreported(const brace_slot_report_t *reported)
 {
-    TEST_ASSERT_EQUAL(0, told->sequence);
-    TEST_ASSERT_EQUAL(0, told->schema_hash);
-    TEST_ASSERT_EQUAL(0, told->block_crc);
-    TEST_ASSERT_EQUAL(0, told->wrong_index);
+    TEST_ASSERT_EQUAL(0, reported->sequence);
+    TEST_ASSERT_EQUAL(0, reported->schema_hash);
+    TEST_ASSERT_EQUAL(0, reported->block_crc);
+    TEST_ASSERT_EQUAL(0, reported->wrong_index);
 }
 
-/* What a slot's condition leaves unknown is told as 0, whatever a start before has found there. */
-static void test_what_a_slot_does_not_tell_is_zero(void)
+/* What a slot's condition leaves unknown is reported as 0, whatever a start before has found there. */
+static void test_what_a_slot_does_not_report_is_zero(void)
 {
     static const brace_slot_condition_t condition[] = {BRACE_SLOT_EMPTY, BRACE_SLOT_DAMAGED, BRACE_SLOT_UNREADABLE};
     for (uint32_t i = 0; i < 3u; i++) {
@@ -318,7 +318,7 @@ static void test_what_a_slot_does_not_tell_is_zero(void)
         expect_after_start(BRACE_PARAMETERS_SLOT_B, 1);
         const brace_store_status_t status = status_now();
         TEST_ASSERT_EQUAL(condition[i], status.slot[0].condition);
-        expect_untold(&status.slot[0]);
+        expect_unreported(&status.slot[0]);
         TEST_ASSERT_EQUAL(0, status.slot[1].wrong_index);
         TEST_ASSERT_NOT_EQUAL(0, status.slot[1].block_crc);
     }
@@ -622,7 +622,7 @@ static void test_each_read_of_a_start_refused_in_turn(void)
     memory.reads_until_refused = 0;
 }
 
-/* A block of another firmware that cannot be read to its end is damaged, as far as this start can tell. */
+/* A block of another firmware that cannot be read to its end is damaged, as far as this start can see. */
 static void test_another_dictionary_s_block_that_cannot_be_read_to_its_end(void)
 {
     put_block(0, 1, 7, true);
@@ -813,7 +813,7 @@ int main(void)
     RUN_TEST(test_sequences_wrap_around);
     RUN_TEST(test_a_block_without_its_mark_does_not_count);
     RUN_TEST(test_a_block_of_another_dictionary);
-    RUN_TEST(test_what_a_slot_does_not_tell_is_zero);
+    RUN_TEST(test_what_a_slot_does_not_report_is_zero);
     RUN_TEST(test_a_header_that_nobody_reads_is_damaged);
     RUN_TEST(test_a_value_out_of_range_is_named);
     RUN_TEST(test_a_refused_set_leaves_the_other_in_force);

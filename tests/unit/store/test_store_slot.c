@@ -44,8 +44,8 @@ static void test_a_block_ends_before_the_marks(void)
     TEST_ASSERT_EQUAL(BRACE_SLOT_DAMAGED, condition_of(BRACE_STORE_MARKS_AT + 4));
 }
 
-/* Of a block of ours everything is told, whether it counts or not. */
-static void test_what_a_block_of_ours_tells(void)
+/* Of a block of ours everything is reported, whether it counts or not. */
+static void test_what_a_block_of_ours_reports(void)
 {
     for (uint32_t slot = 0; slot < 2u; slot++) {
         brace_parameters_t set;
@@ -57,12 +57,12 @@ static void test_what_a_block_of_ours_tells(void)
         memcpy(&crc, fake.nvm[slot] + BRACE_BLOCK_BYTES - 4, 4);
         TEST_ASSERT_EQUAL(BRACE_PARAMETERS_DEFAULT, brace_store_start(&store, &fake.hal, &set));
         brace_store_status(&store, &status);
-        const brace_slot_report_t *told = &status.slot[slot];
-        TEST_ASSERT_EQUAL(BRACE_SLOT_NOT_COMMITTED, told->condition);
-        TEST_ASSERT_EQUAL_HEX32(BRACE_SCHEMA_HASH, told->schema_hash);
-        TEST_ASSERT_EQUAL_UINT32(9 + slot, told->sequence);
-        TEST_ASSERT_EQUAL_HEX32(crc, told->block_crc);
-        TEST_ASSERT_EQUAL_UINT32(0, told->wrong_index);
+        const brace_slot_report_t *reported = &status.slot[slot];
+        TEST_ASSERT_EQUAL(BRACE_SLOT_NOT_COMMITTED, reported->condition);
+        TEST_ASSERT_EQUAL_HEX32(BRACE_SCHEMA_HASH, reported->schema_hash);
+        TEST_ASSERT_EQUAL_UINT32(9 + slot, reported->sequence);
+        TEST_ASSERT_EQUAL_HEX32(crc, reported->block_crc);
+        TEST_ASSERT_EQUAL_UINT32(0, reported->wrong_index);
     }
 }
 
@@ -99,7 +99,7 @@ static void test_only_a_set_of_ours_is_marked_before_its_erase(void)
 }
 
 /* What has failed is forgotten when something else begins. */
-static void test_a_failure_is_told_until_the_next_request(void)
+static void test_a_failure_is_reported_until_the_next_request(void)
 {
     brace_parameters_t set;
     brace_store_status_t status;
@@ -179,10 +179,10 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_a_block_ends_before_the_marks);
-    RUN_TEST(test_what_a_block_of_ours_tells);
+    RUN_TEST(test_what_a_block_of_ours_reports);
     RUN_TEST(test_only_a_set_of_ours_is_marked_before_its_erase);
     RUN_TEST(test_a_memory_that_fits);
     RUN_TEST(test_what_a_roll_back_leaves);
-    RUN_TEST(test_a_failure_is_told_until_the_next_request);
+    RUN_TEST(test_a_failure_is_reported_until_the_next_request);
     return UNITY_END();
 }

@@ -55,7 +55,7 @@ typedef enum {
     BRACE_LOADING_E_TRAVEL = -3,   /* a motor went beyond twice its command and 0.01 rad, or out of its travel */
     BRACE_LOADING_E_TIME = -4,     /* not done within twice its time, 3 s a step for the servos, and 2 s; nor
                                       within 3,002 s */
-    BRACE_LOADING_E_NO_FORCE = -5, /* neither sensor nor joints tell the force */
+    BRACE_LOADING_E_NO_FORCE = -5, /* neither sensor nor joints report the force */
     BRACE_LOADING_E_LOST = -6,     /* a fault, or a flank that was taken up let go */
     BRACE_LOADING_E_FLAT = -7      /* too few steps with a displacement: the motors do not follow */
 } brace_loading_outcome_t;

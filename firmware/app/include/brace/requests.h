@@ -47,7 +47,7 @@ typedef enum {
     BRACE_COMMAND_NONE = 0, /* nothing: everybody may */
     BRACE_COMMAND_MOVES,    /* the limb: take-ups, loading tests, letting go */
     BRACE_COMMAND_WRITES,   /* parameters: CONFIGURATION and all in it */
-    BRACE_COMMAND_TELLS     /* the controller something that changes K: where down is, that a fault is over */
+    BRACE_COMMAND_INFORMS     /* the controller of what changes K: where down is, that a fault is over */
 } brace_command_t;
 
 typedef struct {
@@ -101,7 +101,7 @@ brace_status_t brace_app_stop(brace_app_t *app);
  * one within 130 ms it is forgotten. */
 
 /* Takes up the backlash of one joint against a flank. When its take-up holds, another joint may follow. From MONITOR,
- * or in TAKING_UP with every joint asked before holding. snapshot.play[].takeup tells how it went. If one joint
+ * or in TAKING_UP with every joint asked before holding. snapshot.play[].takeup reports how it went. If one joint
  * fails, every joint is let go in the reverse order.
  *   joint_index: BRACE_COXA, BRACE_FEMUR or BRACE_TIBIA; flank: +1 or -1
  * returns also BRACE_E_RANGE (joint or flank; the joint is taken up already, or in FAULT), BRACE_E_UNSUPPORTED (no
@@ -182,9 +182,9 @@ int32_t brace_app_may_commit(brace_app_t *app, uint32_t *wait_ms);
  * returns the index of the member that is not, or BRACE_PARAMETER_COUNT. At most 100 instructions. */
 uint32_t brace_app_beyond_board(const brace_app_t *app, const brace_parameters_t *parameters);
 
-/* Begins to store a set, which is in force once it has been checked, stored and read back; brace_app_store_status tells
- * how it goes. A set that brace_parameters_check refuses fails there, and the one in force stays. What concerns buses
- * (node, bit rates) takes effect at the next start.
+/* Begins to store a set, which is in force once it has been checked, stored and read back; brace_app_store_status
+ * reports how it goes. A set that brace_parameters_check refuses fails there, and the one in force stays. What concerns
+ * buses (node, bit rates) takes effect at the next start.
  * returns also what brace_app_may_write returns. At most 800 instructions. */
 brace_status_t brace_app_parameters_commit(brace_app_t *app, const brace_parameters_t *parameters);
 

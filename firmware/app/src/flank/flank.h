@@ -25,14 +25,14 @@ typedef struct {
 } flank_t;
 
 /* Sets up the state machine of one joint when parameters are put in force. A joint whose take-up torque is too small
- * to be told from noise and friction has play and is not watched: its gap counts as open. At most 1,300 instructions.
- * */
+ * to be distinguished from noise and friction has play and is not watched: its gap counts as open. At most 1,300
+ * instructions. */
 void flank_configure(flank_t *flank, int joint_index, const joints_t *joints, const brace_parameters_t *parameters);
 
 /* One tick of each joint's state machine.
- *   posture: of the tick before; with the tip's force it tells what a joint should carry
+ *   posture: of the tick before; with the tip's force it gives what a joint should carry
  *   down: where the weight pulls, in the limb's plane
- *   stands: true: take-ups do not move on. The function tells in both cases which flank carries
+ *   stands: true: take-ups do not move on. The function finds in both cases which flank carries
  * At most 620 instructions for a joint that is watched. */
 void flank_tick(flank_t *flank, const joints_t *joints, const tip_force_t *force, const posture_t *posture,
                 brace_vec3_t down, const brace_parameters_t *parameters, bool stands, uint32_t now_us);
@@ -43,7 +43,7 @@ void flank_tick(flank_t *flank, const joints_t *joints, const tip_force_t *force
 int flank_expect_load(brace_backlash_sample_t *sample, int index, const tip_force_t *force, const posture_t *posture,
                        brace_vec3_t down, const brace_parameters_t *parameters);
 
-/* The controller tells a joint's load as a mean over 20 ms. This is how far the load now may be from the mean [N mm]:
+/* The controller reports a joint's load as a mean over 20 ms. This is how far the load now may be from the mean [N mm]:
  * the root mean square distance of the newest three samples from the mean, with the sign of the newest one's distance.
  * NaN: not known.
  * One sample is not enough: noise often puts it near the mean although the load has changed. More than three are too

@@ -28,7 +28,7 @@ void mode_start(mode_state_t *mode);
  * returns whether there is a fault with which whatever moves the limb has to end */
 bool mode_update(mode_state_t *mode, const mode_inputs_t *inputs);
 
-/* Is K told in this mode? */
+/* Is K reported in this mode? */
 static inline bool mode_tells_k(brace_mode_t mode)
 {
     return mode == BRACE_MODE_MONITOR || mode == BRACE_MODE_TAKING_UP || mode == BRACE_MODE_LOADING_TEST;

@@ -25,7 +25,7 @@ static bool is_within(float value, float least, float most)
     return value >= least && value <= most;
 }
 
-brace_status_t gravity_tell(gravity_t *gravity, const brace_gravity_t *parameters, float direction_rad, float lean_rad)
+brace_status_t gravity_set(gravity_t *gravity, const brace_gravity_t *parameters, float direction_rad, float lean_rad)
 {
     const bool has_direction = direction_rad == direction_rad, has_lean = lean_rad == lean_rad;
     if (has_direction != has_lean) {

@@ -10,17 +10,18 @@
 #include "brace/vec.h"
 
 typedef struct {
-    bool is_told;                   /* by the main computer; else the parameters say it */
+    bool is_told;                   /* sent by the main computer; else it is the parameters' direction */
     float direction_rad, lean_rad;  /* as the parameters' members of these names */
     brace_vec3_t down;              /* in the limb's plane's frame: x outwards, y to the left, z up */
 } gravity_t;
 
-/* The parameters' direction, unless another one has been told. When parameters are put in force; 200 instructions. */
+/* The parameters' direction, unless the main computer has sent another one. When parameters are put in force; 200
+ * instructions. */
 void gravity_configure(gravity_t *gravity, const brace_gravity_t *parameters);
 
 /* Another direction, from now on. NaN for both: the parameters' own again.
  * returns BRACE_OK, BRACE_E_NOT_FINITE (one NaN alone), BRACE_E_RANGE (outside the range of the parameter of its
  * name) */
-brace_status_t gravity_tell(gravity_t *gravity, const brace_gravity_t *parameters, float direction_rad, float lean_rad);
+brace_status_t gravity_set(gravity_t *gravity, const brace_gravity_t *parameters, float direction_rad, float lean_rad);
 
 #endif

@@ -3,7 +3,7 @@
 #include <stddef.h>
 
 #define LEAST_KNEE_SINE 0.1f
-#define LEAST_REACH_RATIO 0.1f /* of the limb's length: a shorter lever tells no force across the plane */
+#define LEAST_REACH_RATIO 0.1f /* of the limb's length: a shorter lever measures no force across the plane */
 
 void posture_start(posture_t *posture)
 {

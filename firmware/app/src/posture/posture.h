@@ -40,7 +40,7 @@ void posture_start(posture_t *posture);
 
 /* The posture of motor angles and backlash offsets.
  *   motor_rad, offset_rad: of each joint; a joint that is not known has NaN
- *   link_rad: of the encoders behind the gears; NaN: there is none. It tells the true angle, so that neither zero
+ *   link_rad: of the encoders behind the gears; NaN: there is none. It measures the true angle, so that neither zero
  *     offset nor backlash is added
  * About 270 instructions. */
 void posture_take(posture_t *posture, const brace_parameters_t *parameters, const float motor_rad[BRACE_LINK_COUNT],
@@ -70,7 +70,7 @@ void posture_force_of_loads(const posture_t *posture, const brace_parameters_t *
 
 /* The tip force across the limb's plane, to the left, that explains the load of the coxa joint about its axis.
  *   coxa_n_mm: load in the motor's sense, weight included
- *   is_turned: x_n is the force outwards in the turned plane, as posture_force_of_loads tells it; it becomes the one in
+ *   is_turned: x_n is the force outwards in the turned plane, as posture_force_of_loads gives it; it becomes the one in
  *     the plane of unbent_rad
  *   x_n (in, out): NaN: not known. A tip beside the plane turns the joint by it
  * returns NaN where the lever does not allow it: the tip near the coxa joint's axis */

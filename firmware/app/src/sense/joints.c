@@ -181,7 +181,7 @@ static float agreed(float a, float b)
     return a * b > 0.0f ? smaller : 0.0f;
 }
 
-/* What accelerates the motor. An encoder behind the gear does not tell how it moves. */
+/* What accelerates the motor. An encoder behind the gear does not measure how the motor moves. */
 static float inertial_n_mm(const joint_t *joint, float faster_rad_per_us, float per_us, const brace_drive_t *drive)
 {
     if (joint->is_link_only) {

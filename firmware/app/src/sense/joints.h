@@ -27,7 +27,7 @@ typedef struct {
     float speed_rad_per_us;   /* of the motor, between the newest two samples */
     float lately_rad_per_us;  /* the greatest of the last 50 samples or so, without its sign */
     float carries_n_mm[JOINTS_CARRIED]; /* by the newest samples, newest first: the torque less what accelerates the
-                                           motor; NaN: not known, because three samples in a row tell one of them */
+                                           motor; NaN: not known, because it takes three samples in a row to find one */
     bool sound;               /* the sample is no older than controller.age_limit_us */
     bool may_have_moved;      /* since that sample, further than K's uncertainty covers */
     bool is_new_enough_to_prove_a_flank; /* no older than four ticks, which the backlash machine's filters bear */

@@ -39,7 +39,7 @@ static uint32_t mixed(uint32_t word)
     return word ^ word >> 16;
 }
 
-/* A number that the controller sends. Without the key nobody can tell in advance which one comes on a guarded board. */
+/* A number that the controller sends. Without the key nobody can predict which one comes on a guarded board. */
 static uint32_t drawn(const session_t *session, uint32_t place)
 {
     return session->setting == BRACE_SETTING_GUARDED ? mac_of(session, place, SESSION_NUMBER, NULL, 0)
@@ -106,7 +106,7 @@ void session_become_bench(session_t *session)
 void session_challenge(session_t *session, uint64_t random)
 {
     siphash_t hash;
-    siphash_start(&hash, session->key); /* so nobody without the key can tell the next one in advance */
+    siphash_start(&hash, session->key); /* so nobody without the key can predict the next one */
     siphash_word(&hash, random);
     session->challenge = siphash_end(&hash, NULL, 0);
     session->has_challenge = true;

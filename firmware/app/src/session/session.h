@@ -1,13 +1,14 @@
 /* Who may move the limb and write to its controller? There is one owner at a time, and the owner gives signs of life.
  *
- * The controller has a number of 32 bits that changes every 26 ms, and tells it to whoever asks. A sign of life carries
+ * The controller has a number of 32 bits that changes every 26 ms, and sends it to whoever asks. A sign of life carries
  * this number back, and the controller takes a number only for a short time and only once. So a sign of life shows that
  * its sender has heard the controller lately: one that was held up on its way counts for nothing.
  *
- * A motion begins with a number of its own. The controller tells it in the answer to the command that asks for the motion,
- * and the owner's sign of life carries it back. Who has sent a command long ago, and lives, does not know that number.
+ * A motion begins with a number of its own. The controller sends it in the answer to the command that asks for the
+ * motion, and the owner's sign of life carries it back. Who has sent a command long ago, and lives, does not know that
+ * number.
  *
- * On a bench, the master that asks for a motion first owns it. The session tells masters apart by their port and number.
+ * On a bench, the master that asks for a motion first owns it. The session distinguishes masters by port and number.
  * On a guarded board, a master becomes the owner when its sign of life has a check under the key, over the session's
  * challenge and the controller's number. From then on every sign of life has such a check, and every command a counter
  * and a check over challenge, counter and command. Each session has a challenge of its own, so a frame recorded in one
@@ -73,7 +74,7 @@ typedef enum { SESSION_LIFE = 1, SESSION_COMMAND = 2, SESSION_NUMBER = 3 } sessi
  *     frames that come late, and a late frame does not know which number comes next */
 void session_start(session_t *session, bool is_bench, const uint8_t *key, uint32_t seed);
 
-/* A board that is told so on its console becomes a bench, until its next start. */
+/* A board becomes a bench when its console's user says so, until its next start. */
 void session_become_bench(session_t *session);
 
 /* Gives the next session its challenge. random: never the same twice; it need not be secret. 400 instructions. */

@@ -197,8 +197,8 @@ static brace_space_load_t space_load(const brace_loaded_joint_t springs[BRACE_LI
 }
 
 /* Joint and base's rotation turn together, each by its share of what yields. theta2 is flexion: it turns clockwise. */
-static void tell_plane(const brace_limb_t *limb, float hip_yields_rad_per_n_mm, const brace_loaded_stiffness_t *found,
-                       model_rest_t *rest)
+static void report_plane(const brace_limb_t *limb, float hip_yields_rad_per_n_mm, const brace_loaded_stiffness_t *found,
+                         model_rest_t *rest)
 {
     const float joint = hip_yields_rad_per_n_mm, both = joint + limb->base.rotation_rad_per_n_mm;
     const brace_vec_t moved = {found->displacement.x_mm, found->displacement.z_mm};
@@ -215,7 +215,7 @@ static void tell_plane(const brace_limb_t *limb, float hip_yields_rad_per_n_mm, 
     rest->buckling_factor = found->buckling_factor;
 }
 
-static brace_status_t tell_space(const brace_limb_t *limb, const brace_space_result_t *found, model_rest_t *rest)
+static brace_status_t report_space(const brace_limb_t *limb, const brace_space_result_t *found, model_rest_t *rest)
 {
     const brace_status_t status = brace_loaded_space_in_plane(&found->k, &rest->plane);
     if (status != BRACE_OK) {
@@ -246,7 +246,7 @@ brace_status_t model_loaded(const model_t *model, const brace_limb_t *limb, cons
         brace_loaded_stiffness_t found;
         const brace_status_t status = loaded_stiffness(&model->loaded, unbent_rad, &load, &found);
         if (status == BRACE_OK) {
-            tell_plane(limb, load.hip.yields_by_rad_per_n_mm, &found, rest);
+            report_plane(limb, load.hip.yields_by_rad_per_n_mm, &found, rest);
         }
         return status;
     }
@@ -262,7 +262,7 @@ brace_status_t model_loaded(const model_t *model, const brace_limb_t *limb, cons
     }
     place->ticks_without = status == BRACE_OK ? 0u : (uint8_t)(place->ticks_without % STEPS_TO_REST_MOST + 1u);
     place->is_there = place->ticks_without < STEPS_TO_REST_MOST;
-    return status == BRACE_OK ? tell_space(limb, &found, rest) : status;
+    return status == BRACE_OK ? report_space(limb, &found, rest) : status;
 }
 
 /* --- in steps ---------------------------------------------------------------------------------------------------- */
@@ -293,7 +293,7 @@ static int32_t go_on_in_space(const model_t *model, const brace_limb_t *limb, mo
         return MODEL_LATER;
     }
     work->is_under_way = false;
-    return status == BRACE_OK ? tell_space(limb, &found, rest) : status;
+    return status == BRACE_OK ? report_space(limb, &found, rest) : status;
 }
 
 int32_t model_loaded_go_on(const model_t *model, const brace_limb_t *limb, model_work_t *work, model_rest_t *rest)
@@ -304,7 +304,7 @@ int32_t model_loaded_go_on(const model_t *model, const brace_limb_t *limb, model
     brace_loaded_stiffness_t found;
     const brace_status_t status = plane_stiffness(&model->loaded, &work->of.plane, &found);
     if (status == BRACE_OK) {
-        tell_plane(limb, work->hip_yields_rad_per_n_mm, &found, rest);
+        report_plane(limb, work->hip_yields_rad_per_n_mm, &found, rest);
     }
     work->is_under_way = false;
     return status;

@@ -3,7 +3,7 @@
 #define EVERY_TICKS 2u
 #define STEPS_A_ROUND 4u  /* K without load, and three of the search */
 #define PATIENCE_TICKS 7u /* in which requests go first */
-#define TOLD_TICKS_MOST 240u /* two searches, and ticks in which requests or other jobs went first */
+#define FACTOR_AGE_TICKS_MOST 240u /* two searches, and ticks in which requests or other jobs went first */
 
 static void forget_unloaded(softening_t *softening)
 {
@@ -20,10 +20,10 @@ void softening_start(softening_t *softening)
 
 static void grow_old(softening_t *softening, bool is_counted)
 {
-    if (softening->ticks_told < TOLD_TICKS_MOST) {
-        softening->ticks_told++;
+    if (softening->factor_age_ticks < FACTOR_AGE_TICKS_MOST) {
+        softening->factor_age_ticks++;
     }
-    if (!is_counted || softening->ticks_told >= TOLD_TICKS_MOST) {
+    if (!is_counted || softening->factor_age_ticks >= FACTOR_AGE_TICKS_MOST) {
         softening->factor = __builtin_nanf("");
     }
 }
@@ -72,7 +72,7 @@ void softening_work(softening_t *softening, model_t *model, const brace_limb_t *
     } else if (brace_loaded_space_buckling_step(&model->loaded_space, &softening->shape, &softening->search,
                                                 &softening->factor)) {
         softening->runs = false;
-        softening->ticks_told = 0;
+        softening->factor_age_ticks = 0;
     }
 }
 

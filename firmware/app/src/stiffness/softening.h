@@ -19,7 +19,7 @@ typedef struct {
     uint8_t step_of_round;
     bool is_needed;
     uint8_t ticks_since_step;
-    uint8_t ticks_told;      /* since the factor was found */
+    uint8_t factor_age_ticks;      /* ticks since it was found */
     float factor;            /* NaN: not known, as all below */
     brace_stiffness_t unloaded; /* in the limb's plane */
     float unloaded_across_n_per_mm;

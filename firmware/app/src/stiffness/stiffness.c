@@ -173,7 +173,7 @@ static brace_status_t turn(float theta0_rad, const engaged_t *engaged, const bra
     return is_open ? brace_spatial_turn(theta0_rad, &plane->now, across_now_n_per_mm, &space->now) : BRACE_OK;
 }
 
-/* open, assumed: joints, as flank_open_gaps and flank_assumed tell them */
+/* open, assumed: joints, as flank_open_gaps and flank_assumed return them */
 static void take_space(const engaged_t *engaged, const brace_gap_stiffness_t *plane, float theta0_rad,
                        bool coxa_is_sound, uint32_t open, uint32_t assumed, brace_space_stiffness_t *space)
 {

@@ -31,7 +31,7 @@ static frozen_span_t with(frozen_span_t span, float value)
                            .high = value > span.high ? value : span.high};
 }
 
-/* What an encoder behind the gearbox has told; one sample that is absurd says nothing. */
+/* What an encoder behind the gearbox has reported; one absurd sample does not count. */
 static frozen_span_t with_link(frozen_span_t span, float link_rad)
 {
     return link_rad != link_rad ? span : with(span, link_rad);

@@ -1,13 +1,14 @@
-/* Does a joint's sensor still measure? One that is frozen tells the same again and again, with a new time stamp. What
+/* Does a joint's sensor still measure? One that is frozen reports the same again and again, with a new time stamp. What
  * the limb does meanwhile parts it from a joint that rests:
  *
- *   told    the drive is told to move and has torque left, and neither angle nor torque moves by a bit
- *   loaded  the tip's sensor and the weight say that the joint's load has changed by more than friction can hide, and
- *           neither angle nor torque moves by a bit
- *   unheld  the angle stands, and the torque swings further than load and friction can hold: the motor must have turned
- *   swings  the angle stands, and the torque swings by a quarter of its range and by more than friction can hide: any
- *           position servo gives way by more than an encoder's step then
- *   left    the angle stands, and the link's own encoder moves further than backlash and spring let it
+ *   commanded  the drive is commanded to move and has torque left, and neither angle nor torque moves by a bit
+ *   loaded     the tip's sensor and the weight say that the joint's load has changed by more than friction can hide,
+ *              and neither angle nor torque moves by a bit
+ *   unheld     the angle stands, and the torque swings further than load and friction can hold: the motor must have
+ *              turned
+ *   swings     the angle stands, and the torque swings by a quarter of its range and by more than friction can hide:
+ *              any position servo gives way by more than an encoder's step then
+ *   left       the angle stands, and the link's own encoder moves further than backlash and spring let it
  *
  * A joint is frozen when one of the first three has lasted for a quarter of a second, so a drive may take its time to
  * answer, or one of the last two is seen of an angle that has stood for so long. "loaded" and "unheld" need a sensor at

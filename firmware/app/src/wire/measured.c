@@ -99,7 +99,7 @@ static void take_posture(const brace_snapshot_t *snapshot, brace_measured_t *m)
     m->temperature_degc = snapshot->temp_degc;
 }
 
-/* K in space; as above. Without a coxa joint there is none whose quality could be told. */
+/* K in space; as above. Without a coxa joint there is none whose quality could be reported. */
 static void take_space(const brace_snapshot_t *snapshot, brace_measured_t *m)
 {
     const brace_space_stiffness_t *space = &snapshot->space;

@@ -14,7 +14,7 @@
 void measured_take(const brace_app_t *app, const brace_app_counters_t *counters, uint32_t now_us,
                    brace_measured_t *measured);
 
-/* The cause of a drift as `drift_cause` tells it. */
+/* The cause of a drift as `drift_cause` reports it. */
 uint32_t measured_drift_cause(const brace_drift_report_t *report);
 
 /* A value by its number in the dictionary (from BRACE_ENTRY_MEASURED on), as its 32 bits.

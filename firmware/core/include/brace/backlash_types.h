@@ -108,7 +108,7 @@ typedef struct {
     uint32_t same_way_us, standing_us;
     float fast_n_mm, fast_width_n_mm, slow_n_mm, slow_width_n_mm, slow_spread_n_mm, torque_n_mm;
     uint32_t positive_us, negative_us; /* how long the fast interval has been clear of zero */
-    uint32_t untold_us;                /* how long no load has shown the flank */
+    uint32_t undecided_us;                /* how long no load has shown the flank */
     float play_low_rad, play_high_rad; /* where motor - link lies within the gap */
 
     uint8_t state, phase;

@@ -23,7 +23,7 @@ typedef enum {
     BRACE_DRIFT_UNEXPLAINED = 3          /* readings scatter more than their noise, and no cause above explains that */
 } brace_drift_cause_t;
 
-/* What the caller tells the check once. */
+/* What the caller gives the check once. */
 typedef struct {
     float noise_n;                     /* one sigma of a force reading, resolution included (0, 1e6] */
     float model_error_ratio;           /* systematic error of the model that the check allows for, as a ratio of the

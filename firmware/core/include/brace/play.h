@@ -1,7 +1,7 @@
 /* Which side of a joint's play a load takes up.
  *
  * One rule for the controller and the tools: a joint whose load, less how far that load may be off, still holds one
- * side is engaged there. The load is told by a force on the tip, the levers and the weights. It may be off by the
+ * side is engaged there. The load is computed from a force on the tip, the levers and the weights. It may be off by the
  * joint's friction, the noise of the force and the trust in levers and sensor. brace/backlash.h proves a side by the
  * motor's torque; where it has not, brace_play_under_load assumes it.
  *
@@ -42,15 +42,15 @@ typedef struct {
 brace_play_t brace_play_under_load(const brace_play_joint_t *joint, float load_n_mm, float lever_mm);
 
 /* Is a joint engaged? Its motor's torque has proven the side, or names it and the load holds the same one. Where
- * nobody tells the load, the side that the torque names is assumed.
- *   named, is_proven: as brace_backlash_tick or brace_backlash_at_rest told them
- *   is_expected: the load is told by the force on the tip; held: the side that it holds
+ * nothing measures the load, the side that the torque names is assumed.
+ *   named, is_proven: as brace_backlash_tick or brace_backlash_at_rest reported them
+ *   is_expected: the load is computed from the force on the tip; held: the side that it holds
  * Cost: at most 20 instructions. */
 brace_engagement_t brace_play_engagement(int named, bool is_proven, bool is_expected, int held);
 
 /* The same for a joint that has long stood under one load, which its motor carries: what a controller settles at.
  *   machine: prepared by brace_backlash_init; null: the joint cannot be watched, and its gap counts as open
- *   is_expected: false for a joint whose load no force on the tip tells (the coxa joint)
+ *   is_expected: false for a joint whose load no force on the tip gives (the coxa joint)
  * Not for the tick. */
 brace_engagement_t brace_play_at_rest(const brace_play_joint_t *joint, const brace_backlash_t *machine, float load_n_mm,
                                       float lever_mm, bool is_expected);

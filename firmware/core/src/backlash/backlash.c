@@ -25,7 +25,7 @@
 /* Shares of the slow interval's full width. The full width is a sum of bounds that hardly ever occur together. The
  * larger share suffices to name a flank. The smaller one suffices to move the offset while the motor moves and its
  * friction is known. The torque of a standing motor may lie anywhere within its friction, so there the offset stays. */
-#define TOLD_SHARE 0.7f
+#define DECIDED_SHARE 0.7f
 #define LEANING_SHARE 0.2f
 
 /* Size of a preload in fast sigmas. Six sigmas prove a flank. The command stops at the first sample that shows the
@@ -161,24 +161,24 @@ static brace_status_t check_sample(const brace_backlash_t *joint, const brace_ba
 }
 
 /* What the load and the motor's travel show about the flank, as facts. Also moves the play operator. */
-static uint32_t flank_facts(brace_backlash_t *joint, int told, int leaning)
+static uint32_t flank_facts(brace_backlash_t *joint, int decided, int leaning)
 {
     const float half_gap_rad = 0.5f * joint->params.gap_rad;
-    const int lies = told != 0 ? told : leaning;
+    const int lies = decided != 0 ? decided : leaning;
     if (lies != 0) {
         joint->play_low_rad = joint->play_high_rad = (float)lies * half_gap_rad;
     }
-    if (told != 0) {
-        joint->untold_us = 0;
-        return told > 0 ? FACT_POSITIVE : FACT_NEGATIVE;
+    if (decided != 0) {
+        joint->undecided_us = 0;
+        return decided > 0 ? FACT_POSITIVE : FACT_NEGATIVE;
     }
-    if (joint->untold_us < STALE_US) {
-        joint->untold_us += joint->params.tick_us;
+    if (joint->undecided_us < STALE_US) {
+        joint->undecided_us += joint->params.tick_us;
     }
     const float left_rad = half_gap_rad - LEFT_FLANK * joint->params.gap_rad;
     const bool left = (flank_positive(joint) && joint->play_low_rad < left_rad) ||
                       (flank_negative(joint) && joint->play_high_rad > -left_rad);
-    return (left ? (uint32_t)FACT_LEFT : 0u) | (joint->untold_us >= STALE_US ? (uint32_t)FACT_STALE : 0u);
+    return (left ? (uint32_t)FACT_LEFT : 0u) | (joint->undecided_us >= STALE_US ? (uint32_t)FACT_STALE : 0u);
 }
 
 static void advance_state(brace_backlash_t *joint, uint32_t facts)
@@ -196,7 +196,7 @@ static void advance_state(brace_backlash_t *joint, uint32_t facts)
     }
 }
 
-static void tell(const brace_backlash_t *joint, int proven, brace_backlash_out_t *out)
+static void report(const brace_backlash_t *joint, int proven, brace_backlash_out_t *out)
 {
     out->state = (brace_backlash_state_t)joint->state;
     out->flank = flank_positive(joint) - flank_negative(joint);
@@ -205,7 +205,7 @@ static void tell(const brace_backlash_t *joint, int proven, brace_backlash_out_t
     out->offset_off_rad = 0.5f * (joint->play_high_rad - joint->play_low_rad);
     out->load_n_mm = joint->fast_n_mm;
     out->load_off_n_mm = backlash_load_off_n_mm(joint);
-    backlash_takeup_tell(joint, out);
+    backlash_takeup_report(joint, out);
 }
 
 brace_status_t brace_backlash_tick(brace_backlash_t *joint, const brace_backlash_sample_t *sample,
@@ -229,13 +229,13 @@ brace_status_t brace_backlash_tick(brace_backlash_t *joint, const brace_backlash
     joint->last_us = sample->now_us;
 
     const int proven = bad ? 0 : backlash_load_proven(joint);
-    const int told = bad ? 0 : proven != 0 ? proven : backlash_load_told(joint, sample, TOLD_SHARE);
-    const bool leans = !bad && told == 0 && !backlash_load_standing(joint);
-    const int leaning = leans ? backlash_load_told(joint, sample, LEANING_SHARE) : 0;
-    uint32_t facts = bad ? (uint32_t)FACT_BAD_SAMPLE : flank_facts(joint, told, leaning);
+    const int decided = bad ? 0 : proven != 0 ? proven : backlash_load_decided(joint, sample, DECIDED_SHARE);
+    const bool leans = !bad && decided == 0 && !backlash_load_standing(joint);
+    const int leaning = leans ? backlash_load_decided(joint, sample, LEANING_SHARE) : 0;
+    uint32_t facts = bad ? (uint32_t)FACT_BAD_SAMPLE : flank_facts(joint, decided, leaning);
     facts |= sample->stands ? backlash_takeup_stand(joint) : backlash_takeup_advance(joint, facts, proven);
     advance_state(joint, facts);
-    tell(joint, proven, out);
+    report(joint, proven, out);
     return status;
 }
 
@@ -250,7 +250,7 @@ brace_status_t brace_backlash_at_rest(const brace_backlash_t *joint, const brace
         brace_backlash_t settled = *joint;
         backlash_load_settle(&settled, sample->torque_n_mm);
         const int proven = backlash_load_proven(&settled);
-        *flank = proven != 0 ? proven : backlash_load_told(&settled, sample, TOLD_SHARE);
+        *flank = proven != 0 ? proven : backlash_load_decided(&settled, sample, DECIDED_SHARE);
         *is_proven = proven != 0;
     }
     return status;

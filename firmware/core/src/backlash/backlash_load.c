@@ -127,7 +127,7 @@ int backlash_load_proven(const brace_backlash_t *joint)
     return (joint->positive_us >= CONFIRM_US) - (joint->negative_us >= CONFIRM_US);
 }
 
-int backlash_load_told(const brace_backlash_t *joint, const brace_backlash_sample_t *sample, float share)
+int backlash_load_decided(const brace_backlash_t *joint, const brace_backlash_sample_t *sample, float share)
 {
     const float off_n_mm = share * (joint->slow_width_n_mm + HINT_SIGMAS * joint->slow_spread_n_mm +
                                     joint->params.torque_bias_n_mm);

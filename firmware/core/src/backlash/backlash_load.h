@@ -28,7 +28,7 @@ int backlash_load_proven(const brace_backlash_t *joint);
 
 /* The sign of the load that the slow interval shows, at a share of its full width and with the expected load; 0 if it
  * shows none. */
-int backlash_load_told(const brace_backlash_t *joint, const brace_backlash_sample_t *sample, float share);
+int backlash_load_decided(const brace_backlash_t *joint, const brace_backlash_sample_t *sample, float share);
 
 /* The motor has not advanced lately. It may have turned round, so its friction may have either sign. */
 static inline bool backlash_load_standing(const brace_backlash_t *joint)

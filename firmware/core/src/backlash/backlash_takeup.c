@@ -94,7 +94,7 @@ uint32_t backlash_takeup_stand(const brace_backlash_t *joint)
     return running(joint) ? FACT_TAKING_UP : FACT_NOT_TAKING_UP;
 }
 
-void backlash_takeup_tell(const brace_backlash_t *joint, brace_backlash_out_t *out)
+void backlash_takeup_report(const brace_backlash_t *joint, brace_backlash_out_t *out)
 {
     out->phase = (brace_takeup_phase_t)joint->phase;
     out->takeup = (brace_takeup_result_t)joint->result;

@@ -11,6 +11,6 @@ uint32_t backlash_takeup_advance(brace_backlash_t *joint, uint32_t facts, int pr
 /* The same while the take-up stands: nothing goes on. */
 uint32_t backlash_takeup_stand(const brace_backlash_t *joint);
 
-void backlash_takeup_tell(const brace_backlash_t *joint, brace_backlash_out_t *out);
+void backlash_takeup_report(const brace_backlash_t *joint, brace_backlash_out_t *out);
 
 #endif

@@ -121,7 +121,7 @@ typedef struct {
     uint32_t modbus_baud;
 } brace_controller_t;
 
-/* Everything a controller is told once and keeps. */
+/* Everything a controller is sent once and keeps. */
 typedef struct {
     brace_limb_t limb;
     brace_drive_t drive[BRACE_LINK_COUNT];

@@ -14,7 +14,7 @@ typedef struct {
     uint8_t codes;         /* how many requests there are to pick from */
     uint8_t code[2];       /* BRACE_REQUEST_...: all with the same fields and the same answer */
     uint8_t answer_first, answer_count; /* the values that take the answer: place in brace_answered_t, how many */
-    bool none_is_an_answer; /* that the limb has no such value is told by values that are not known */
+    bool none_is_an_answer; /* values that are not known say that the limb has none */
     uint8_t begin_code, begin_fields; /* a request that is asked before, with the first of the commands; 0: none */
 } brace_question_t;
 

@@ -85,7 +85,7 @@ uint32_t brace_store_sequence(const brace_store_t *store);
 /* Sequence of the set that was kept last, as far as the slots say; the same while that one is in force. */
 uint32_t brace_store_wanted_sequence(const brace_store_t *store);
 
-/* All that can be told; null pointers are ignored. cost: 62 instructions */
+/* All that the store reports; null pointers are ignored. cost: 62 instructions */
 void brace_store_status(const brace_store_t *store, brace_store_status_t *status);
 
 #endif

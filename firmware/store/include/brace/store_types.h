@@ -54,7 +54,7 @@ typedef enum {
     BRACE_STORE_E_REFUSED = -7   /* brace_parameters_check refuses the set; nothing was touched */
 } brace_store_failure_t;
 
-/* State. Private but for what brace_store_status tells; here so that it can be placed without a heap. */
+/* State. Private but for what brace_store_status reports; here so that it can be placed without a heap. */
 typedef struct {
     const brace_hal_t *hal;
     brace_slot_report_t slot[BRACE_NVM_SLOT_COUNT];

@@ -40,7 +40,7 @@ int main(void)
         PROVE(then == BRACE_TAKEUP_LET_GO, "a bad sample and a wish to let go end a take-up in every phase");
     }
     if (at_work && bad && phase != BRACE_TAKEUP_HOLD) {
-        PROVE(step->result == BRACE_TAKEUP_E_FAULT, "a bad sample is told");
+        PROVE(step->result == BRACE_TAKEUP_E_FAULT, "a bad sample is reported");
     }
     if ((phase == BRACE_TAKEUP_APPROACH || phase == BRACE_TAKEUP_VERIFY) && (facts & FACT_TIME) != 0u) {
         PROVE(then != phase, "a take-up does not outlast its time");

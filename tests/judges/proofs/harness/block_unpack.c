@@ -49,7 +49,7 @@ int main(void)
         PROVE(after == before, "refused: the parameters are untouched");
         PROVE(sequence == sequence_before, "refused: the sequence is untouched");
     }
-    const bool told = status == BRACE_E_PARAMETER || status == BRACE_E_NOT_FINITE;
-    PROVE(told || wrong_index == wrong_before, "a member at fault is named only where one is");
+    const bool names_member = status == BRACE_E_PARAMETER || status == BRACE_E_NOT_FINITE;
+    PROVE(names_member || wrong_index == wrong_before, "a member at fault is named only where one is");
     return 0;
 }

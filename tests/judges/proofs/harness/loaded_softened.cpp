@@ -254,7 +254,7 @@ static bool is_proven(const char *program, void (*run)(void), const char *what, 
     if (left != 0) {
         std::printf("%s at %d, %d: %zu places\n", what, at, and_at, left);
         for (std::size_t i = 0; i < std::min<std::size_t>(left, 8); i++) {
-            ranged::tell(program, ranged::now.complaints[i].first, ranged::now.complaints[i].second);
+            ranged::print_complaint(program, ranged::now.complaints[i].first, ranged::now.complaints[i].second);
         }
     }
     return left == 0;

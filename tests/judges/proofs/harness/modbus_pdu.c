@@ -124,7 +124,7 @@ int main(void)
 
     const uint32_t answer = modbus_pdu_answer(&server, &half, &tick, pdu, length);
 
-    /* Copies are not followed here (copies.h), and a take-up that begins is told. */
+    /* Copies are not followed here (copies.h), and a take-up that begins is reported. */
     PROVE(*written == as_written || word == offsetof(brace_commands_t, take_up) / 4u, "nothing else is written");
     PROVE(server.asker == asker && server.address == address, "nor who asked, nor whom");
 
@@ -145,7 +145,7 @@ int main(void)
           "no such function: exception 1");
     if (pdu[0] == function && (function == 3u || function == 4u)) {
         PROVE(answer == 2u + pdu[1] && pdu[1] >= 2u && pdu[1] <= 250u && pdu[1] % 2u == 0u,
-              "registers read: as many bytes as are told");
+              "registers read: as many bytes as are announced");
     }
     if (pdu[0] == function && (function == 6u || function == 16u)) {
         PROVE(answer == 5u, "registers written: the request's first five bytes");

@@ -27,11 +27,11 @@ static void assume_parameters(void)
     }
 }
 
-void modbus_command_tell(const modbus_server_t *server, const brace_app_t *app, brace_commands_t *told)
+void modbus_command_report(const modbus_server_t *server, const brace_app_t *app, brace_commands_t *commands)
 {
     (void)server;
     (void)app;
-    PROVE(__CPROVER_w_ok(told, sizeof *told), "there is room for every command");
+    PROVE(__CPROVER_w_ok(commands, sizeof *commands), "there is room for every command");
 }
 
 int main(void)

@@ -36,7 +36,7 @@ uint32_t modbus_pdu_refuse(modbus_server_t *server, const wire_tick_t *tick, uin
 
 enum { HEADER_BYTES = 7, LENGTH_FROM = 6 };
 
-static uint32_t told(const modbus_link_t *link)
+static uint32_t stated(const modbus_link_t *link)
 {
     return LENGTH_FROM + ((uint32_t)link->bytes[4] << 8 | link->bytes[5]);
 }
@@ -70,7 +70,7 @@ static bool sound(const modbus_tcp_t *tcp)
     }
     return are_sound && !link->is_sending && link->count <= HEADER_BYTES + MODBUS_PDU_BYTES &&
            (!has_head || link->is_skipping ||
-            (link->count < told(link) && told(link) <= HEADER_BYTES + MODBUS_PDU_BYTES)) &&
+            (link->count < stated(link) && stated(link) <= HEADER_BYTES + MODBUS_PDU_BYTES)) &&
            (!tcp->waits || tcp->connection[tcp->waiting].count > 0u);
 }
 

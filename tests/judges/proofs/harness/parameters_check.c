@@ -38,9 +38,9 @@ int main(void)
         const uint32_t *range = brace_u32_range[rule - BRACE_F32_RANGES];
         PROVE(word >= range[0] && word <= range[1], "accepted: every whole number is in its range");
     }
-    const bool told = status == BRACE_E_PARAMETER || status == BRACE_E_NOT_FINITE;
-    PROVE(told || status == BRACE_OK, "accepted, or why not");
-    PROVE(told ? wrong_index <= BRACE_PARAMETER_COUNT : wrong_index == before,
+    const bool names_member = status == BRACE_E_PARAMETER || status == BRACE_E_NOT_FINITE;
+    PROVE(names_member || status == BRACE_OK, "accepted, or why not");
+    PROVE(names_member ? wrong_index <= BRACE_PARAMETER_COUNT : wrong_index == before,
           "the member at fault is named, and only then");
     return 0;
 }

@@ -1,4 +1,4 @@
-/* Integers that stand for all that a word may hold: the firmware's own text, run once, then tells whether any of its
+/* Integers that stand for all that a word may hold: the firmware's own text, run once, then shows whether any of its
  * numbers leaves its word.
  *
  * What it does. A `word` stands for an int32_t, uint32_t, int64_t or uint64_t of the firmware and knows the least and
@@ -371,7 +371,7 @@ public:
         return most >= 0x1p119L ? range : range_t{std::max(range.least, -whole), std::min(range.most, whole)};
     }
 
-    /* What a run that is not refused tells of a number, and so of those it was made of. */
+    /* What a run that is not refused shows of a number, and so of those it was made of. */
     void learn(std::size_t id, range_t range, int steps = 12)
     {
         if (is_exact || id == none || steps == 0 || id < first_of_way || id < first_to_learn_of) {
@@ -421,7 +421,7 @@ public:
         since = 0;
     }
 
-    /* What a branch that was taken tells of a number, on this way. */
+    /* What a branch that was taken shows of a number, on this way. */
     void refine(std::size_t id, range_t range)
     {
         range_t &old = numbers[id].range;
@@ -434,7 +434,7 @@ public:
     {
         if (!is_sure && !in_ways) {
             complain("a comparison that is open");
-            first_of_way = numbers.size(); /* what follows tells nothing of what is before: it is one way of two */
+            first_of_way = numbers.size(); /* what follows shows nothing of what is before: it is one way of two */
         } else if (!is_sure) {
             const std::size_t at = decided.size();
             answer = at < to_decide.size() ? to_decide[at] : false;
@@ -805,7 +805,7 @@ template <a_word A, class B> A &operator|=(A &a, const B &b)
     return a = A::of(now.make(made_by_t::other, A::kind, limit));
 }
 
-/* a < b, and what that tells of both where ranges leave it open. */
+/* a < b, and what that shows of both where ranges leave it open. */
 template <class A, class B> bool is_less(const A &a, const B &b)
 {
     using W = sum_t<A, B>;
@@ -1041,7 +1041,7 @@ template <a_word W> W any_of(const std::vector<W> &words)
 /* --- the proof ------------------------------------------------------------------------------------------------ */
 
 /* The lines of a complaint, by what the linker knows. */
-inline void tell(const std::string &program, const std::string &frames, const std::string &what)
+inline void print_complaint(const std::string &program, const std::string &frames, const std::string &what)
 {
     std::printf("%s\n", what.c_str());
     std::fflush(stdout);

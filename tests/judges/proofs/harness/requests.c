@@ -142,7 +142,7 @@ brace_status_t brace_app_parameters_stage(brace_app_t *app, uint32_t first_numbe
     return status;
 }
 
-/* ------------------------------------------------------------------------------------- what only tells -- */
+/* ------------------------------------------------------------------------------------- what only informs -- */
 
 static brace_snapshot_t snapshot;
 const brace_snapshot_t *brace_app_snapshot(const brace_app_t *app) { (void)app; return &snapshot; }

@@ -185,7 +185,7 @@ static void tick(ownership_t *o, const ownership_t *before)
     PROVE(step != OWNERSHIP_STOPS || o->is_held, "what is stopped stands");
     PROVE(!before->is_held || !inputs.runs || o->is_held, "and goes on standing");
     PROVE(step != OWNERSHIP_LETS_GO || (inputs.let_go_after_us != 0u && o->is_held && o->fell_silent),
-          "it lets go only where it was told to, after its owner has fallen silent");
+          "it lets go only where it was asked to, after its owner has fallen silent");
     PROVE(was->is_open || !s->is_open, "no session begins by itself");
     if (s->is_open) {
         const uint32_t most_us = inputs.moves ? s->life_us : (uint32_t)SESSION_CLOSED_US;

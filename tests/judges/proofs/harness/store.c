@@ -48,7 +48,7 @@ int main(void)
 
     const brace_store_state_t state = brace_store_step(&store);
 
-    PROVE(state == store.state, "the state is told");
+    PROVE(state == store.state, "the state is reported");
     PROVE(memory_erases + memory_writes <= 1u, "one call that changes the memory in a step");
     PROVE(!reloads || memory_erases + memory_writes == 0u, "a reload changes nothing");
     PROVE(memory_erases == 0u || (erased_slot == target && !rolls_back && in_force != erased_slot + 1u),

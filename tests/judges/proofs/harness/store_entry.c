@@ -91,7 +91,7 @@ static void starts(void)
 {
     const brace_parameter_origin_t origin = brace_store_start(&store, &any_memory, &set);
     PROVE(at_rest(&store) && store.state == BRACE_STORE_IDLE, "after a start the store is at rest");
-    PROVE((uint32_t)origin == store.in_force && store.hal == &any_memory, "and tells what is in force");
+    PROVE((uint32_t)origin == store.in_force && store.hal == &any_memory, "and reports what is in force");
     PROVE(store.in_force == 0u || store.slot[store.in_force - 1u].condition == BRACE_SLOT_COUNTS,
           "which is a slot that counts, or the defaults");
 }

@@ -9,7 +9,7 @@ uint32_t brace_crc32(uint32_t crc, const uint8_t *bytes, uint32_t count)
     return any_u32();
 }
 
-/* As block_unpack proves it: any header, and a length that the block itself tells. */
+/* As block_unpack proves it: any header, and a length that the block itself states. */
 brace_status_t brace_block_header(const uint8_t *block, uint32_t length, brace_block_header_t *header)
 {
     PROVE(__CPROVER_r_ok(block, length), "a whole block");

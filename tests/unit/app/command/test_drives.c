@@ -1,4 +1,4 @@
-/* The controller tells each drive what take-up and loading test ask for together. It keeps within the torque of both
+/* The controller commands each drive what take-up and loading test ask for together. It keeps within the torque of both
  * and within the board's ceiling, and it counts a drive that refuses. */
 #include "command/drives.h"
 
@@ -14,7 +14,7 @@ static joints_t joints;
 static flank_t flank;
 static drives_test_t test;
 static brace_hal_t hal;
-static brace_hal_joint_command_t told[BRACE_LINK_COUNT];
+static brace_hal_joint_command_t commanded[BRACE_LINK_COUNT];
 static uint32_t calls[BRACE_LINK_COUNT], failed;
 static int32_t answer;
 static bool stands;
@@ -22,7 +22,7 @@ static bool stands;
 static int32_t command(void *context, int32_t joint_index, const brace_hal_joint_command_t *wanted)
 {
     (void)context;
-    told[joint_index] = *wanted;
+    commanded[joint_index] = *wanted;
     calls[joint_index]++;
     return joint_index == BRACE_TIBIA ? answer : BRACE_HAL_OK;
 }
@@ -48,7 +48,7 @@ static void tick(bool takes_up)
     drives_command(&drives, &hal, &joints, &flank, takes_up, &test, stands, TICK_US, &failed);
 }
 
-static void test_nothing_is_told_until_something_moves_and_all_is_taken_back(void)
+static void test_nothing_is_commanded_until_something_moves_and_all_is_taken_back(void)
 {
     for (int i = 0; i < BRACE_LINK_COUNT; i++) {
         TEST_ASSERT_TRUE(isinf(drives.limit_n_mm[i])); /* nothing limits them yet */
@@ -60,14 +60,14 @@ static void test_nothing_is_told_until_something_moves_and_all_is_taken_back(voi
     TEST_ASSERT_EQUAL(1, calls[BRACE_FEMUR]);
     TEST_ASSERT_EQUAL(1, calls[BRACE_TIBIA]);
     TEST_ASSERT_EQUAL(0, calls[BRACE_COXA]); /* not fitted */
-    TEST_ASSERT_EQUAL_FLOAT(0.01f, told[BRACE_FEMUR].offset_rad);
+    TEST_ASSERT_EQUAL_FLOAT(0.01f, commanded[BRACE_FEMUR].offset_rad);
     TEST_ASSERT_EQUAL_FLOAT(0.01f, drives.told_rad[BRACE_FEMUR]);
-    TEST_ASSERT_TRUE(isinf(told[BRACE_FEMUR].torque_limit_n_mm) && isinf(drives.limit_n_mm[BRACE_FEMUR]));
+    TEST_ASSERT_TRUE(isinf(commanded[BRACE_FEMUR].torque_limit_n_mm) && isinf(drives.limit_n_mm[BRACE_FEMUR]));
     flank.joint[BRACE_FEMUR].out.command_rad = 0.0f;
     tick(true);
     tick(false); /* once more */
     TEST_ASSERT_EQUAL(3, calls[BRACE_FEMUR]);
-    TEST_ASSERT_EQUAL_FLOAT(0.0f, told[BRACE_FEMUR].offset_rad);
+    TEST_ASSERT_EQUAL_FLOAT(0.0f, commanded[BRACE_FEMUR].offset_rad);
     TEST_ASSERT_FALSE(drives.is_going_back);
     tick(false);
     TEST_ASSERT_EQUAL(3, calls[BRACE_FEMUR]);
@@ -84,25 +84,25 @@ static void test_what_is_left_over_goes_back_slowly(void)
         TEST_ASSERT_EQUAL(i > 1, drives.is_going_back);
         tick(false);
         const float left_rad = 0.01f - 0.0001f * (float)i;
-        TEST_ASSERT_FLOAT_WITHIN(1e-6f, left_rad, told[BRACE_FEMUR].offset_rad);
-        TEST_ASSERT_FLOAT_WITHIN(1e-6f, -left_rad, told[BRACE_TIBIA].offset_rad);
+        TEST_ASSERT_FLOAT_WITHIN(1e-6f, left_rad, commanded[BRACE_FEMUR].offset_rad);
+        TEST_ASSERT_FLOAT_WITHIN(1e-6f, -left_rad, commanded[BRACE_TIBIA].offset_rad);
         if (i == 50) {
             stands = true;
             tick(false);
-            TEST_ASSERT_FLOAT_WITHIN(1e-6f, left_rad, told[BRACE_FEMUR].offset_rad);
+            TEST_ASSERT_FLOAT_WITHIN(1e-6f, left_rad, commanded[BRACE_FEMUR].offset_rad);
             stands = false;
         }
     }
     tick(false);
     const uint32_t all = calls[BRACE_FEMUR];
     tick(false);
-    TEST_ASSERT_EQUAL_FLOAT(0.0f, told[BRACE_FEMUR].offset_rad);
+    TEST_ASSERT_EQUAL_FLOAT(0.0f, commanded[BRACE_FEMUR].offset_rad);
     TEST_ASSERT_FALSE(drives.is_going_back);
     TEST_ASSERT_TRUE(calls[BRACE_FEMUR] <= all + 1u);
 }
 
 /* A drive that refuses a command keeps the command before it. The next command goes on from there. */
-static void test_a_drive_that_refuses_was_not_told(void)
+static void test_a_drive_that_refuses_was_not_commanded(void)
 {
     flank.joint[BRACE_TIBIA].out.command_rad = 0.01f;
     tick(true);
@@ -112,10 +112,10 @@ static void test_a_drive_that_refuses_was_not_told(void)
     TEST_ASSERT_EQUAL_FLOAT(0.01f, drives.told_rad[BRACE_TIBIA]);
     answer = BRACE_HAL_OK; /* it is back, and does not jump to what has been asked for meanwhile */
     tick(true);
-    TEST_ASSERT_EQUAL_FLOAT(0.0099f, told[BRACE_TIBIA].offset_rad);
+    TEST_ASSERT_EQUAL_FLOAT(0.0099f, commanded[BRACE_TIBIA].offset_rad);
     answer = BRACE_HAL_E_DEVICE;
     flank.joint[BRACE_TIBIA].out.command_rad = 0.0f;
-    tick(false); /* nobody tells it anything any more: it goes back by itself */
+    tick(false); /* nobody commands it any more: it goes back by itself */
     TEST_ASSERT_FALSE(drives.is_going_back);
     TEST_ASSERT_EQUAL_FLOAT(0.0f, drives.told_rad[BRACE_TIBIA]);
 }
@@ -127,26 +127,26 @@ static void test_a_take_up_and_a_test_add_up_within_the_smaller_torque(void)
     test.offset_rad[BRACE_FEMUR] = 0.002f;
     test.torque_limit_n_mm[BRACE_FEMUR] = 3000.0f;
     tick(true); /* the test does not run */
-    TEST_ASSERT_EQUAL_FLOAT(0.01f, told[BRACE_FEMUR].offset_rad);
+    TEST_ASSERT_EQUAL_FLOAT(0.01f, commanded[BRACE_FEMUR].offset_rad);
     test.runs = true;
     tick(false);
-    TEST_ASSERT_EQUAL_FLOAT(0.012f, told[BRACE_FEMUR].offset_rad);
-    TEST_ASSERT_EQUAL_FLOAT(3000.0f, told[BRACE_FEMUR].torque_limit_n_mm);
+    TEST_ASSERT_EQUAL_FLOAT(0.012f, commanded[BRACE_FEMUR].offset_rad);
+    TEST_ASSERT_EQUAL_FLOAT(3000.0f, commanded[BRACE_FEMUR].torque_limit_n_mm);
     TEST_ASSERT_EQUAL_FLOAT(3000.0f, drives.limit_n_mm[BRACE_FEMUR]);
     femur->machine.params.takeup.torque_max_n_mm = 2000.0f;
     femur->out.limit_torque = true; /* but nobody watches the play: the limit is none */
     tick(true);
-    TEST_ASSERT_EQUAL_FLOAT(3000.0f, told[BRACE_FEMUR].torque_limit_n_mm);
+    TEST_ASSERT_EQUAL_FLOAT(3000.0f, commanded[BRACE_FEMUR].torque_limit_n_mm);
     femur->watched = true;
     tick(true);
-    TEST_ASSERT_EQUAL_FLOAT(2000.0f, told[BRACE_FEMUR].torque_limit_n_mm);
+    TEST_ASSERT_EQUAL_FLOAT(2000.0f, commanded[BRACE_FEMUR].torque_limit_n_mm);
     femur->machine.params.takeup.torque_max_n_mm = 4000.0f;
     tick(true);
-    TEST_ASSERT_EQUAL_FLOAT(3000.0f, told[BRACE_FEMUR].torque_limit_n_mm);
+    TEST_ASSERT_EQUAL_FLOAT(3000.0f, commanded[BRACE_FEMUR].torque_limit_n_mm);
     femur->out.limit_torque = false;
     test.runs = false;
     tick(true);
-    TEST_ASSERT_TRUE(isinf(told[BRACE_FEMUR].torque_limit_n_mm));
+    TEST_ASSERT_TRUE(isinf(commanded[BRACE_FEMUR].torque_limit_n_mm));
 }
 
 static void test_the_board_s_ceiling_bounds_speed_and_torque_both_ways(void)
@@ -166,16 +166,16 @@ static void test_the_board_s_ceiling_bounds_speed_and_torque_both_ways(void)
             tick(false);
             const float way_rad = 0.002f * (float)i;
             TEST_ASSERT_FLOAT_WITHIN(1e-6f, (float)way * (way_rad < 0.005f ? way_rad : 0.005f),
-                                     told[BRACE_FEMUR].offset_rad);
-            TEST_ASSERT_EQUAL_FLOAT((float)way * 0.001f, told[BRACE_TIBIA].offset_rad);
+                                     commanded[BRACE_FEMUR].offset_rad);
+            TEST_ASSERT_EQUAL_FLOAT((float)way * 0.001f, commanded[BRACE_TIBIA].offset_rad);
         }
-        TEST_ASSERT_EQUAL_FLOAT(5000.0f, told[BRACE_FEMUR].torque_limit_n_mm);
-        TEST_ASSERT_EQUAL_FLOAT(1000.0f, told[BRACE_TIBIA].torque_limit_n_mm);
+        TEST_ASSERT_EQUAL_FLOAT(5000.0f, commanded[BRACE_FEMUR].torque_limit_n_mm);
+        TEST_ASSERT_EQUAL_FLOAT(1000.0f, commanded[BRACE_TIBIA].torque_limit_n_mm);
         for (int i = 0; i < 4; i++) {
             test.offset_rad[BRACE_FEMUR] = test.offset_rad[BRACE_TIBIA] = 0.0f;
             tick(false);
         }
-        TEST_ASSERT_EQUAL_FLOAT(0.0f, told[BRACE_FEMUR].offset_rad);
+        TEST_ASSERT_EQUAL_FLOAT(0.0f, commanded[BRACE_FEMUR].offset_rad);
     }
     /* what is left goes back within the ceiling, too; only then the drive's own limit holds again */
     ceiling[BRACE_FEMUR].speed_most_rad_per_s = 0.05f;
@@ -186,13 +186,13 @@ static void test_the_board_s_ceiling_bounds_speed_and_torque_both_ways(void)
     test.runs = false;
     for (int i = 1; i < 40; i++) {
         tick(false);
-        TEST_ASSERT_FLOAT_WITHIN(1e-6f, 0.002f - 0.00005f * (float)i, told[BRACE_FEMUR].offset_rad);
-        TEST_ASSERT_EQUAL_FLOAT(5000.0f, told[BRACE_FEMUR].torque_limit_n_mm);
+        TEST_ASSERT_FLOAT_WITHIN(1e-6f, 0.002f - 0.00005f * (float)i, commanded[BRACE_FEMUR].offset_rad);
+        TEST_ASSERT_EQUAL_FLOAT(5000.0f, commanded[BRACE_FEMUR].torque_limit_n_mm);
     }
     tick(false);
     tick(false);
-    TEST_ASSERT_EQUAL_FLOAT(0.0f, told[BRACE_FEMUR].offset_rad);
-    TEST_ASSERT_TRUE(isinf(told[BRACE_FEMUR].torque_limit_n_mm));
+    TEST_ASSERT_EQUAL_FLOAT(0.0f, commanded[BRACE_FEMUR].offset_rad);
+    TEST_ASSERT_TRUE(isinf(commanded[BRACE_FEMUR].torque_limit_n_mm));
 }
 
 static void test_a_set_point_that_is_behind_stands_where_it_is(void)
@@ -206,20 +206,20 @@ static void test_a_set_point_that_is_behind_stands_where_it_is(void)
     tick(true);
     stands = true;
     tick(true);
-    TEST_ASSERT_EQUAL_FLOAT(0.002f, told[BRACE_FEMUR].offset_rad);
+    TEST_ASSERT_EQUAL_FLOAT(0.002f, commanded[BRACE_FEMUR].offset_rad);
     stands = false;
     tick(true); /* no jump: 0.1 rad/s, until it is there */
-    TEST_ASSERT_EQUAL_FLOAT(0.0021f, told[BRACE_FEMUR].offset_rad);
+    TEST_ASSERT_EQUAL_FLOAT(0.0021f, commanded[BRACE_FEMUR].offset_rad);
     for (int i = 0; i < 80; i++) {
         tick(true);
     }
-    TEST_ASSERT_EQUAL_FLOAT(0.01f, told[BRACE_FEMUR].offset_rad);
+    TEST_ASSERT_EQUAL_FLOAT(0.01f, commanded[BRACE_FEMUR].offset_rad);
     flank.joint[BRACE_FEMUR].out.command_rad = 0.02f;
     tick(true);
-    TEST_ASSERT_EQUAL_FLOAT(0.012f, told[BRACE_FEMUR].offset_rad);
+    TEST_ASSERT_EQUAL_FLOAT(0.012f, commanded[BRACE_FEMUR].offset_rad);
 }
 
-static void test_a_drive_that_refuses_for_50_ms_is_told(void)
+static void test_a_drive_that_refuses_for_50_ms_is_reported(void)
 {
     test.runs = true;
     answer = BRACE_HAL_E_DEVICE;
@@ -250,7 +250,7 @@ static void test_a_drive_that_refuses_for_50_ms_is_told(void)
     TEST_ASSERT_TRUE(drives_refuse(&drives));
 }
 
-static void test_a_board_without_commands_is_told_nothing(void)
+static void test_a_board_without_commands_gets_no_command(void)
 {
     hal.joint_command = NULL;
     test.runs = true;
@@ -264,13 +264,13 @@ static void test_a_board_without_commands_is_told_nothing(void)
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(test_nothing_is_told_until_something_moves_and_all_is_taken_back);
+    RUN_TEST(test_nothing_is_commanded_until_something_moves_and_all_is_taken_back);
     RUN_TEST(test_what_is_left_over_goes_back_slowly);
-    RUN_TEST(test_a_drive_that_refuses_was_not_told);
+    RUN_TEST(test_a_drive_that_refuses_was_not_commanded);
     RUN_TEST(test_a_take_up_and_a_test_add_up_within_the_smaller_torque);
     RUN_TEST(test_the_board_s_ceiling_bounds_speed_and_torque_both_ways);
     RUN_TEST(test_a_set_point_that_is_behind_stands_where_it_is);
-    RUN_TEST(test_a_drive_that_refuses_for_50_ms_is_told);
-    RUN_TEST(test_a_board_without_commands_is_told_nothing);
+    RUN_TEST(test_a_drive_that_refuses_for_50_ms_is_reported);
+    RUN_TEST(test_a_board_without_commands_gets_no_command);
     return UNITY_END();
 }

@@ -1,5 +1,5 @@
 /* Tests of the watch over the flanks (flank/flank.h): the bounds that it gives the backlash machine, the load that it
- * tells the machine to expect, what it says of a joint without play or without a watch, and how far the load lags. */
+ * lets the machine expect, what it says of a joint without play or without a watch, and how far the load lags. */
 #include <math.h>
 #include <string.h>
 

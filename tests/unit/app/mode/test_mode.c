@@ -79,7 +79,7 @@ static void test_without_K_whatever_moves_ends(void)
         inputs.faults = BRACE_FAULT_SENSOR_FEMUR;
         TEST_ASSERT_TRUE(update_from(working[i]));
         TEST_ASSERT_EQUAL(BRACE_MODE_FAULT, mode.now);
-        inputs.faults = BRACE_FAULT_DRIVE_REFUSES; /* the controller still tells K, but moves nothing */
+        inputs.faults = BRACE_FAULT_DRIVE_REFUSES; /* the controller still reports K, but moves nothing */
         TEST_ASSERT_TRUE(update_from(working[i]));
         TEST_ASSERT_EQUAL(BRACE_MODE_LOADING_TEST, mode.now);
         inputs.faults = BRACE_FAULT_MODEL_DRIFT; /* no reason to stop */
@@ -105,7 +105,7 @@ static void test_configuration_ends_by_hand(void)
     }
 }
 
-static void test_in_which_modes_k_is_told(void)
+static void test_in_which_modes_k_is_reported(void)
 {
     TEST_ASSERT_TRUE(mode_tells_k(BRACE_MODE_MONITOR));
     TEST_ASSERT_TRUE(mode_tells_k(BRACE_MODE_TAKING_UP));
@@ -185,7 +185,7 @@ int main(void)
     RUN_TEST(test_what_moves_the_limb_names_the_mode);
     RUN_TEST(test_without_K_whatever_moves_ends);
     RUN_TEST(test_configuration_ends_by_hand);
-    RUN_TEST(test_in_which_modes_k_is_told);
+    RUN_TEST(test_in_which_modes_k_is_reported);
     RUN_TEST(test_a_fault_lasts_a_while_after_its_cause);
     RUN_TEST(test_a_fault_ends_with_the_first_tick_beyond);
     RUN_TEST(test_some_faults_stand_as_long_as_somebody_says_so);

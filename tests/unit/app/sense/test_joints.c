@@ -14,13 +14,13 @@ static brace_hal_joint_t sample;
 static int32_t answer;
 static uint32_t now_us, bad;
 
-static int32_t joint_read(void *context, int32_t joint_index, brace_hal_joint_t *told)
+static int32_t joint_read(void *context, int32_t joint_index, brace_hal_joint_t *reported)
 {
     (void)context;
     if (joint_index == BRACE_COXA) {
         return BRACE_HAL_E_UNSUPPORTED;
     }
-    *told = sample;
+    *reported = sample;
     return answer;
 }
 
@@ -99,7 +99,7 @@ static void test_temperatures_of_joints(void)
 {
     static const float given[][3] = {{33.0f, 30.0f, 40.0f}, {NAN, 30.0f, NAN},     {33.0f, NAN, 40.0f},
                                      {NAN, NAN, NAN},       {150.0f, 40.0f, -60.0f}, {151.0f, 40.0f, -61.0f}};
-    static const float told[][3] = {{33.0f, 30.0f, 40.0f}, {NAN, 30.0f, 30.0f},    {33.0f, 40.0f, 40.0f},
+    static const float reported[][3] = {{33.0f, 30.0f, 40.0f}, {NAN, 30.0f, 30.0f},    {33.0f, 40.0f, 40.0f},
                                     {NAN, NAN, NAN},       {150.0f, 40.0f, -60.0f}, {NAN, 40.0f, 40.0f}};
     for (int i = 0; i < 6; i++) {
         float temp_degc[BRACE_LINK_COUNT] = {-1.0f, -1.0f, -1.0f};
@@ -108,7 +108,7 @@ static void test_temperatures_of_joints(void)
         }
         joints_temperatures(&joints, temp_degc);
         for (int j = 0; j < BRACE_LINK_COUNT; j++) {
-            TEST_ASSERT_TRUE(isnan(told[i][j]) ? isnan(temp_degc[j]) : temp_degc[j] == told[i][j]);
+            TEST_ASSERT_TRUE(isnan(reported[i][j]) ? isnan(temp_degc[j]) : temp_degc[j] == reported[i][j]);
         }
         const float warmest = i == 1 ? 30.0f : 40.0f;
         TEST_ASSERT_TRUE(i == 3 ? isnan(joints_warmest_degc(&joints)) : joints_warmest_degc(&joints) == warmest);
@@ -137,7 +137,7 @@ static void test_an_angle_that_no_joint_could_have_reached_is_refused_once(void)
     TEST_ASSERT_EQUAL(0, bad);
     const joint_t *joint = read_at(1.12f, NAN, 100.0f); /* 70 rad/s */
     TEST_ASSERT_EQUAL_FLOAT(1.05f, joint->sample.motor_rad);
-    TEST_ASSERT_EQUAL(2, bad); /* both joints tell the same here */
+    TEST_ASSERT_EQUAL(2, bad); /* both joints report the same here */
     TEST_ASSERT_TRUE(joint->has_wild);
     joint = read_at(1.3f, NAN, 100.0f); /* another one: neither is believed */
     TEST_ASSERT_EQUAL_FLOAT(1.05f, joint->sample.motor_rad);

@@ -13,10 +13,10 @@ static brace_parameters_t parameters;
 static float x_n, z_n;
 static int32_t answer;
 
-static int32_t tip_force_read_fake(void *context, float *told_x_n, float *told_z_n)
+static int32_t tip_force_read_fake(void *context, float *reported_x_n, float *reported_z_n)
 {
     (void)context;
-    *told_x_n = x_n, *told_z_n = z_n;
+    *reported_x_n = x_n, *reported_z_n = z_n;
     return answer;
 }
 
@@ -120,13 +120,13 @@ static void test_a_saturated_reading_is_not_known(void)
     }
 }
 
-/* A sensor that has nothing new repeats its reading, which counts for as long as the limit says. One that fails tells
+/* A sensor that has nothing new repeats its reading, which counts for as long as the limit says. One that fails reports
  * nothing in that tick. */
 static void test_how_long_an_old_reading_counts(void)
 {
     answer = BRACE_HAL_AGAIN;
     tip_force_read(&force, &hal, &parameters, TICK_US);
-    TEST_ASSERT_FALSE(force.known); /* the sensor has told nothing yet */
+    TEST_ASSERT_FALSE(force.known); /* the sensor has reported nothing yet */
     answer = BRACE_HAL_OK;
     tip_force_read(&force, &hal, &parameters, TICK_US);
     TEST_ASSERT_TRUE(force.known);

@@ -141,7 +141,7 @@ static void test_what_moves_goes_on_while_something_waits(void)
     TEST_ASSERT_FALSE(ownership.waits);
 }
 
-static void test_a_silent_owner_is_held_counted_and_let_go_as_told(void)
+static void test_a_silent_owner_is_held_counted_and_let_go_as_asked(void)
 {
     const uint32_t let_go_after_us = 20u * TICK_US;
     asks(we);
@@ -355,7 +355,7 @@ int main(void)
     RUN_TEST(test_it_waits_for_life_and_is_forgotten_without);
     RUN_TEST(test_the_sign_with_its_number_sets_it_going);
     RUN_TEST(test_what_moves_goes_on_while_something_waits);
-    RUN_TEST(test_a_silent_owner_is_held_counted_and_let_go_as_told);
+    RUN_TEST(test_a_silent_owner_is_held_counted_and_let_go_as_asked);
     RUN_TEST(test_what_somebody_has_stopped_is_not_let_go);
     RUN_TEST(test_stop_takes_back_what_waits);
     RUN_TEST(test_the_program_needs_no_signs_of_life);

@@ -80,12 +80,12 @@ static int32_t command_on_a_bench(brace_who_t who)
 
 /* -------------------------------------------------------------------------------------- numbers -- */
 
-/* A number counts for as long as the owner may be silent, whenever in its time it was told, and at most for a fifth more. */
+/* A number counts for as long as the owner may be silent, whenever in its time it was sent, and at most a fifth more. */
 static void test_a_number_is_good_for_a_short_time(void)
 {
     const uint32_t slot_us = SESSION_LIFE_US / SESSION_SLOTS_PER_LIFE;
     for (int is_bench = 0; is_bench < 2; is_bench++) {
-        for (uint32_t told_us = 0; told_us < slot_us; told_us += 500u) {
+        for (uint32_t sent_us = 0; sent_us < slot_us; sent_us += 500u) {
             for (uint32_t late_us = 0; late_us < 3u * SESSION_LIFE_US; late_us += 1000u) {
                 if (is_bench == 1) {
                     bench();
@@ -93,7 +93,7 @@ static void test_a_number_is_good_for_a_short_time(void)
                 } else {
                     setUp();
                 }
-                passes(told_us);
+                passes(sent_us);
                 const uint32_t number = session_number(&session);
                 passes(late_us);
                 const int32_t status = life_with(we, number);

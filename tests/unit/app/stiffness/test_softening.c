@@ -57,7 +57,7 @@ static void test_a_start_knows_nothing(void)
 }
 
 /* Runs the search until it has found a factor. returns how many steps that took */
-static int until_told(void)
+static int until_reported(void)
 {
     int count = 0;
     for (; count < 500 && isnan(softening.factor); count++) {
@@ -72,7 +72,7 @@ static void test_a_search_ends_and_is_repeated(void)
     TEST_ASSERT_TRUE(isnan(softening.factor));
     TEST_ASSERT_TRUE(isnan(softening.unloaded.k_xx_n_per_mm));
     TEST_ASSERT_EQUAL_HEX32(0, softening_flags(&softening));
-    const int first = until_told();
+    const int first = until_reported();
     TEST_ASSERT_TRUE(softening.factor > 1.0f);
     TEST_ASSERT_FALSE(isnan(softening.unloaded.k_xx_n_per_mm) || isnan(softening.unloaded_across_n_per_mm));
     const float factor = softening.factor;
@@ -89,11 +89,11 @@ static void test_a_search_ends_and_is_repeated(void)
  * weight stays, and the limb stands more upright. */
 static void test_a_search_is_of_its_own_load(void)
 {
-    (void)until_told();
+    (void)until_reported();
     const float whole = softening.factor;
     rest_under(0.5f);
     softening.factor = __builtin_nanf("");
-    (void)until_told();
+    (void)until_reported();
     TEST_ASSERT_TRUE(softening.factor > 1.3f * whole && softening.factor < 2.0f * whole);
 }
 
@@ -101,7 +101,7 @@ static void test_a_search_is_of_its_own_load(void)
  * goes, the factor goes at once. */
 static void test_a_factor_grows_old(void)
 {
-    (void)until_told();
+    (void)until_reported();
     const float factor = softening.factor;
     for (int i = 1; i < 240; i++) {
         step(true, false);
@@ -113,7 +113,7 @@ static void test_a_factor_grows_old(void)
         step(true, false);
         TEST_ASSERT_TRUE(isnan(softening.factor));
     }
-    (void)until_told();
+    (void)until_reported();
     step(false, true);
     TEST_ASSERT_TRUE(isnan(softening.factor));
     TEST_ASSERT_FALSE(softening.runs || softening.is_needed);

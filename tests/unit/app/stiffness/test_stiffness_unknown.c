@@ -1,4 +1,4 @@
-/* What is told where something of K is not known: no load, no K across the plane, no axis. */
+/* What is reported where something of K is not known: no load, no K across the plane, no axis. */
 #include "app_bench.h"
 #include "stiffness/stiffness.h"
 
@@ -44,8 +44,8 @@ static brace_parameters_t space_parameters(void)
     return p;
 }
 
-/* A straight limb's joints tell no force, with a coxa joint or without: K is that without load, and says so. */
-static void test_a_straight_limb_tells_K_without_its_load(void)
+/* A straight limb's joints measure no force, with a coxa joint or without: K is that without load, and says so. */
+static void test_a_straight_limb_reports_K_without_its_load(void)
 {
     for (int has_coxa = 0; has_coxa < 2; has_coxa++) {
         const brace_parameters_t p = has_coxa ? space_parameters() : bench_parameters();
@@ -81,7 +81,7 @@ static void test_a_straight_limb_tells_K_without_its_load(void)
     }
 }
 
-/* A coxa joint that has been turned more than once round: K in the plane is told, in space it is not. */
+/* A coxa joint that has been turned more than once round: K in the plane is reported, in space it is not. */
 static void test_beyond_the_range_of_the_coxa_joint_K_is_of_the_plane(void)
 {
     const brace_parameters_t p = space_parameters();
@@ -152,7 +152,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_measured_joints_are_held);
-    RUN_TEST(test_a_straight_limb_tells_K_without_its_load);
+    RUN_TEST(test_a_straight_limb_reports_K_without_its_load);
     RUN_TEST(test_beyond_the_range_of_the_coxa_joint_K_is_of_the_plane);
     RUN_TEST(test_a_straight_limb_that_yields_one_way_only_has_no_K);
     RUN_TEST(test_the_span_of_an_axis_is_the_short_way_round);

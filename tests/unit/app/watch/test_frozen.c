@@ -62,14 +62,14 @@ static bool looks(int count)
 }
 
 /* All joints but one move a little in each look, so that only that one can be frozen. */
-static bool others_move(int joint, int count, float told_each_rad)
+static bool others_move(int joint, int count, float each_rad)
 {
     bool is_frozen = false;
     for (int i = 0; i < count; i++) {
         for (int j = 0; j < BRACE_LINK_COUNT; j++) {
             joints.joint[j].sample.motor_rad += j == joint ? 0.0f : 0.01f;
         }
-        told_rad[joint] += told_each_rad;
+        told_rad[joint] += each_rad;
         is_frozen = look(LOOK_US);
     }
     return is_frozen;
@@ -80,9 +80,9 @@ static void test_a_joint_that_rests_is_not_frozen(void)
     TEST_ASSERT_FALSE(looks(50));
 }
 
-/* Proof `told`: the controller tells the motor to move by more than 5 mrad and ten steps, and neither the angle nor the
- * torque changes by a bit. This has to last 250 ms. */
-static void test_told_to_move(void)
+/* Proof `commanded`: the controller commands the motor to move by more than 5 mrad and ten steps, and neither the angle
+ * nor the torque changes by a bit. This has to last 250 ms. */
+static void test_commanded_to_move(void)
 {
     for (int joint = 0; joint < BRACE_LINK_COUNT; joint++) {
         setUp();
@@ -286,7 +286,7 @@ static void test_all_is_forgotten(void)
     TEST_ASSERT_TRUE(looks(6));
     frozen_start(&frozen);
     TEST_ASSERT_FALSE(frozen_any(&frozen));
-    TEST_ASSERT_FALSE(looks(20)); /* this was told already */
+    TEST_ASSERT_FALSE(looks(20)); /* this was commanded already */
     told_rad[BRACE_COXA] = 0.04f;
     TEST_ASSERT_TRUE(looks(6));
     joints.joint[BRACE_COXA].sound = false; /* a joint without samples is not called frozen */
@@ -297,7 +297,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_a_joint_that_rests_is_not_frozen);
-    RUN_TEST(test_told_to_move);
+    RUN_TEST(test_commanded_to_move);
     RUN_TEST(test_a_look_counts_for_a_while);
     RUN_TEST(test_a_load_that_is_not_felt);
     RUN_TEST(test_the_joint_s_friction_hides_a_load);

@@ -40,7 +40,7 @@ static brace_snapshot_t *newest(void)
     return &app.controller.snapshot[app.controller.newest];
 }
 
-static brace_measured_t told_of(const brace_app_counters_t *counters)
+static brace_measured_t reported_of(const brace_app_counters_t *counters)
 {
     brace_measured_t m;
     memset(&m, 0x5a, sizeof m);
@@ -62,7 +62,7 @@ static void test_k_in_the_plane_and_its_load(void)
     s->load.moved_x_mm = 34.0f, s->load.moved_y_mm = 35.0f, s->load.moved_z_mm = 36.0f;
     s->load.buckling_factor = 37.0f, s->load.unloaded_across_n_per_mm = 38.0f;
     s->gravity_direction_rad = 39.0f, s->gravity_lean_rad = 40.0f;
-    const brace_measured_t m = told_of(&counters);
+    const brace_measured_t m = reported_of(&counters);
     TEST_ASSERT_EQUAL_UINT32(4711, m.sequence);
     TEST_ASSERT_EQUAL_UINT32(7, m.age_us);
     TEST_ASSERT_EQUAL_UINT32(1, m.k_is_valid);
@@ -98,7 +98,7 @@ static void test_k_in_space(void)
     space->is_fitted = space->is_valid = true;
     space->now.flags = 0xau;
     space->across_n_per_mm = 9.0f;
-    const brace_measured_t m = told_of(&counters);
+    const brace_measured_t m = reported_of(&counters);
     const float now[] = {m.space_k_xx_n_per_mm,     m.space_k_xy_n_per_mm,     m.space_k_xz_n_per_mm,
                          m.space_k_yy_n_per_mm,     m.space_k_yz_n_per_mm,     m.space_k_zz_n_per_mm,
                          m.space_lambda_1_n_per_mm, m.space_lambda_2_n_per_mm, m.space_lambda_3_n_per_mm,
@@ -118,7 +118,7 @@ static void test_k_in_space(void)
     TEST_ASSERT_EQUAL_UINT32(0xa, m.space_flags);
     TEST_ASSERT_EQUAL_FLOAT(9.0f, m.k_across_n_per_mm);
     space->is_fitted = false;
-    TEST_ASSERT_EQUAL_UINT32(UINT32_MAX, told_of(&counters).space_flags);
+    TEST_ASSERT_EQUAL_UINT32(UINT32_MAX, reported_of(&counters).space_flags);
 }
 
 static void expect_sigma(const brace_measured_t *m, float first)
@@ -136,7 +136,7 @@ static void expect_sigma(const brace_measured_t *m, float first)
     }
 }
 
-/* Infinite or not known is told as not known, never as a number. */
+/* Infinite or not known is reported as not known, never as a number. */
 static void test_one_sigma_of_k(void)
 {
     const brace_app_counters_t counters = {0};
@@ -145,14 +145,14 @@ static void test_one_sigma_of_k(void)
     s->sigma_space =
         (brace_space_sigma_t){7.0f, 8.0f, 9.0f, 10.0f, 11.0f, 12.0f, {13.0f, 14.0f, 15.0f}, 16.0f};
     s->sigma_is_known = true;
-    brace_measured_t m = told_of(&counters);
+    brace_measured_t m = reported_of(&counters);
     expect_sigma(&m, 1.0f);
     s->sigma_is_known = false;
-    m = told_of(&counters);
+    m = reported_of(&counters);
     expect_sigma(&m, NAN);
     s->sigma_is_known = true;
     s->sigma.k_zz_n_per_mm = s->sigma_space.across_n_per_mm = INFINITY;
-    m = told_of(&counters);
+    m = reported_of(&counters);
     TEST_ASSERT_TRUE(isnan(m.sigma_k_zz_n_per_mm) && isnan(m.sigma_k_across_n_per_mm));
 }
 
@@ -174,7 +174,7 @@ static void test_joints_and_what_is_around_them(void)
     s->play_shift_mm = (brace_point_t){53.0f, 54.0f};
     s->force_x_n = 55.0f, s->force_z_n = 56.0f, s->force_is_sensed = true;
     s->temp_degc = 57.0f;
-    const brace_measured_t m = told_of(&counters);
+    const brace_measured_t m = reported_of(&counters);
     const float joints[BRACE_LINK_COUNT][5] = {
         {m.theta0_rad, m.motor_coxa_rad, m.torque_coxa_n_mm, m.play_coxa_offset_rad, m.load_coxa_n_mm},
         {m.theta1_rad, m.motor_femur_rad, m.torque_femur_n_mm, m.play_femur_offset_rad, m.load_femur_n_mm},
@@ -208,11 +208,11 @@ static void test_counters_and_who_owns_it(void)
     session->challenge = 0x1122334455667788u;
     app.controller.ownership.is_held = true;
     app.controller.ownership.last_refusal = -3;
-    const brace_measured_t m = told_of(&counters);
-    const uint32_t told[] = {m.ticks_late,  m.samples_bad,     m.frames_refused, m.frames_unknown,
+    const brace_measured_t m = reported_of(&counters);
+    const uint32_t reported[] = {m.ticks_late,  m.samples_bad,     m.frames_refused, m.frames_unknown,
                              m.frames_lost, m.commands_failed, m.modbus_broken,  m.modbus_refused};
     for (uint32_t i = 0; i < 8u; i++) {
-        TEST_ASSERT_EQUAL_UINT32(i + 1u, told[i]);
+        TEST_ASSERT_EQUAL_UINT32(i + 1u, reported[i]);
     }
     TEST_ASSERT_EQUAL_UINT32(11, m.strangers_refused);
     TEST_ASSERT_EQUAL_UINT32(12, m.replays_refused);
@@ -224,8 +224,8 @@ static void test_counters_and_who_owns_it(void)
     TEST_ASSERT_EQUAL_HEX32(0x11223344u, m.challenge_high);
     TEST_ASSERT_EQUAL_HEX32(0xfdu, m.last_refusal);
     session->has_challenge = false;
-    TEST_ASSERT_EQUAL_HEX32(UINT32_MAX, told_of(&counters).challenge_low);
-    TEST_ASSERT_EQUAL_HEX32(UINT32_MAX, told_of(&counters).challenge_high);
+    TEST_ASSERT_EQUAL_HEX32(UINT32_MAX, reported_of(&counters).challenge_low);
+    TEST_ASSERT_EQUAL_HEX32(UINT32_MAX, reported_of(&counters).challenge_high);
 }
 
 static void test_a_loading_test_that_is_done(void)
@@ -236,17 +236,17 @@ static void test_a_loading_test_that_is_done(void)
     result->least_squares.k_x_n_per_mm = 1.0f, result->least_squares.k_z_n_per_mm = 2.0f;
     result->mean_of_ratios.k_x_n_per_mm = 3.0f, result->mean_of_ratios.k_z_n_per_mm = 4.0f;
     result->z_x = 5.0f, result->z_z = 6.0f;
-    brace_measured_t m = told_of(&counters);
-    const float told[] = {m.loading_k_x_n_per_mm,       m.loading_k_z_n_per_mm, m.loading_ratio_k_x_n_per_mm,
+    brace_measured_t m = reported_of(&counters);
+    const float reported[] = {m.loading_k_x_n_per_mm,       m.loading_k_z_n_per_mm, m.loading_ratio_k_x_n_per_mm,
                           m.loading_ratio_k_z_n_per_mm, m.loading_score_x,      m.loading_score_z};
     for (int i = 0; i < 6; i++) {
-        TEST_ASSERT_EQUAL_FLOAT(1.0f + (float)i, told[i]);
+        TEST_ASSERT_EQUAL_FLOAT(1.0f + (float)i, reported[i]);
     }
     static const brace_loading_outcome_t others[] = {BRACE_LOADING_STOPPED, BRACE_LOADING_RUNNING,
                                                      BRACE_LOADING_E_FORCE, BRACE_LOADING_E_FLAT};
     for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
         result->outcome = others[i];
-        m = told_of(&counters);
+        m = reported_of(&counters);
         TEST_ASSERT_TRUE(isnan(m.loading_score_x) && isnan(m.loading_k_z_n_per_mm));
     }
 }
@@ -257,7 +257,7 @@ static void test_the_set_in_force(void)
     brace_snapshot_t *s = newest();
     s->parameter_crc = 21u, s->parameter_origin = BRACE_PARAMETERS_SLOT_B, s->parameter_sequence = 23u;
     s->mode = BRACE_MODE_FAULT, s->faults = 24u, s->stiffness.now.flags = 25u;
-    const brace_measured_t m = told_of(&counters);
+    const brace_measured_t m = reported_of(&counters);
     TEST_ASSERT_EQUAL_UINT32(21, m.parameter_crc);
     TEST_ASSERT_EQUAL_UINT32(BRACE_PARAMETERS_SLOT_B, m.parameter_origin);
     TEST_ASSERT_EQUAL_UINT32(23, m.parameter_sequence);
@@ -273,7 +273,7 @@ static void test_a_drift_and_its_cause(void)
     report->state = BRACE_DRIFT_WATCHING, report->cause = (brace_drift_cause_t)2, report->could_be = 31u;
     report->evidence = 32.0f, report->loss_ratio = 33.0f, report->loss_sigma_ratio = 34.0f;
     report->since_steps = 35u, report->steps = 36u;
-    brace_measured_t m = told_of(&counters);
+    brace_measured_t m = reported_of(&counters);
     TEST_ASSERT_EQUAL_UINT32(BRACE_DRIFT_WATCHING, m.drift_state);
     TEST_ASSERT_EQUAL_UINT32(3, m.drift_cause);
     TEST_ASSERT_EQUAL_UINT32(31, m.drift_could_be);
@@ -284,14 +284,14 @@ static void test_a_drift_and_its_cause(void)
     TEST_ASSERT_EQUAL_UINT32(36, m.drift_readings);
     report->evidence = FLT_MIN; /* however little there is */
     TEST_ASSERT_NOT_EQUAL(BRACE_DRIFT_CAUSE_NONE, measured_drift_cause(report));
-    report->evidence = 0.0f; /* no cause is told without evidence */
-    m = told_of(&counters);
+    report->evidence = 0.0f; /* no cause is reported without evidence */
+    m = reported_of(&counters);
     TEST_ASSERT_EQUAL_UINT32(BRACE_DRIFT_CAUSE_NONE, m.drift_cause);
     TEST_ASSERT_EQUAL_UINT32(0, m.drift_could_be);
     TEST_ASSERT_TRUE(isnan(m.drift_loss_ratio) && isnan(m.drift_loss_sigma_ratio));
     TEST_ASSERT_EQUAL_UINT32(UINT32_MAX, m.drift_since_readings);
     report->state = BRACE_DRIFT_DRIFTED; /* a baseline that walked away */
-    TEST_ASSERT_EQUAL_UINT32(3, told_of(&counters).drift_cause);
+    TEST_ASSERT_EQUAL_UINT32(3, reported_of(&counters).drift_cause);
 }
 
 /* Nothing of what was there before stays: every value is written, whatever it is. */

@@ -37,8 +37,8 @@ void setUp(void)
 
 void tearDown(void) {}
 
-/* The frames that the ports tell, those as text too, beside answers. */
-static uint32_t data_told(void)
+/* The frames that the ports send, those as text too, beside answers. */
+static uint32_t data_sent(void)
 {
     brace_can_frame_t frame;
     uint8_t text[BRACE_FAKE_SERIAL_BYTES];
@@ -56,7 +56,7 @@ static uint32_t data_told(void)
 static void empty_the_ports(void)
 {
     uint8_t bytes[BRACE_FAKE_SERIAL_BYTES];
-    (void)data_told();
+    (void)data_sent();
     (void)brace_fake_bytes_take(&fake, BRACE_SERIAL_MODBUS, bytes, sizeof bytes);
     (void)brace_fake_bytes_take(&fake, BRACE_SERIAL_MODBUS_TCP, bytes, sizeof bytes);
 }
@@ -162,7 +162,7 @@ static void test_what_all_ports_do_adds_up(void)
     TEST_ASSERT_EQUAL(WIRE_NOTHING, done());
 }
 
-/* A K that has been waited for costs more to tell. While it is on its way nothing is done, and what comes behind it has
+/* A K that has been waited for costs more to send. While it is on its way nothing is done, and what comes behind it has
  * a tick of its own. */
 static void test_an_answer_that_is_late(void)
 {
@@ -198,10 +198,10 @@ static void test_process_data_count(void)
     start(100);
     TEST_ASSERT_EQUAL_UINT32(10000, app.wires.can.bus_port.process.period_us);
     for (int i = 0; i < 200; i++) {
-        const uint32_t told = done(), frames = data_told();
+        const uint32_t sent = done(), frames = data_sent();
         const bool on_bus = is_taken_now(&app.wires.can.bus_port), as_text = is_taken_now(&app.wires.can.text_port);
         const bool is_taken = on_bus || as_text;
-        TEST_ASSERT_EQUAL((is_taken ? WIRE_DATA_ARE_TAKEN : WIRE_NOTHING) + frames, told);
+        TEST_ASSERT_EQUAL((is_taken ? WIRE_DATA_ARE_TAKEN : WIRE_NOTHING) + frames, sent);
         snapshots += is_taken;
         most = frames > most ? frames : most;
     }
@@ -294,7 +294,7 @@ static void test_a_rate_that_no_frame_follows(void)
 }
 
 /* A set without rates ends what the set before it sent. */
-static void test_a_set_without_rates_tells_no_values(void)
+static void test_a_set_without_rates_sends_no_values(void)
 {
     brace_controller_t *rates = &app.controller.parameters.in_force.controller;
     start(100);
@@ -308,8 +308,8 @@ static void test_a_set_without_rates_tells_no_values(void)
     }
 }
 
-/* Frames of measured values that a tick tells on the bus, beside heartbeat and emergency. */
-static uint32_t values_told_on_bus(void)
+/* Frames of measured values that a tick sends on the bus, beside heartbeat and emergency. */
+static uint32_t values_sent_on_bus(void)
 {
     brace_can_frame_t frame;
     uint32_t count = 0;
@@ -322,8 +322,8 @@ static uint32_t values_told_on_bus(void)
     return count;
 }
 
-/* What has not left before the bus goes off is not told when it is back: it would be old by then. */
-static void test_a_snapshot_is_not_told_after_the_bus_was_off(void)
+/* What has not left before the bus goes off is not sent when it is back: it would be old by then. */
+static void test_a_snapshot_is_not_sent_after_the_bus_was_off(void)
 {
     const process_t *process = &app.wires.can.bus_port.process;
     start_at(1, 1, 0);
@@ -340,7 +340,7 @@ static void test_a_snapshot_is_not_told_after_the_bus_was_off(void)
     fake.can_room = room;
     for (int i = 0; i < 200; i++) { /* the next snapshot is due much later */
         ticks(1);
-        TEST_ASSERT_EQUAL_UINT32(0, values_told_on_bus());
+        TEST_ASSERT_EQUAL_UINT32(0, values_sent_on_bus());
     }
     TEST_ASSERT_FALSE(app.wires.can.bus.is_off);
 }
@@ -353,7 +353,7 @@ static void test_answers_go_first_for_a_while(void)
     for (int i = 0; i < 100; i++) {
         is_asked(TCP, false);
         TEST_ASSERT_TRUE(done() >= WIRE_TAKEN);
-        const uint32_t frames = data_told();
+        const uint32_t frames = data_sent();
         TEST_ASSERT_EQUAL(i % (DATA_WAIT_MOST_TICKS + 1) == DATA_WAIT_MOST_TICKS, frames);
         without += frames == 0u;
     }
@@ -369,8 +369,8 @@ int main(void)
     RUN_TEST(test_process_data_count);
     RUN_TEST(test_each_frame_at_its_rate);
     RUN_TEST(test_a_rate_that_no_frame_follows);
-    RUN_TEST(test_a_set_without_rates_tells_no_values);
-    RUN_TEST(test_a_snapshot_is_not_told_after_the_bus_was_off);
+    RUN_TEST(test_a_set_without_rates_sends_no_values);
+    RUN_TEST(test_a_snapshot_is_not_sent_after_the_bus_was_off);
     RUN_TEST(test_another_set_counts_once_at_each_port);
     RUN_TEST(test_answers_go_first_for_a_while);
     return UNITY_END();

@@ -4,7 +4,7 @@
  * and fills the whole answer. How fields travel is the wire's: CAN's frames and Modbus' registers are generated.
  *   asked: the request's fields
  *   answer (out): the fields of all the answer's parts; untouched unless BRACE_OK is returned
- * returns BRACE_OK; ANSWER_LATER: something was begun, and answer_of_storing tells how it ended; ANSWER_AGAIN: it is
+ * returns BRACE_OK; ANSWER_LATER: something was begun, and answer_of_storing reports how it ended; ANSWER_AGAIN: it is
  * being worked out, and the port puts the same request again in the next tick; or why not, as brace/refusals.h has it:
  * then nothing has changed. */
 #ifndef BRACE_WIRE_ANSWERS_ANSWER_H

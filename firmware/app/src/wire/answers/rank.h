@@ -44,7 +44,7 @@ static inline brace_command_t answer_command(uint32_t code, const brace_request_
     case BRACE_REQUEST_COMMIT:
     case BRACE_REQUEST_ROLLBACK: return BRACE_COMMAND_WRITES;
     case BRACE_REQUEST_CLEAR:
-    case BRACE_REQUEST_SET_GRAVITY: return BRACE_COMMAND_TELLS;
+    case BRACE_REQUEST_SET_GRAVITY: return BRACE_COMMAND_INFORMS;
     default: return BRACE_COMMAND_NONE;
     }
 }

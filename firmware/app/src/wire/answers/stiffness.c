@@ -32,7 +32,8 @@ static int32_t ask(const request_t *request, const brace_k_question_t *question,
 static const brace_force_t no_force = {0.0f, 0.0f};
 
 /* Questions for K at a posture and at a tip have answers of one shape. */
-static int32_t tell_k(const request_t *request, const brace_k_question_t *question, brace_k_at_posture_answer_t *answer)
+static int32_t answer_k(const request_t *request, const brace_k_question_t *question,
+                        brace_k_at_posture_answer_t *answer)
 {
     brace_k_answer_t found;
     const int32_t status = ask(request, question, &found);
@@ -54,21 +55,21 @@ int32_t answer_k_at_posture(request_t *request, const brace_k_at_posture_request
 {
     const brace_k_question_t question =
         at_posture(BRACE_K_AT_POSTURE, 0.0f, asked->theta1_rad, asked->theta2_rad, no_force, 0.0f);
-    return tell_k(request, &question, answer);
+    return answer_k(request, &question, answer);
 }
 
 int32_t answer_k_at_tip_knee_up(request_t *request, const brace_k_at_tip_knee_up_request_t *asked,
                                 brace_k_at_tip_knee_up_answer_t *answer)
 {
     const brace_k_question_t question = at_tip(asked->x_mm, asked->z_mm, BRACE_KNEE_UP, no_force);
-    return tell_k(request, &question, answer);
+    return answer_k(request, &question, answer);
 }
 
 int32_t answer_k_at_tip_knee_down(request_t *request, const brace_k_at_tip_knee_down_request_t *asked,
                                   brace_k_at_tip_knee_down_answer_t *answer)
 {
     const brace_k_question_t question = at_tip(asked->x_mm, asked->z_mm, BRACE_KNEE_DOWN, no_force);
-    return tell_k(request, &question, answer);
+    return answer_k(request, &question, answer);
 }
 
 int32_t answer_tip_force(request_t *request, const brace_tip_force_request_t *asked, brace_tip_force_answer_t *answer)
@@ -80,8 +81,8 @@ int32_t answer_tip_force(request_t *request, const brace_tip_force_request_t *as
 }
 
 /* Under the force that was asked before; the answer uses it up. */
-static int32_t tell_k_under_load(request_t *request, const brace_k_question_t *question,
-                                 brace_k_under_load_at_posture_answer_t *answer)
+static int32_t answer_k_under_load(request_t *request, const brace_k_question_t *question,
+                                   brace_k_under_load_at_posture_answer_t *answer)
 {
     brace_k_answer_t found;
     if (!request->asked_force->is_there) {
@@ -110,7 +111,7 @@ int32_t answer_k_under_load_at_posture(request_t *request, const brace_k_under_l
 {
     const brace_k_question_t question = at_posture(BRACE_K_AT_POSTURE, 0.0f, asked->theta1_rad, asked->theta2_rad,
                                                    request->asked_force->force, 0.0f);
-    return tell_k_under_load(request, &question, answer);
+    return answer_k_under_load(request, &question, answer);
 }
 
 int32_t answer_k_under_load_at_tip_knee_up(request_t *request,
@@ -119,7 +120,7 @@ int32_t answer_k_under_load_at_tip_knee_up(request_t *request,
 {
     const brace_k_question_t question =
         at_tip(asked->x_mm, asked->z_mm, BRACE_KNEE_UP, request->asked_force->force);
-    return tell_k_under_load(request, &question, answer);
+    return answer_k_under_load(request, &question, answer);
 }
 
 int32_t answer_k_under_load_at_tip_knee_down(request_t *request,
@@ -128,7 +129,7 @@ int32_t answer_k_under_load_at_tip_knee_down(request_t *request,
 {
     const brace_k_question_t question =
         at_tip(asked->x_mm, asked->z_mm, BRACE_KNEE_DOWN, request->asked_force->force);
-    return tell_k_under_load(request, &question, answer);
+    return answer_k_under_load(request, &question, answer);
 }
 
 int32_t answer_tip_force_in_space(request_t *request, const brace_tip_force_in_space_request_t *asked,
@@ -146,13 +147,13 @@ int32_t answer_k_in_space_at_posture(request_t *request, const brace_k_in_space_
                                      brace_k_in_space_at_posture_answer_t *answer)
 {
     asked_force_t *force = request->asked_force;
-    const bool force_is_told = force->is_there_in_space;
+    const bool has_force = force->is_there_in_space;
     const brace_k_question_t question =
         at_posture(BRACE_K_IN_SPACE, asked->theta0_rad, asked->theta1_rad, asked->theta2_rad,
-                   force_is_told ? force->force_in_space : no_force, force_is_told ? force->across_n : 0.0f);
+                   has_force ? force->force_in_space : no_force, has_force ? force->across_n : 0.0f);
     brace_k_answer_t found;
     const int32_t status = ask(request, &question, &found);
-    force->is_there_in_space = force_is_told && status == ANSWER_AGAIN;
+    force->is_there_in_space = has_force && status == ANSWER_AGAIN;
     const brace_stiffness_spatial_t *k = &found.in_space;
     if (status == BRACE_OK) {
         *answer = (brace_k_in_space_at_posture_answer_t){.k_xx_n_per_mm = k->k_xx_n_per_mm,
@@ -165,7 +166,7 @@ int32_t answer_k_in_space_at_posture(request_t *request, const brace_k_in_space_
                                                          .lambda_2_n_per_mm = k->lambda_n_per_mm[1],
                                                          .lambda_3_n_per_mm = k->lambda_n_per_mm[2],
                                                          .flags = k->flags,
-                                                         .force_is_told = force_is_told,
+                                                         .force_is_told = has_force,
                                                          .dx_mm = found.moved_mm.x_mm,
                                                          .dy_mm = found.moved_across_mm,
                                                          .dz_mm = found.moved_mm.z_mm};
@@ -173,7 +174,7 @@ int32_t answer_k_in_space_at_posture(request_t *request, const brace_k_in_space_
     return status;
 }
 
-/* A refusal tells what the K of now is worth, and whether there is none. */
+/* A refusal reports the flags of the present K, and whether there is none. */
 static void refuse_without_k(request_t *request, brace_status_t status)
 {
     request->detail = brace_app_snapshot(request->app)->stiffness.now.flags;

@@ -119,8 +119,8 @@ static int32_t store_upload(request_t *request, uint32_t crc)
     return within == BRACE_OK ? (int32_t)brace_app_parameters_commit(request->app, &set) : within;
 }
 
-/* Begins to store the entries that were written one by one. A refusal tells the number of the one at fault.
- *   crc: brace_parameters_crc of the whole set; 0: not told */
+/* Begins to store the entries that were written one by one. A refusal reports the number of the one at fault.
+ *   crc: brace_parameters_crc of the whole set; 0: not sent */
 static int32_t store_staged(request_t *request, uint32_t crc)
 {
     brace_app_t *app = request->app;

@@ -103,12 +103,12 @@ static uint32_t storing(const brace_app_t *app)
     return brace_app_is_storing(app) ? 1u : outcome;
 }
 
-void modbus_command_tell(const modbus_server_t *server, const brace_app_t *app, brace_commands_t *told)
+void modbus_command_report(const modbus_server_t *server, const brace_app_t *app, brace_commands_t *reported)
 {
-    *told = server->written;
-    told->set_mode = brace_app_mode(app);
-    told->commit = told->commit_crc = told->rollback = storing(app);
-    told->clear_faults = brace_app_faults(app);
-    told->let_go = told->stop = told->end_test = 0;
-    told->life_heard = told->life_mac = told->seal_counter = told->seal_mac = 0;
+    *reported = server->written;
+    reported->set_mode = brace_app_mode(app);
+    reported->commit = reported->commit_crc = reported->rollback = storing(app);
+    reported->clear_faults = brace_app_faults(app);
+    reported->let_go = reported->stop = reported->end_test = 0;
+    reported->life_heard = reported->life_mac = reported->seal_counter = reported->seal_mac = 0;
 }

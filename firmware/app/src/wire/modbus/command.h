@@ -26,6 +26,6 @@ request_t modbus_request(const modbus_server_t *server, const wire_tick_t *tick)
 /* What every command has come to. set_mode: the mode; commit and rollback: 1 while a set is being stored, 0 once it is
  * in force, else 256 less brace_store_failure_t; clear_faults: the faults; take_up: the one that began last; let_go: 0;
  * questions: what was answered last. At most 150 instructions. */
-void modbus_command_tell(const modbus_server_t *server, const brace_app_t *app, brace_commands_t *told);
+void modbus_command_report(const modbus_server_t *server, const brace_app_t *app, brace_commands_t *reported);
 
 #endif

@@ -182,8 +182,8 @@ static bool is_for_us(const modbus_link_t *link, modbus_server_t *server)
     return true;
 }
 
-/* What tells a frame from others of its length: its check, its function and the byte behind that. The check alone is the
- * same for one request in 65,536. */
+/* What distinguishes a frame from others of its length: its check, its function and the byte behind that. The check
+ * alone is the same for one request in 65,536. */
 static uint32_t mark_of(const modbus_link_t *link)
 {
     return get_16(link->bytes + ADDRESS_BYTES) << 16 | get_16(link->bytes + link->count - CRC_BYTES);

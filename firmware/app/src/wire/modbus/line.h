@@ -24,7 +24,7 @@ typedef struct {
     uint32_t bytes_per_ms; /* at most, that the line carries */
     modbus_echo_t echo;
     uint16_t answer_bytes; /* of the answer that left last; 0: another frame has come since */
-    uint32_t answer_mark;  /* what tells it from others of its length */
+    uint32_t answer_mark;  /* what distinguishes it from others of its length */
     modbus_half_t half;    /* of a value */
     uint16_t sound;        /* so many bytes were a sound frame in a tick in which none came; 0: none are */
     uint16_t looked;       /* through so many bytes for a stop */

@@ -8,15 +8,15 @@
 enum { READ_MOST = 125 /* registers */ };
 
 /* Where an area's values lie.
- *   told: room for those that are made when they are asked for */
+ *   commands: room for those that are made when they are asked for */
 static const uint8_t *values_of(const modbus_server_t *server, const wire_tick_t *tick, registers_area_t area,
-                                brace_commands_t *told)
+                                brace_commands_t *commands)
 {
     switch (area) {
     case REGISTERS_MEASURED: return (const uint8_t *)tick->measured;
     case REGISTERS_ANSWERED: return (const uint8_t *)&server->answered;
     case REGISTERS_PARAMETERS: return (const uint8_t *)brace_app_parameters_staged(tick->app);
-    default: modbus_command_tell(server, tick->app, told); return (const uint8_t *)told;
+    default: modbus_command_report(server, tick->app, commands); return (const uint8_t *)commands;
     }
 }
 
@@ -34,7 +34,7 @@ static uint32_t value_at(const uint8_t *values, registers_area_t area, uint32_t 
 
 /* Whole values, from one place on. Only parameters are looked up one by one, which costs twice as much.
  *   count: at most READ_MOST / 2 */
-static void tell_values(const uint8_t *values, registers_area_t area, uint32_t place, uint32_t count, uint8_t *bytes)
+static void put_values(const uint8_t *values, registers_area_t area, uint32_t place, uint32_t count, uint8_t *bytes)
 {
     if (area == REGISTERS_PARAMETERS) {
         for (uint32_t i = 0; i < count; i++) {
@@ -48,7 +48,7 @@ static void tell_values(const uint8_t *values, registers_area_t area, uint32_t p
 }
 
 /* Registers from the block's first on. One register of a value may be asked for alone. */
-static void tell(const uint8_t *values, const registers_block_t *block, uint32_t count, uint8_t *bytes)
+static void put_registers(const uint8_t *values, const registers_block_t *block, uint32_t count, uint8_t *bytes)
 {
     uint32_t at = block->first;
     const uint32_t end = at + count;
@@ -58,7 +58,7 @@ static void tell(const uint8_t *values, const registers_block_t *block, uint32_t
         at++;
     }
     const uint32_t whole = (end - at) / 2u;
-    tell_values(values, block->area, at / 2u, whole, bytes);
+    put_values(values, block->area, at / 2u, whole, bytes);
     if (at + 2u * whole < end) {
         put_16(bytes + 4u * whole, value_at(values, block->area, end / 2u) >> 16);
     }
@@ -68,7 +68,7 @@ modbus_exception_t modbus_read(const modbus_server_t *server, const wire_tick_t 
                                uint32_t *answer)
 {
     registers_block_t block;
-    brace_commands_t told;
+    brace_commands_t commands;
     if (length != 5u) {
         return MODBUS_E_VALUE;
     }
@@ -80,7 +80,7 @@ modbus_exception_t modbus_read(const modbus_server_t *server, const wire_tick_t 
         return MODBUS_E_ADDRESS;
     }
     pdu[1] = (uint8_t)(2u * count);
-    tell(values_of(server, tick, block.area, &told), &block, count, pdu + 2);
+    put_registers(values_of(server, tick, block.area, &commands), &block, count, pdu + 2);
     *answer = 2u + 2u * count;
     return MODBUS_FINE;
 }

@@ -6,7 +6,7 @@
 #include "wire/modbus/server.h"
 #include "wire/wire.h"
 
-/* Tells up to 125 registers; the answer takes the request's place. What is measured is of one snapshot, because all of
+/* Reads up to 125 registers; the answer takes the request's place. What is measured is of one snapshot, because all of
  * it comes from the tick's own block.
  *   pdu: room for MODBUS_PDU_BYTES
  *   answer (out): its length [bytes]; untouched when refused

@@ -4,7 +4,7 @@ modbus_exception_t modbus_refusal_of(int32_t status)
 {
     switch (status) {
     case BRACE_OK:
-    case ANSWER_LATER: return MODBUS_FINE; /* what has begun is told by its register */
+    case ANSWER_LATER: return MODBUS_FINE; /* its register reports what has begun */
     case BRACE_E_MODE: return MODBUS_E_FUNCTION;
     case BRACE_E_CHECKSUM:
     case BRACE_E_RANGE:

@@ -7,7 +7,7 @@
 #include "wire/modbus/pdu.h"
 
 enum { PROTOCOL_AT = 2, LENGTH_AT = 4, UNIT_AT = 6, PDU_AT = 7, LEAST_BYTES = PDU_AT + 1 };
-enum { LEAST_LENGTH = 2, MOST_LENGTH = MODBUS_PDU_BYTES + 1 }; /* as the header tells it */
+enum { LEAST_LENGTH = 2, MOST_LENGTH = MODBUS_PDU_BYTES + 1 }; /* as the header states it */
 enum { ANY_UNIT = 0, DEVICE_ITSELF = 255, NOBODY = MODBUS_CONNECTIONS };
 
 #define PATIENCE_US 1000000u /* the rest of a request may be so long on its way */
@@ -32,7 +32,7 @@ static bool is_modbus(const modbus_link_t *link)
     return get_16(link->bytes + PROTOCOL_AT) == 0u && length >= LEAST_LENGTH && length <= MOST_LENGTH;
 }
 
-/* What is no Modbus tells no length: it is thrown away until nothing more comes. */
+/* What is no Modbus states no length: it is thrown away until nothing more comes. */
 static void skip(modbus_link_t *link, modbus_server_t *server, const wire_tick_t *tick)
 {
     link->count = 0;

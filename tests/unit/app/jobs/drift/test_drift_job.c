@@ -114,7 +114,7 @@ static void test_a_start_goes_on_from_the_record_and_knows_it(void)
     TEST_ASSERT_EQUAL(BRACE_DRIFT_WATCHING, job.drift.state);
     TEST_ASSERT_EQUAL(5000, job.drift.steps);
     TEST_ASSERT_EQUAL_FLOAT(7.0f, job.drift.evidence[1]);
-    TEST_ASSERT_TRUE(drift_job_work(&job, &inputs)); /* tells it */
+    TEST_ASSERT_TRUE(drift_job_work(&job, &inputs)); /* reports it */
     TEST_ASSERT_EQUAL(BRACE_DRIFT_WATCHING, job.report.state);
     TEST_ASSERT_FALSE(is_kept());
     job.drift.evidence[1] = 11.5f;
@@ -125,14 +125,14 @@ static void test_a_start_goes_on_from_the_record_and_knows_it(void)
     TEST_ASSERT_EQUAL(0, job.drift.steps);
 }
 
-/* When the set in force is another, what was told of the one before goes. */
+/* When the set in force is another, what was reported of the one before goes. */
 static void test_a_report_is_of_the_set_in_force(void)
 {
     job.report = (brace_drift_report_t){.state = BRACE_DRIFT_DRIFTED, .evidence = 30.0f};
     job.drift.state = BRACE_DRIFT_DRIFTED;
     TEST_ASSERT_TRUE(drift_job_alarms(&job));
     drift_job_configure(&job, true);
-    work(3); /* learns, opens, tells */
+    work(3); /* learns, opens, reports */
     TEST_ASSERT_FALSE(drift_job_alarms(&job));
     TEST_ASSERT_EQUAL(BRACE_DRIFT_LEARNING, job.report.state);
     TEST_ASSERT_EQUAL_FLOAT(0.0f, job.report.evidence);
@@ -177,7 +177,7 @@ static float widest_after(float dx_mm, float dz_mm)
     return job.widest.dx_mm + job.widest.dz_mm;
 }
 
-/* What readings at a posture can show is told of the one displaced furthest, along whichever axis. */
+/* What readings at a posture can show is found from the one displaced furthest, along whichever axis. */
 static void test_the_widest_reading_of_a_posture(void)
 {
     TEST_ASSERT_EQUAL_FLOAT(1.0f, widest_after(1.0f, 0.0f));
@@ -215,7 +215,7 @@ static void test_when_it_may_write(void)
 
 /* The job reports a memory that refuses, and does not read it again until something happens. Only a set that lies in a
  * slot has a journal. */
-static void test_a_memory_that_fails_is_told(void)
+static void test_a_memory_that_fails_is_reported(void)
 {
     job.drift.state = BRACE_DRIFT_WATCHING;
     job.looks = true;
@@ -252,6 +252,6 @@ int main(void)
     RUN_TEST(test_each_set_has_its_own_records);
     RUN_TEST(test_the_widest_reading_of_a_posture);
     RUN_TEST(test_when_it_may_write);
-    RUN_TEST(test_a_memory_that_fails_is_told);
+    RUN_TEST(test_a_memory_that_fails_is_reported);
     return UNITY_END();
 }

@@ -1,4 +1,4 @@
-/* What a loading test tells when it cannot be what was asked for: the limb folds or straightens meanwhile, play is
+/* What a loading test reports when it cannot be what was asked for: the limb folds or straightens meanwhile, play is
  * lost, the force of the ground is no longer known, or nothing is displaced. */
 #include "loading_bench.h"
 
@@ -27,7 +27,7 @@ static void stands_as_before(brace_loading_outcome_t wanted)
 
 /* --- a load near what folds the limb --------------------------------------------------------------------------- */
 
-/* Joints that stand, and tell a torque with some noise. */
+/* Joints that stand, and report a torque with some noise. */
 static void stand_noisily(void *user, brace_fake_t *board, int32_t joint)
 {
     (void)user;
@@ -176,8 +176,8 @@ static void test_play_that_opens_in_a_test_ends_it(void)
     TEST_ASSERT_EQUAL(BRACE_LOADING_E_LOST, result()->outcome);
 }
 
-/* The joints of a nearly straight limb cannot tell the force. When the sensor at its tip falls silent, the loading test
- * has nothing to measure, and ends. */
+/* The joints of a nearly straight limb cannot measure the force. When the sensor at its tip falls silent, the loading
+ * test has nothing to measure, and ends. */
 static void test_a_sensor_that_falls_silent_on_a_straight_limb_ends_the_test(void)
 {
     brace_parameters_t p = bench_parameters();
@@ -202,7 +202,7 @@ static void test_a_sensor_that_falls_silent_on_a_straight_limb_ends_the_test(voi
 
 /* --- nothing to judge by ----------------------------------------------------------------------------------------- */
 
-/* Steps below what an encoder tells, of motors that do not follow: no displacement, and so no slope. */
+/* Steps below what an encoder resolves, of motors that do not follow: no displacement, and so no slope. */
 static void test_motors_that_displace_nothing_give_no_slope(void)
 {
     brace_parameters_t p = bench_parameters();

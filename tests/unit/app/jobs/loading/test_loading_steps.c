@@ -294,7 +294,7 @@ static void test_commanded_steps_wait_for_no_motor(void)
     ASSERT_CLOSE(0.0, loading_offset_rad(&test, BRACE_FEMUR), 0.0);
 }
 
-/* A hundredth of a step of the joint that goes further, and what its encoder can tell apart. */
+/* A hundredth of a step of the joint that goes further, and what its encoder can resolve. */
 static void test_how_near_a_motor_has_to_come(void)
 {
     for (int axis = 0; axis < 2; axis++) {

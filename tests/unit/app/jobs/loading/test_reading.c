@@ -71,12 +71,12 @@ static void test_the_first_reading_is_what_all_counts_from(void)
     TEST_ASSERT_EQUAL(1, test.result.rows);
     brace_row_t row;
     TEST_ASSERT_EQUAL(BRACE_OK, brace_recorder_row(&recorder, 0, &row));
-    const float told[] = {row.run,       row.config, row.axis,  row.rep,  row.step, row.t_s,        row.temp_degc,
+    const float reported[] = {row.run,       row.config, row.axis,  row.rep,  row.step, row.t_s,        row.temp_degc,
                           row.dx_mm,     row.dz_mm,  row.fx_n,  row.fz_n, row.theta1_rad, row.theta2_rad,
                           row.enc1_rad,  row.enc2_rad};
     const double wanted[] = {3, 4, BRACE_AXIS_Z, 5, 0, 0.25, 32.0, 0.0, 0.0, 5.0, 8.5, 1.06, 1.15, 0.0, 0.0};
     for (int i = 0; i < 15; i++) {
-        ASSERT_CLOSE(wanted[i], told[i], 1e-5);
+        ASSERT_CLOSE(wanted[i], reported[i], 1e-5);
     }
     snapshot.k_is_valid = false; /* nothing to compare with */
     reading_begin(&test);
@@ -111,7 +111,7 @@ static void a_later_reading(brace_loading_source_t source, double femur_rad, dou
     ASSERT_CLOSE(0.001, row.enc1_rad, 1e-6);  /* counter-clockwise, from the preload on */
     ASSERT_CLOSE(-0.0025, row.enc2_rad, 1e-6); /* a positive one opens the knee */
     TEST_ASSERT_EQUAL(2, row.step);
-    ASSERT_CLOSE(30.0, test.result.temp_degc, 1e-5); /* the result tells the preload point's */
+    ASSERT_CLOSE(30.0, test.result.temp_degc, 1e-5); /* the result has the preload point's */
     ASSERT_CLOSE(5.0, test.result.preload_x_n, 1e-6);
 }
 
@@ -135,7 +135,7 @@ static void test_without_a_sample_there_is_no_reading(void)
     TEST_ASSERT_EQUAL(0, recorder.count);
 }
 
-/* One encoder cannot tell what the gear gives way by: neither joint takes the other's for its own. */
+/* One encoder cannot measure what the gear gives way by: neither joint takes the other's for its own. */
 static void test_a_joint_of_one_encoder_has_no_deflection(void)
 {
     for (int i = 0; i < 2; i++) {
@@ -186,10 +186,10 @@ static void test_the_drift_check_gets_each_number(void)
     TEST_ASSERT_TRUE(r.is_there);
     TEST_ASSERT_TRUE(r.is_fit);
     TEST_ASSERT_EQUAL_FLOAT(7.0f, r.model.k_xx_n_per_mm);
-    const float told[] = {r.reading.theta1_rad, r.reading.theta2_rad, r.reading.dx_mm,      r.reading.dz_mm,
+    const float reported[] = {r.reading.theta1_rad, r.reading.theta2_rad, r.reading.dx_mm,      r.reading.dz_mm,
                           r.reading.fx_n,       r.reading.fz_n,       r.reading.warmer_degc};
     const float wanted[] = {1.1f, 1.2f, 0.3f, 0.4f, 5.0f, 6.0f, 29.0f - reference_degc};
-    TEST_ASSERT_EQUAL_FLOAT_ARRAY(wanted, told, 7);
+    TEST_ASSERT_EQUAL_FLOAT_ARRAY(wanted, reported, 7);
 }
 
 /* The drift check's K is that of joints at the reference temperature: under the preload where a load is counted, else
@@ -234,8 +234,8 @@ static void test_the_drift_check_s_K(void)
     TEST_ASSERT_EQUAL_FLOAT(77.0f, test.at_reference.k_xx_n_per_mm);
 }
 
-/* A thermometer that is none, or that tells more than the drift check takes (brace/drift_types.h: 200 degrees to either
- * side), says that it is as warm as the reference. */
+/* A thermometer that is none, or that reports more than the drift check takes (brace/drift_types.h: 200 degrees to
+ * either side), says that it is as warm as the reference. */
 static void test_a_temperature_that_is_none_counts_as_the_reference(void)
 {
     const float reference_degc = inputs.parameters->slow.reference_degc;

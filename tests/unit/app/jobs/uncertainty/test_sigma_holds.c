@@ -67,12 +67,12 @@ static void expect_near(float expected, float sigma, float largest)
 
 static void expect_of_now(void)
 {
-    const brace_stiffness_sigma_t of_now = sigma_of_now(), *told = &now()->sigma;
-    expect_near(of_now.k_xx_n_per_mm, told->k_xx_n_per_mm, of_now.lambda_max_n_per_mm);
-    expect_near(of_now.k_xz_n_per_mm, told->k_xz_n_per_mm, of_now.lambda_max_n_per_mm);
-    expect_near(of_now.k_zz_n_per_mm, told->k_zz_n_per_mm, of_now.lambda_max_n_per_mm);
-    expect_near(of_now.lambda_min_n_per_mm, told->lambda_min_n_per_mm, 0.0f);
-    expect_near(of_now.lambda_max_n_per_mm, told->lambda_max_n_per_mm, 0.0f);
+    const brace_stiffness_sigma_t of_now = sigma_of_now(), *reported = &now()->sigma;
+    expect_near(of_now.k_xx_n_per_mm, reported->k_xx_n_per_mm, of_now.lambda_max_n_per_mm);
+    expect_near(of_now.k_xz_n_per_mm, reported->k_xz_n_per_mm, of_now.lambda_max_n_per_mm);
+    expect_near(of_now.k_zz_n_per_mm, reported->k_zz_n_per_mm, of_now.lambda_max_n_per_mm);
+    expect_near(of_now.lambda_min_n_per_mm, reported->lambda_min_n_per_mm, 0.0f);
+    expect_near(of_now.lambda_max_n_per_mm, reported->lambda_max_n_per_mm, 0.0f);
 }
 
 /* Both joints turn to and fro at such a speed. returns the share of the ticks in which sigma is known */
@@ -166,18 +166,18 @@ static void test_other_parameters_have_another_sigma(void)
     TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_enter(&app));
     parameters.limb.uncertainty.compliance_rel = 0.25f;
     TEST_ASSERT_EQUAL(BRACE_OK, brace_app_parameters_commit(&app, &parameters));
-    bool was_told = false;
+    bool was_reported = false;
     for (int i = 0; i < 300; i++) {
         ticks(1);
         if (now()->parameter_crc == brace_parameters_crc(&parameters) && now()->sigma_is_known) {
             expect_of_now();
-            was_told = true;
+            was_reported = true;
         }
         if (!brace_app_is_storing(&app) && now()->mode == BRACE_MODE_CONFIGURATION) {
             (void)brace_app_configuration_leave(&app);
         }
     }
-    TEST_ASSERT_TRUE(was_told);
+    TEST_ASSERT_TRUE(was_reported);
 }
 
 /* Of a joint whose flank is lost, the angle is less known: sigma of before is over in the same tick. */

@@ -1,4 +1,5 @@
-/* Answers as a whole, whichever wire they go by: every member is filled, a refusal tells its detail and touches nothing. */
+/* Answers as a whole, whichever wire they go by: every member is filled, a refusal reports its detail and touches
+ * nothing. */
 #include "wire/answers/answer.h"
 
 #include <string.h>
@@ -29,7 +30,7 @@ void setUp(void)
 
 void tearDown(void) {}
 
-/* Puts a request, as a port does. returns its status; answer keeps a pattern wherever nothing was told */
+/* Puts a request, as a port does. returns its status; answer keeps a pattern wherever nothing was answered */
 static int32_t put(uint32_t code)
 {
     static const uint8_t bytes[8];
@@ -59,10 +60,10 @@ static void takes(uint32_t code)
 /* Of what waits. */
 static uint32_t begin_now(void)
 {
-    brace_session_report_t told;
-    brace_app_session(&app, &told);
-    TEST_ASSERT_TRUE(told.has_begin);
-    return told.begin;
+    brace_session_report_t reported;
+    brace_app_session(&app, &reported);
+    TEST_ASSERT_TRUE(reported.has_begin);
+    return reported.begin;
 }
 
 static void to_configuration(void)
@@ -148,7 +149,7 @@ static void test_a_loading_test_from_its_start_to_its_rows(void)
     refuses(BRACE_E_MODE, BRACE_MODE_MONITOR, BRACE_REQUEST_LOADING_TEST_STOP);
 }
 
-/* The motor that pulls harder bounds a test; each drive is told its own bound beside. */
+/* The motor that pulls harder bounds a test; each drive gets its own bound beside. */
 static void test_the_torque_of_a_test_is_the_stronger_motor_s(void)
 {
     for (int i = 0; i < 2; i++) {
@@ -165,14 +166,15 @@ static void test_the_torque_of_a_test_is_the_stronger_motor_s(void)
     }
 }
 
-/* The items are the dictionary's entries in their order, as measured.c tells them. */
+/* The items are the dictionary's entries in their order, as measured.c reports them. */
 static void test_each_item_of_a_loading_test_s_result(void)
 {
     run(&along_x);
     TEST_ASSERT_EQUAL(BRACE_LOADING_DONE, result()->outcome);
-    const brace_measured_t *told = &app.wires.measured;
-    const float wanted[] = {told->loading_k_x_n_per_mm, told->loading_k_z_n_per_mm, told->loading_ratio_k_x_n_per_mm,
-                            told->loading_ratio_k_z_n_per_mm, told->loading_score_x, told->loading_score_z};
+    const brace_measured_t *reported = &app.wires.measured;
+    const float wanted[] = {reported->loading_k_x_n_per_mm, reported->loading_k_z_n_per_mm,
+                            reported->loading_ratio_k_x_n_per_mm, reported->loading_ratio_k_z_n_per_mm,
+                            reported->loading_score_x, reported->loading_score_z};
     const uint32_t first = (uint32_t)(offsetof(brace_measured_t, loading_outcome) / 4u);
     const uint32_t at = (uint32_t)(offsetof(brace_measured_t, loading_k_x_n_per_mm) / 4u) - first;
     for (uint32_t i = 0; i < 2u; i++) {
@@ -198,7 +200,7 @@ static void test_each_item_of_a_loading_test_s_result(void)
     refuses(BRACE_E_RANGE, items, BRACE_REQUEST_LOADING_TEST_RESULT);
 }
 
-static void test_faults_are_cleared_and_what_is_left_is_told(void)
+static void test_faults_are_cleared_and_what_is_left_is_reported(void)
 {
     asked.clear = (brace_clear_request_t){.faults = BRACE_FAULT_CRASHED};
     app.controller.has_crashed = true;
@@ -221,10 +223,10 @@ static void test_each_number_of_a_drift(void)
     m->drift_since_readings = 8, m->drift_readings = 9;
     takes(BRACE_REQUEST_DRIFT);
     const brace_drift_answer_t *a = &answer.drift;
-    const float told[] = {(float)a->state, (float)a->cause, (float)a->could_be, (float)a->next_step, a->evidence,
+    const float reported[] = {(float)a->state, (float)a->cause, (float)a->could_be, (float)a->next_step, a->evidence,
                           a->loss_ratio, a->loss_sigma_ratio, (float)a->since_readings, (float)a->readings};
     for (int i = 0; i < 9; i++) {
-        TEST_ASSERT_EQUAL_FLOAT(1.0f + (float)i, told[i]);
+        TEST_ASSERT_EQUAL_FLOAT(1.0f + (float)i, reported[i]);
     }
 }
 
@@ -263,23 +265,23 @@ static void test_play_and_its_take_up(void)
 /* On a bench the whole number comes back as the check. What the owner is refused brings the number of now. */
 static void test_a_sign_of_life(void)
 {
-    brace_session_report_t told;
+    brace_session_report_t reported;
     brace_parameters_t p = bench_parameters();
     p.limb.joint[BRACE_TIBIA].gap_rad = 0.005f;
     stand(&p);
     asked.take_up = (brace_take_up_request_t){.joint = BRACE_TIBIA, .flank = 1};
     takes(BRACE_REQUEST_TAKE_UP);
-    brace_app_session(&app, &told);
-    asked.sign_of_life = (brace_sign_of_life_request_t){.heard = told.number & 0xffffu, .check = told.number};
+    brace_app_session(&app, &reported);
+    asked.sign_of_life = (brace_sign_of_life_request_t){.heard = reported.number & 0xffffu, .check = reported.number};
     takes(BRACE_REQUEST_SIGN_OF_LIFE);
     TEST_ASSERT_EQUAL(BRACE_OWNER_CAN, answer.sign_of_life.owner);
     TEST_ASSERT_EQUAL(BRACE_SETTING_BENCH, answer.sign_of_life.setting);
-    TEST_ASSERT_EQUAL_HEX32(told.number, answer.sign_of_life.number);
+    TEST_ASSERT_EQUAL_HEX32(reported.number, answer.sign_of_life.number);
     ticks(30);
     brace_session_report_t later;
     brace_app_session(&app, &later);
-    TEST_ASSERT_TRUE(later.number != told.number);
-    asked.sign_of_life.check = told.begin;
+    TEST_ASSERT_TRUE(later.number != reported.number);
+    asked.sign_of_life.check = reported.begin;
     takes(BRACE_REQUEST_SIGN_OF_LIFE);
     TEST_ASSERT_EQUAL_HEX32(later.number, answer.sign_of_life.number);
     ticks(2);
@@ -337,7 +339,7 @@ static void test_an_entry_that_is_none_is_no_command(void)
     refuses(BRACE_E_MODE, now()->mode, BRACE_REQUEST_WRITE_ENTRY); /* no test runs */
 }
 
-/* On a bench, who asks or tells becomes nobody's owner; who commands does. */
+/* On a bench, who asks or informs becomes nobody's owner; who commands does. */
 static void test_a_question_owns_nothing(void)
 {
     takes(BRACE_REQUEST_IDENTIFY);
@@ -467,7 +469,7 @@ static void test_what_the_K_of_now_means_at_the_contact(void)
 
 /* ---------------------------------------------------------------------------------------- parameters -- */
 
-static void test_modes_are_told_and_refused(void)
+static void test_modes_are_reported_and_refused(void)
 {
     asked.set_mode = (brace_set_mode_request_t){.mode = BRACE_MODE_CONFIGURATION, .key = 0xc0df};
     refuses(BRACE_REFUSED_KEY, BRACE_MODE_MONITOR, BRACE_REQUEST_SET_MODE);
@@ -646,8 +648,8 @@ static void test_what_is_no_block_is_refused(void)
     }
 }
 
-/* The board's ceiling holds for a whole block and for what is staged one by one; the refusal tells which entry. */
-static void test_the_board_s_ceiling_refuses_a_block_and_tells_which_entry(void)
+/* The board's ceiling holds for a whole block and for what is staged one by one; the refusal reports which entry. */
+static void test_the_board_s_ceiling_refuses_a_block_and_reports_which_entry(void)
 {
     static const brace_hal_ceiling_t ceiling[BRACE_LINK_COUNT] = {
         {.torque_most_n_mm = 2e4f, .angle_least_rad = -2.5f, .angle_most_rad = 3.5f, .speed_most_rad_per_s = 5.0f},
@@ -708,7 +710,7 @@ static void test_a_set_that_is_stored_answers_with_what_is_in_force(void)
     TEST_ASSERT_EQUAL(now()->parameter_sequence, stored.sequence);
     TEST_ASSERT_EQUAL(BRACE_SETTING_BENCH, stored.setting);
     TEST_ASSERT_EQUAL_FLOAT(190.0f, brace_app_parameters(&app)->limb.femur_mm);
-    upload(&p); /* at most one in ten seconds; how long to wait is told */
+    upload(&p); /* at most one in ten seconds; the answer says how long to wait */
     const int32_t status = put(BRACE_REQUEST_COMMIT);
     TEST_ASSERT_EQUAL(BRACE_REFUSED_EARLY, status);
     TEST_ASSERT_TRUE(request.detail > 5000u && request.detail <= 10000u);
@@ -758,7 +760,7 @@ int main(void)
     RUN_TEST(test_a_loading_test_from_its_start_to_its_rows);
     RUN_TEST(test_the_torque_of_a_test_is_the_stronger_motor_s);
     RUN_TEST(test_each_item_of_a_loading_test_s_result);
-    RUN_TEST(test_faults_are_cleared_and_what_is_left_is_told);
+    RUN_TEST(test_faults_are_cleared_and_what_is_left_is_reported);
     RUN_TEST(test_each_number_of_a_drift);
     RUN_TEST(test_play_and_its_take_up);
     RUN_TEST(test_a_sign_of_life);
@@ -771,14 +773,14 @@ int main(void)
     RUN_TEST(test_both_knees_under_a_load);
     RUN_TEST(test_what_has_no_K_says_what_the_K_of_now_is_worth);
     RUN_TEST(test_what_the_K_of_now_means_at_the_contact);
-    RUN_TEST(test_modes_are_told_and_refused);
+    RUN_TEST(test_modes_are_reported_and_refused);
     RUN_TEST(test_configuration_leads_back_alone);
     RUN_TEST(test_entries_are_staged_and_read);
     RUN_TEST(test_what_no_limb_has_is_refused);
     RUN_TEST(test_an_upload_needs_its_mode_its_size_and_its_order);
     RUN_TEST(test_a_block_of_another_dictionary_is_refused);
     RUN_TEST(test_what_is_no_block_is_refused);
-    RUN_TEST(test_the_board_s_ceiling_refuses_a_block_and_tells_which_entry);
+    RUN_TEST(test_the_board_s_ceiling_refuses_a_block_and_reports_which_entry);
     RUN_TEST(test_a_set_that_the_store_refuses_names_its_member);
     RUN_TEST(test_a_set_that_is_stored_answers_with_what_is_in_force);
     RUN_TEST(test_a_download_is_the_block);

@@ -25,13 +25,13 @@ void tearDown(void) {}
 static brace_can_emergency_t emergency(void)
 {
     brace_can_frame_t frame;
-    brace_can_emergency_t told = {0};
+    brace_can_emergency_t reported = {0};
     TEST_ASSERT_TRUE(announce_next(&announce, &tick, &frame));
     TEST_ASSERT_EQUAL_HEX32(BRACE_CAN_ID_EMERGENCY, frame.id);
     TEST_ASSERT_EQUAL(8, frame.length);
     TEST_ASSERT_FALSE(frame.fd);
-    brace_can_unpack_emergency(frame.data, &told);
-    return told;
+    brace_can_unpack_emergency(frame.data, &reported);
+    return reported;
 }
 
 static bool is_silent(void)
@@ -41,7 +41,7 @@ static bool is_silent(void)
 }
 
 /* Each fault has a code of its own; of several new ones the lowest is named; none new: 0x1000; none at all: 0. */
-static void test_every_change_of_the_faults_is_told_once(void)
+static void test_every_change_of_the_faults_is_reported_once(void)
 {
     uint32_t seen[BRACE_FAULT_COUNT];
     for (uint32_t bit = 0; bit < (uint32_t)BRACE_FAULT_COUNT; bit++) {
@@ -75,17 +75,17 @@ static void test_every_change_of_the_faults_is_told_once(void)
     TEST_ASSERT_GREATER_THAN(BRACE_FAULT_COUNT / 2, apart);
 }
 
-/* Each heartbeat has the condition behind it, which tells all faults that there are. */
+/* Each heartbeat has the condition behind it, which lists all faults that there are. */
 static brace_can_condition_t condition(void)
 {
     brace_can_frame_t frame;
-    brace_can_condition_t told;
+    brace_can_condition_t reported;
     TEST_ASSERT_TRUE(announce_next(&announce, &tick, &frame));
     TEST_ASSERT_EQUAL_HEX32(BRACE_CAN_ID_DETAILS, frame.id);
     TEST_ASSERT_EQUAL(8, frame.length);
-    brace_can_unpack_condition(frame.data, &told);
+    brace_can_unpack_condition(frame.data, &reported);
     announce_sent(&announce, &tick, BRACE_CAN_ID_DETAILS);
-    return told;
+    return reported;
 }
 
 static void test_a_heart_beats_at_its_rate(void)
@@ -103,7 +103,7 @@ static void test_a_heart_beats_at_its_rate(void)
     TEST_ASSERT_TRUE(announce_next(&announce, &tick, &frame));
 }
 
-static void test_every_change_of_the_mode_is_told_once(void)
+static void test_every_change_of_the_mode_is_reported_once(void)
 {
     static const struct {
         brace_mode_t mode;
@@ -112,15 +112,15 @@ static void test_every_change_of_the_mode_is_told_once(void)
                {BRACE_MODE_TAKING_UP, 0x05}, {BRACE_MODE_LOADING_TEST, 0x05}, {BRACE_MODE_MONITOR, 0x05}};
     for (uint32_t i = 0; i < sizeof row / sizeof *row; i++) {
         brace_can_frame_t frame;
-        brace_can_heartbeat_t told;
+        brace_can_heartbeat_t reported;
         app.controller.mode.now = row[i].mode;
         TEST_ASSERT_TRUE(announce_next(&announce, &tick, &frame));
         TEST_ASSERT_EQUAL_HEX32(BRACE_CAN_ID_HEARTBEAT, frame.id);
         TEST_ASSERT_EQUAL(8, frame.length);
-        brace_can_unpack_heartbeat(frame.data, &told);
-        TEST_ASSERT_EQUAL_HEX32(row[i].state, told.state);
-        TEST_ASSERT_EQUAL(row[i].mode, told.mode);
-        TEST_ASSERT_EQUAL(BRACE_SETTING_BENCH, told.setting);
+        brace_can_unpack_heartbeat(frame.data, &reported);
+        TEST_ASSERT_EQUAL_HEX32(row[i].state, reported.state);
+        TEST_ASSERT_EQUAL(row[i].mode, reported.mode);
+        TEST_ASSERT_EQUAL(BRACE_SETTING_BENCH, reported.setting);
         announce_sent(&announce, &tick, BRACE_CAN_ID_HEARTBEAT);
         const brace_can_condition_t has = condition();
         TEST_ASSERT_EQUAL_HEX32(0, has.faults);
@@ -133,20 +133,20 @@ static void test_every_change_of_the_mode_is_told_once(void)
     (void)emergency();
     announce_sent(&announce, &tick, BRACE_CAN_ID_EMERGENCY);
     brace_can_frame_t frame;
-    brace_can_heartbeat_t told;
+    brace_can_heartbeat_t reported;
     TEST_ASSERT_TRUE(announce_next(&announce, &tick, &frame)); /* then the heartbeat, and the faults that there are */
-    brace_can_unpack_heartbeat(frame.data, &told);
-    TEST_ASSERT_EQUAL(BRACE_MODE_FAULT, told.mode);
+    brace_can_unpack_heartbeat(frame.data, &reported);
+    TEST_ASSERT_EQUAL(BRACE_MODE_FAULT, reported.mode);
     announce_sent(&announce, &tick, BRACE_CAN_ID_HEARTBEAT);
     TEST_ASSERT_EQUAL_HEX32(BRACE_FAULT_MEMORY, condition().faults);
     app.controller.faults.now = 0;
-    announce_skip(&announce, &tick); /* a channel that has just opened is not told earlier changes */
+    announce_skip(&announce, &tick); /* a channel that has just opened does not get earlier changes */
     TEST_ASSERT_TRUE(is_silent());
 }
 
 /* The emergency message of a drift names the likeliest cause. A new one goes out when the cause changes, and
  * one when the fault ends. */
-static void test_every_cause_of_a_drift_is_told_once(void)
+static void test_every_cause_of_a_drift_is_reported_once(void)
 {
     brace_drift_report_t *report = &app.controller.drift.report;
     app.controller.faults.now = BRACE_FAULT_MODEL_DRIFT | BRACE_FAULT_MEMORY;
@@ -154,14 +154,14 @@ static void test_every_cause_of_a_drift_is_told_once(void)
     uint32_t code = 0;
     for (int cause = 0; cause < (int)BRACE_DRIFT_CAUSE_COUNT; cause++) {
         report->cause = (brace_drift_cause_t)cause;
-        const brace_can_emergency_t told = emergency();
-        TEST_ASSERT_EQUAL(cause + 1, told.drift_cause);
+        const brace_can_emergency_t reported = emergency();
+        TEST_ASSERT_EQUAL(cause + 1, reported.drift_cause);
         if (cause == 0) {
             app.controller.faults.now = BRACE_FAULT_MODEL_DRIFT;
             code = emergency().error_code;
             app.controller.faults.now |= BRACE_FAULT_MEMORY;
         } else { /* of the faults, it is the drift that has changed */
-            TEST_ASSERT_EQUAL_HEX32(code, told.error_code);
+            TEST_ASSERT_EQUAL_HEX32(code, reported.error_code);
         }
         if (cause == 1) {
             announce_skip(&announce, &tick);
@@ -179,9 +179,9 @@ static void test_every_cause_of_a_drift_is_told_once(void)
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(test_every_change_of_the_faults_is_told_once);
-    RUN_TEST(test_every_cause_of_a_drift_is_told_once);
+    RUN_TEST(test_every_change_of_the_faults_is_reported_once);
+    RUN_TEST(test_every_cause_of_a_drift_is_reported_once);
     RUN_TEST(test_a_heart_beats_at_its_rate);
-    RUN_TEST(test_every_change_of_the_mode_is_told_once);
+    RUN_TEST(test_every_change_of_the_mode_is_reported_once);
     return UNITY_END();
 }

@@ -23,15 +23,15 @@ static int32_t port_setup(void *context, const brace_can_setup_t *setup)
     return setup->fd_bit_rate != 0u ? setup_status : classic_status;
 }
 
-static int32_t port_health(void *context, brace_can_health_t *told)
+static int32_t port_health(void *context, brace_can_health_t *reported)
 {
     (void)context;
     looks++;
     if (health_status != BRACE_HAL_OK) {
-        memset(told, 0xff, sizeof *told);
+        memset(reported, 0xff, sizeof *reported);
         return health_status;
     }
-    *told = health;
+    *reported = health;
     return BRACE_HAL_OK;
 }
 
@@ -185,7 +185,7 @@ static void test_a_board_without_can_is_asked_once(void)
 }
 
 /* Health is asked for every 10 ms. An answer that fails says nothing. */
-static void test_health_is_told_every_ten_milliseconds(void)
+static void test_health_is_reported_every_ten_milliseconds(void)
 {
     health.bus_off = true;
     health.frames_lost = 7;
@@ -331,7 +331,7 @@ int main(void)
     RUN_TEST(test_a_set_up_that_failed_is_tried_again);
     RUN_TEST(test_a_set_up_is_not_tried_a_microsecond_early);
     RUN_TEST(test_a_board_without_can_is_asked_once);
-    RUN_TEST(test_health_is_told_every_ten_milliseconds);
+    RUN_TEST(test_health_is_reported_every_ten_milliseconds);
     RUN_TEST(test_health_is_not_asked_for_a_microsecond_early);
     RUN_TEST(test_the_way_back_is_tried_ever_more_rarely);
     RUN_TEST(test_the_way_back_does_not_wait_for_an_even_tick);

@@ -68,7 +68,7 @@ static void asks_who(uint32_t token)
     say(line);
 }
 
-/* Who closes the channel and opens it again finds nothing of before: no answer, no news of a fault that was told to
+/* Who closes the channel and opens it again finds nothing of before: no answer, no news of a fault that was sent to
  * nobody; and whoever moved the limb by it is its owner no longer. */
 static void test_a_channel_that_is_opened_again_begins_anew(void)
 {
@@ -96,12 +96,12 @@ static void test_a_channel_that_is_opened_again_begins_anew(void)
     TEST_ASSERT_NOT_NULL(strstr(text, "t5858"));
     TEST_ASSERT_NULL(strstr(text, first));
     fake.joint[BRACE_FEMUR].not_newer = false;
-    bool is_told = false;
+    bool is_reported = false;
     for (int i = 0; i < 200; i++) {
         ticks(1);
-        is_told = strstr(heard(), "t085") != NULL || is_told;
+        is_reported = strstr(heard(), "t085") != NULL || is_reported;
     }
-    TEST_ASSERT_TRUE(is_told); /* its end, now that somebody listens */
+    TEST_ASSERT_TRUE(is_reported); /* its end, now that somebody listens */
 }
 
 static void say_request(const uint8_t data[8])
@@ -116,8 +116,8 @@ static void say_request(const uint8_t data[8])
     say(line);
 }
 
-/* A host tells a force and closes the channel. The K that the next host asks for does not count that force. */
-static void test_a_told_force_ends_with_its_channel(void)
+/* A host sends a force and closes the channel. The K that the next host asks for does not count that force. */
+static void test_a_sent_force_ends_with_its_channel(void)
 {
     char answer[16];
     uint8_t force[8], question[8];
@@ -212,7 +212,7 @@ static void test_who_closes_the_channel_owns_the_limb_no_longer(void)
     TEST_ASSERT_EQUAL(BRACE_OWNER_NONE, report.owner);
 }
 
-/* A snapshot is long: where both ports tell process data, one takes its snapshot in a tick, and both get theirs. */
+/* A snapshot is long: where both ports send process data, one takes its snapshot in a tick, and both get theirs. */
 static void test_the_two_ports_take_their_snapshots_in_different_ticks(void)
 {
     int on_bus = 0, as_text = 0;
@@ -235,7 +235,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_questions_of_a_host_that_does_not_read_wait);
     RUN_TEST(test_a_channel_that_is_opened_again_begins_anew);
-    RUN_TEST(test_a_told_force_ends_with_its_channel);
+    RUN_TEST(test_a_sent_force_ends_with_its_channel);
     RUN_TEST(test_a_commit_as_text_is_answered_as_text);
     RUN_TEST(test_who_closes_the_channel_owns_the_limb_no_longer);
     RUN_TEST(test_the_two_ports_take_their_snapshots_in_different_ticks);

@@ -27,7 +27,7 @@ static void test_how_long_each_request_is_at_least(void)
         TEST_ASSERT_EQUAL(fixed[i].least, modbus_pdu_least_length(pdu, sizeof pdu));
         TEST_ASSERT_EQUAL(fixed[i].least, modbus_pdu_least_length(pdu, 1));
     }
-    for (uint32_t bytes = 0; bytes < 250u; bytes += 4u) { /* a block tells its length in its sixth byte */
+    for (uint32_t bytes = 0; bytes < 250u; bytes += 4u) { /* a block states its length in its sixth byte */
         const uint8_t pdu[6] = {16, 0, 2, 0, (uint8_t)(bytes / 2u), (uint8_t)bytes};
         TEST_ASSERT_EQUAL(6u + bytes, modbus_pdu_least_length(pdu, 6));
         TEST_ASSERT_EQUAL(6u, modbus_pdu_least_length(pdu, 5));
@@ -80,7 +80,7 @@ static void test_the_server_says_who_it_is(void)
     TEST_ASSERT_EQUAL_HEX8(0x91, line_asks(UNIT, odd, sizeof odd).byte[0]);
 }
 
-static uint32_t told_by(uint32_t byte_of_member)
+static uint32_t reported_by(uint32_t byte_of_member)
 {
     const reply_t reply = read_asks(3, BRACE_REGISTER_COMMANDS + byte_of_member / 2u, 2);
     return value_at(&reply, 0);
@@ -89,21 +89,21 @@ static uint32_t told_by(uint32_t byte_of_member)
 /* Commands read what has come of them. */
 static void test_what_a_command_s_register_reads(void)
 {
-    TEST_ASSERT_EQUAL(BRACE_MODE_MONITOR, told_by(offsetof(brace_commands_t, set_mode)));
-    TEST_ASSERT_EQUAL(0, told_by(offsetof(brace_commands_t, clear_faults)));
-    TEST_ASSERT_EQUAL(0, told_by(offsetof(brace_commands_t, commit)));
-    TEST_ASSERT_EQUAL(0, told_by(offsetof(brace_commands_t, let_go)));
-    TEST_ASSERT_EQUAL(0, told_by(offsetof(brace_commands_t, stop)));
-    TEST_ASSERT_EQUAL(0, told_by(offsetof(brace_commands_t, life_heard)));
-    TEST_ASSERT_EQUAL(0, told_by(offsetof(brace_commands_t, seal_mac)));
+    TEST_ASSERT_EQUAL(BRACE_MODE_MONITOR, reported_by(offsetof(brace_commands_t, set_mode)));
+    TEST_ASSERT_EQUAL(0, reported_by(offsetof(brace_commands_t, clear_faults)));
+    TEST_ASSERT_EQUAL(0, reported_by(offsetof(brace_commands_t, commit)));
+    TEST_ASSERT_EQUAL(0, reported_by(offsetof(brace_commands_t, let_go)));
+    TEST_ASSERT_EQUAL(0, reported_by(offsetof(brace_commands_t, stop)));
+    TEST_ASSERT_EQUAL(0, reported_by(offsetof(brace_commands_t, life_heard)));
+    TEST_ASSERT_EQUAL(0, reported_by(offsetof(brace_commands_t, seal_mac)));
     TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_enter(&app));
     ticks(1);
-    TEST_ASSERT_EQUAL(BRACE_MODE_CONFIGURATION, told_by(offsetof(brace_commands_t, set_mode)));
+    TEST_ASSERT_EQUAL(BRACE_MODE_CONFIGURATION, reported_by(offsetof(brace_commands_t, set_mode)));
     TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_leave(&app));
     ticks(20);
     fake.joint[BRACE_FEMUR].not_newer = true;
     ticks(60);
-    TEST_ASSERT_EQUAL_HEX32(now()->faults, told_by(offsetof(brace_commands_t, clear_faults)));
+    TEST_ASSERT_EQUAL_HEX32(now()->faults, reported_by(offsetof(brace_commands_t, clear_faults)));
     TEST_ASSERT_NOT_EQUAL(0, now()->faults);
 }
 
@@ -140,8 +140,8 @@ static void test_every_counter_counts_its_own(void)
     for (uint32_t i = 0; i < sizeof codes; i++) {
         server->messages = 100, server->broken = 200, server->refused = 300;
         server->served = 400, server->unanswered = 500, server->busy = 600;
-        const uint32_t told = counted_over_tcp(codes[i]); /* the request that reads a counter may be counted too */
-        TEST_ASSERT_EQUAL(i < 6u ? 100u * (i + 1u) : 0u, told / 10u * 10u);
+        const uint32_t reported = counted_over_tcp(codes[i]); /* the request that reads a counter may be counted too */
+        TEST_ASSERT_EQUAL(i < 6u ? 100u * (i + 1u) : 0u, reported / 10u * 10u);
     }
     server->busy = 6, server->refused = 5;
     TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_enter(&app)); /* while the store works it refuses as busy */
@@ -261,13 +261,13 @@ static void test_a_take_up_that_began_reads_back(void)
     p.limb.joint[BRACE_TIBIA].gap_rad = 0.005f;
     bench_start(&p);
     ticks(50);
-    const uint32_t before = told_by(place);
+    const uint32_t before = reported_by(place);
     refused(write_value(BRACE_REGISTER_COMMANDS + place / 2u, 0x302u), 16, MODBUS_E_VALUE); /* no such flank */
-    TEST_ASSERT_EQUAL_HEX32(before, told_by(place));
+    TEST_ASSERT_EQUAL_HEX32(before, reported_by(place));
     TEST_ASSERT_EQUAL(5, write_value(BRACE_REGISTER_COMMANDS + place / 2u, tibia_positive).count);
-    TEST_ASSERT_EQUAL_HEX32(tibia_positive, told_by(place));
+    TEST_ASSERT_EQUAL_HEX32(tibia_positive, reported_by(place));
     TEST_ASSERT_EQUAL(2, write_value(BRACE_REGISTER_COMMANDS + place / 2u, 0x201u).count); /* no play there */
-    TEST_ASSERT_EQUAL_HEX32(tibia_positive, told_by(place));
+    TEST_ASSERT_EQUAL_HEX32(tibia_positive, reported_by(place));
 }
 
 /* A question puts out those that are answered in the same registers, and no others. */
@@ -310,7 +310,7 @@ static void test_questions_that_nobody_asked_read_as_not_known(void)
         for (uint32_t i = 0; i < question->count; i++) {
             uint32_t wanted;
             memcpy(&wanted, (const uint8_t *)&brace_commands_unknown + 4u * (question->first + i), 4);
-            TEST_ASSERT_EQUAL_HEX32(wanted, told_by(4u * (question->first + i)));
+            TEST_ASSERT_EQUAL_HEX32(wanted, reported_by(4u * (question->first + i)));
         }
     }
 }
