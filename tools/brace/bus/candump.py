@@ -36,14 +36,14 @@ class CandumpWriter:
         self._file.write(line_of(frame, self._interface).encode())
 
     def finish(self) -> None:
-        """Nothing is held back."""
+        """Does nothing: each frame was written when it came."""
 
 
-def tell_nobody() -> None:
+def do_nothing() -> None:
     """Does nothing: for a caller that does not count the frames that are left out."""
 
 
-def read(path: Path, passed_over: Callable[[], None] = tell_nobody) -> Iterator[Frame]:
+def read(path: Path, passed_over: Callable[[], None] = do_nothing) -> Iterator[Frame]:
     """The frames of a log, without a last line that was cut off. Calls `passed_over` once for each frame with a 29-bit
     identifier and each remote frame, which it leaves out."""
     with path.open("rb") as file:

@@ -11,7 +11,7 @@ from brace.dataset.columns import LOADING
 from brace.ground.errors import UsageError
 from brace.ground.files import DATA_LIMIT_BYTES, read_text
 
-TOLD = (*(column.name for column in LOADING[: len(COLUMNS)]), *PRELOADS)
+TEST_COLUMNS = (*(column.name for column in LOADING[: len(COLUMNS)]), *PRELOADS)
 _NEWEST = ("step_mm", "dwell_s")  # of [rig]: the newest test's
 
 
@@ -19,7 +19,7 @@ def refuse_what_would_go(folder: Path, meta: Mapping[str, object]) -> None:
     """Columns that no loading test has, and entries of meta.toml that cannot be written again."""
     header = read_text(folder / "data.csv", DATA_LIMIT_BYTES, "record").lstrip("\ufeff").split("\n", 1)[0]
     names = [name.strip().strip('"') for name in header.split(",")]
-    if lost := [name for name in names if name not in TOLD]:
+    if lost := [name for name in names if name not in TEST_COLUMNS]:
         raise UsageError(
             f"--add would delete {', '.join(lost)} from the record",
             where=str(folder / "data.csv"),

@@ -30,8 +30,8 @@ def with_motor_angles(columns: Columns, model: LimbModel) -> Columns:
     before the test included.
 
     A controller presses by moving its motors: the tip stays, and the shape that the limb would have moves away. It
-    tells (dx, dz) by the levers of the posture and the load that the run began at. The same levers give the motors'
-    angles back, at which the limb's stiffness is the reading's, and the angles tell where the unloaded tip went. Taken
+    reports (dx, dz) by the levers of the posture and the load that the run began at. The same levers give the motors'
+    angles back, at which the limb's stiffness is the reading's, and the angles show where the unloaded tip is. Taken
     as constant, or the arc as straight, they leave an error that grows with the stroke's square; taken as the straight
     links', levers of a foot that is pressed with 20 N are off by up to a third."""
     starts = run_starts(columns["run"])
@@ -94,7 +94,7 @@ def _turned(lever_mm: np.ndarray, d_mm: np.ndarray, model: LimbModel) -> np.ndar
     """The motors' turns (2 x rows) of which the controller reports (dx, dz)."""
     least = LEAST_KNEE_SINE * model.number("geometry.femur_mm") * model.number("geometry.tibia_mm")
     if abs(np.linalg.det(lever_mm)) < least:
-        return np.zeros_like(d_mm)  # nearly straight: levers hardly tell the angles; the run's own are as good
+        return np.zeros_like(d_mm)  # nearly straight: levers hardly determine the angles; the run's own are as good
     return -np.linalg.solve(lever_mm, d_mm)
 
 

@@ -32,7 +32,7 @@ def is_mcap(path: Path) -> bool:
         return path.suffix == ".mcap"
 
 
-def read(path: Path, passed_over: Callable[[], None] = candump.tell_nobody) -> Iterator[Frame]:
+def read(path: Path, passed_over: Callable[[], None] = candump.do_nothing) -> Iterator[Frame]:
     """Frames of a candump or MCAP log. Calls `passed_over` once for each frame that it leaves out (29-bit identifiers,
     remote frames)."""
     if not path.is_file():

@@ -95,8 +95,8 @@ class _NotTakenError(DeviceFaultError):
     status = 0
 
     @classmethod
-    def of(cls, told: BraceError, status: int) -> _NotTakenError:
-        error = cls(told.what, where=told.where, why=told.why, next_step=told.next_step)
+    def of(cls, rejection: BraceError, status: int) -> _NotTakenError:
+        error = cls(rejection.what, where=rejection.where, why=rejection.why, next_step=rejection.next_step)
         error.status = status
         return error
 
@@ -507,8 +507,8 @@ class ModbusController:
             )
         if code == _NOT_OURS:
             status = self.read_entry("last_refusal") - _STORE_REFUSED
-            told = error_of(what, status, 0, self.url)
-            return _NotTakenError.of(told, status) if status in (*NOT_OPEN, LATE) else told
+            rejection = error_of(what, status, 0, self.url)
+            return _NotTakenError.of(rejection, status) if status in (*NOT_OPEN, LATE) else rejection
         kind = _BusyError if code == _BUSY else DeviceFaultError
         return kind(
             f"the controller refuses {what}: {_EXCEPTIONS.get(code, 'no reason given')}",

@@ -54,7 +54,7 @@ _WAYS = {
     -64: "flash the firmware of this version (brace flash)",
     -68: "once more",
     -70: "--key FILE with the key of this controller",
-    -72: "wait until it is done; brace query --entry owner tells by which port",
+    -72: "wait until it is done; brace query --entry owner reports by which port",
     -74: "the detail is the number of the parameter (docs/limb-keys.md); the ceilings stand in the board's own file",
     -84: "brace params push FILE stores one",
     -15: "brace query shows its mode; a loading test, play being taken up or a fault stands in the way",

@@ -248,8 +248,8 @@ class Session:
     def ask_under_force(
         self, force_n: Mapping[str, Value], name: str, values: Mapping[str, Value]
     ) -> dict[str, Value]:
-        """Tells the controller a force, asks about K under it and returns the answer. Does both again when another client
-        sent its own force in between, or when an answer was lost and the controller has forgotten the force."""
+        """Sends the controller a force, asks about K under it and returns the answer. Does both again when another
+        client sent its own force in between, or when an answer was lost and the controller has forgotten the force."""
         until = time.monotonic() + CONTESTED_S
         while time.monotonic() < until:
             self._force_is_taken = False
@@ -265,7 +265,7 @@ class Session:
         raise DeviceFaultError(
             "other clients asked for K under other forces all the time",
             where=self.where,
-            why="a controller counts the force that was told last, whoever told it",
+            why="a controller counts the force that was sent last, whoever sent it",
             next_step="once more",
         )
 

@@ -119,7 +119,7 @@ class SlcanBus:
         return frames
 
     def send(self, identifier: int, data: bytes) -> None:
-        """One frame. The adapter's word for it is not waited for: the answer, if one is wanted, tells more."""
+        """One frame. The adapter's own confirmation is not waited for: an answer from the bus shows more."""
         self._answers.clear()
         self._write(b"t%03X%d%s\r" % (identifier, len(data), data.hex().upper().encode()))
 

@@ -67,7 +67,7 @@ def _is_held(entry: Callable[[str], int], where: str) -> bool:
             raise DeviceFaultError(
                 "the stop is sent, and the limb moves on",
                 where=where,
-                why=f"its mode is {mode.lower()}, and it does not tell that it is held",
+                why=f"its mode is {mode.lower()}, and it does not report that it is held",
                 next_step="take the drives' power away; then brace doctor --bus URL",
             )
         time.sleep(AGAIN_S)

@@ -39,7 +39,7 @@ LINE_EVERY_S = 10.0
 
 
 class Advance(Protocol):
-    """Told of the work done so far."""
+    """Called with the work done so far."""
 
     def __call__(self, done: int, doing: str = "") -> None: ...
 
@@ -92,8 +92,8 @@ def progress(label: str, total: int | None = None) -> Iterator[Advance]:
         yield lambda done, doing="": None
         return
     if not sys.stderr.isatty():
-        with _lines(label, total) as tell:
-            yield tell
+        with _lines(label, total) as report_lines:
+            yield report_lines
         return
     started = time.monotonic()
     bar: list[tuple[Progress, TaskID]] = []
@@ -131,16 +131,16 @@ def _lines(label: str, total: int | None) -> Iterator[Advance]:
         nonlocal doing_now, done_now
         doing_now, done_now = doing, done
 
-    def tell() -> None:
+    def report_lines() -> None:
         while not ended.wait(LINE_EVERY_S):
             what = f"{label}: {doing_now}" if doing_now else label
             share = f", {100 * done_now // total} % done" if total else ""
             say(f"{what}: {time.monotonic() - started:.0f} s so far{share}")
 
-    teller = threading.Thread(target=tell, daemon=True)
-    teller.start()
+    reporter = threading.Thread(target=report_lines, daemon=True)
+    reporter.start()
     try:
         yield advance
     finally:
         ended.set()
-        teller.join()
+        reporter.join()

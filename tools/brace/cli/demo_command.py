@@ -23,7 +23,7 @@ def add(commands: Subcommands) -> None:
         "demo", help=SUBCOMMANDS["demo"],
         description="Takes the paper's table as printed, finds its faults, identifies the limb, and draws the paper's "
                     "figures: eigenvalues over r, ellipses, the cyclic test with its zero-force shift, the choice of "
-                    "stiffness; then has a simulated controller's own loading tests tell what its model lacks, and "
+                    "stiffness; then has a simulated controller's own loading tests show what its model lacks, and "
                     "mends it. Writes pictures, table.csv, limb.toml, wire/ and facts.json into --out.")
     parser.add_argument("--out", type=common.path, default=Path("brace-demo"), metavar="DIR",
                         help="default: brace-demo")
@@ -33,15 +33,15 @@ def add(commands: Subcommands) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Executes the subcommand."""
-    from brace.demo.story import Story, tell
+    from brace.demo.story import Story, narrate
     from brace.ground.files import OutputSet, check_folder
 
     check_folder(arguments.out, ["facts.json"])
     story = Story()
     show = common.say if arguments.json else common.emit
     with common.progress("fitting the table", STEPS) as advance:
-        lines = tell(story, advance)
-        first = next(lines)  # tell() fits the table before its first line; later lines say what runs
+        lines = narrate(story, advance)
+        first = next(lines)  # narrate() fits the table before its first line; later lines say what runs
     for line in itertools.chain([first], lines):
         show(line)
     with OutputSet() as outputs:

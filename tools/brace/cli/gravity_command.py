@@ -25,7 +25,7 @@ def add(commands: Subcommands) -> None:
         description="The limb's weight pulls down, and K counts it. A robot that climbs turns: --direction says where "
         "down is now, in the limb's plane, from +x (-1.5708 where the plane stands upright), and --lean how far it "
         "leans out of it. This holds until the controller's next start; the parameters [gravity] direction_rad and "
-        "lean_rad stay as they are. Without options the command tells where the controller takes down to be.",
+        "lean_rad stay as they are. Without options the command shows where the controller takes down to be.",
         epilog="Exit codes: 0 done, 2 no direction, 4 no answer, 5 the device refuses, 6 another dictionary.",
     )
     add_bus(parser)

@@ -119,7 +119,7 @@ def run(arguments: argparse.Namespace) -> int:
         table = guess.draft(parts, arguments.kind or "")
     table = table.with_constants(arguments.set, [part.places for part in parts])
     constants.refuse_without_effect(parts, table, arguments.set)
-    table = replace(table, notes=tuple(constants.told_against_remarks(parts, table, arguments.set)))
+    table = replace(table, notes=tuple(constants.against_remarks(parts, table, arguments.set)))
     shown = words.lines(parts, table)
     if arguments.draft is not None:
         _refuse_answered(arguments.draft, mapping.to_toml(table))
@@ -137,7 +137,7 @@ def run(arguments: argparse.Namespace) -> int:
     built = build(parts, table)
     faults = _faults(built)
     _write(arguments.out, built, inputs)
-    _tell(arguments, built, faults, table)
+    _report(arguments, built, faults, table)
     return 0
 
 
@@ -275,7 +275,7 @@ def _faults(built: Built) -> Sequence[DataFault]:
     return faults
 
 
-def _tell(arguments: argparse.Namespace, built: Built, faults: Sequence[DataFault], table: MappingTable) -> None:
+def _report(arguments: argparse.Namespace, built: Built, faults: Sequence[DataFault], table: MappingTable) -> None:
     rows = len(next(iter(built.columns.values())))
     runs = len(set(built.columns["run"].tolist())) if "run" in built.columns else None
     poses = len(set(built.columns["config"].tolist())) if "config" in built.columns else None

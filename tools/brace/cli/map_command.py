@@ -107,7 +107,7 @@ def run(arguments: argparse.Namespace) -> int:
             common.emit(
                 f"backlash of the {joint}, {math.degrees(gap_rad):.3g} deg: K of this map holds once a load has "
                 "taken it up; "
-                "until then the limb is free in one direction (lambda_min 0): brace k tells K while it is open"
+                "until then the limb is free in one direction (lambda_min 0): brace k shows K while it is open"
                 + (f"; this load holds it at {100 * held[joint]:.3g} % of the postures" if joint in held else "")
             )
         if load:

@@ -112,7 +112,7 @@ def follow(arguments: argparse.Namespace, bus: Bus, watch: Watch, ended: Ended) 
             if event is not None and arguments.json:
                 common.emit(json.dumps(common.json_ready(as_json(event))))
             if isinstance(event, Emergency):
-                display.tell(emergency_line(event))
+                display.print_line(emergency_line(event))
             if not watch.nodes and now - started > _SILENCE_S:
                 break
             display.show(watch)

@@ -149,7 +149,7 @@ class Display:
         if sys.stdout is not None:
             sys.stdout.flush()
 
-    def tell(self, line: str) -> None:
+    def print_line(self, line: str) -> None:
         """A line of its own, at once."""
         if self._quiet:
             return

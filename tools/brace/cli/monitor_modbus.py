@@ -37,7 +37,7 @@ def monitor_modbus(arguments: argparse.Namespace, url: BusUrl) -> int:
                 watch.take(state, snapshot)
                 if arguments.json:
                     common.emit(json.dumps(common.json_ready(as_json(snapshot))))
-                _tell_drift(arguments, device, state, display)
+                _report_drift(arguments, device, state, display)
                 display.show(watch)
                 time.sleep(_PERIOD_S)
     finally:
@@ -46,7 +46,7 @@ def monitor_modbus(arguments: argparse.Namespace, url: BusUrl) -> int:
     return end(arguments, watch)
 
 
-def _tell_drift(arguments: argparse.Namespace, device: ModbusController, state: NodeState, display: Display) -> None:
+def _report_drift(arguments: argparse.Namespace, device: ModbusController, state: NodeState, display: Display) -> None:
     """The cause of a drift, when it comes, changes or goes."""
     from brace.bus.drift import cause_text
 
@@ -61,6 +61,6 @@ def _tell_drift(arguments: argparse.Namespace, device: ModbusController, state: 
         reported = drift.as_json() if drift is not None else {"cause": cause}
         common.emit(json.dumps(common.json_ready({"event": "drift", "node": device.node, **reported})))
     elif drift is None:
-        display.tell(f"node {device.node}: the drift has been cleared")
+        display.print_line(f"node {device.node}: the drift has been cleared")
     else:
-        display.tell(f"node {device.node}: model_drift; its likeliest cause is {cause_text(cause)}")
+        display.print_line(f"node {device.node}: model_drift; its likeliest cause is {cause_text(cause)}")

@@ -34,7 +34,7 @@ def monitor_web(arguments: argparse.Namespace, url: BusUrl) -> int:
     try:
         with ended_by_signal() as ended:
             server = Server(feed, arguments.web)
-            asyncio.run(server.run(_tell, lambda: ended.is_set() or time.monotonic() >= until))
+            asyncio.run(server.run(_say_address, lambda: ended.is_set() or time.monotonic() >= until))
     except OSError as error:
         raise UsageError(
             f"port {arguments.web} of {HOST} cannot be opened",
@@ -63,7 +63,7 @@ def models(given: list[str]) -> dict[int, LimbModel]:
     return found
 
 
-def _tell(address: str) -> None:
+def _say_address(address: str) -> None:
     common.emit(f"open {address} in a browser on this computer; Ctrl-C ends it")
     if sys.stdout is not None:
         sys.stdout.flush()

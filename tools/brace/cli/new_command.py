@@ -93,7 +93,7 @@ def run(arguments: argparse.Namespace) -> int:
     common.emit(_text(known, reported))
     for sentence in describe.guesses(known):
         common.emit(f"  {sentence}")
-    common.say(f"-> {arguments.out}; brace k --model {arguments.out} --theta1 ... --theta2 ... tells K at a posture")
+    common.say(f"-> {arguments.out}; brace k --model {arguments.out} --theta1 ... --theta2 ... shows K at a posture")
     return 0
 
 
@@ -213,7 +213,7 @@ def _text(known: Known, reported: dict[str, object]) -> str:
         f"{reported['theta2_rad']:.3g} rad: {', '.join(entries)} (one sigma: compliances may be off by {rel:.0f} %)"
         + (
             "".join(
-                f"\n  while the play of the {name} is open, K is smaller: brace k tells how much"
+                f"\n  while the play of the {name} is open, K is smaller: brace k shows how much"
                 for name in known.plays_rad
                 if known.plays_rad[name]
             )

@@ -24,7 +24,7 @@ def add(commands: Subcommands) -> None:
         description="Asks a controller: the K of now with the load that it counts, what its drift check knows and how "
         "take-ups went; K at a posture or tip position that the limb need not be in, under its weight and, with --fx "
         "--fz, a force; or any entry of the dictionary. A limb whose coxa joint "
-        "is fitted tells K in space too.",
+        "is fitted reports K in space too.",
         epilog="Exit codes: 0 a valid K (or the entry), 4 no answer, 5 K is not valid or the device refuses, "
         "6 another dictionary.",
     )

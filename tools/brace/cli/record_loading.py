@@ -142,7 +142,7 @@ def _refuse_other_limb(folder: Path, before: Mapping[str, object], now: Mapping[
             raise UsageError(
                 f"the controller has another {meaning} than when the record was begun",
                 where=str(folder),
-                why=f"{name} was {before.get(name, 'not told')}, is {now[name]}; postures of one record "
+                why=f"{name} was {before.get(name, 'not known')}, is {now[name]}; postures of one record "
                 "belong together",
                 next_step="--out another folder",
             )

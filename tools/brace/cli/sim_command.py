@@ -36,8 +36,9 @@ def add(commands: Subcommands) -> None:
         help=SUBCOMMANDS["sim"],
         description="Starts controllers over simulated limbs and says where to connect, one line a limb; with --json "
         "one JSON object a line: 'ready' with the places, 'end' with the last tick. Ctrl-C or --seconds ends it. The "
-        "controller believes --model, its parameter block; what is true is --plant. A limb in which something yields "
-        "across its plane (joint.coxa, a link's lateral compliance or torsion) has a coxa joint, and tells K in space.",
+        "controller believes --model, its parameter block; what is true is --plant. A limb in which something "
+        "yields across its plane (joint.coxa, a link's lateral compliance or torsion) has a coxa joint, and reports K "
+        "in space.",
         epilog=f"Faults: {', '.join(spec.FAULTS)}; values: current_offset in N mm, force_offset in N, tick_late in ms.",
     )
     common.add_model(parser, "what the controllers believe; and what is true, without --plant")

@@ -23,7 +23,7 @@ SUBCOMMANDS = {
     "monitor": "live K, ellipse, states, rates, age",
     "record": "a bus to a log (candump, MCAP); or a loading test to a dataset",
     "replay": "a recorded log once more: the same K, bit for bit",
-    "gravity": "tells a controller where down is, or asks it",
+    "gravity": "sets where a controller takes down to be, or shows it",
     "take-up": "takes up the backlash of joints on a controller: the limb moves",
     "let-go": "lets go of the joints whose backlash a controller has taken up: the limb moves",
     "stop": "stops every limb of a bus where it is: anybody may, without a key",

@@ -53,10 +53,10 @@ def _copies(columns: Columns, names: tuple[str, ...]) -> Iterator[DataFault]:
     _, inverse, counts = np.unique(keys, return_inverse=True, return_counts=True)
     if not (counts > 1).any():
         return
-    yield from _told(columns, names, candidates, inverse)
+    yield from _copied_runs(columns, names, candidates, inverse)
 
 
-def _told(columns: Columns, names: tuple[str, ...], rows: np.ndarray, group: np.ndarray) -> Iterator[DataFault]:
+def _copied_runs(columns: Columns, names: tuple[str, ...], rows: np.ndarray, group: np.ndarray) -> Iterator[DataFault]:
     """One fault for each run that has most of an earlier run's readings."""
     order = np.argsort(group, kind="stable")
     same = np.flatnonzero(group[order][1:] == group[order][:-1])

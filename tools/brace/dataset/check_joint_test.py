@@ -47,7 +47,7 @@ def _stuck(columns: Columns) -> Iterator[DataFault]:
 
 
 def _angle(columns: Columns) -> Iterator[DataFault]:
-    """The zero is the encoder's, so it is the range that tells; a record in radians stays far below one."""
+    """The zero is the encoder's, so the range is what shows the unit; a record in radians stays far below one."""
     angle = columns["angle_rad"]
     range_rad, worst = float(np.ptp(angle)), float(angle[int(np.argmax(np.abs(angle)))])
     if range_rad > MAX_DEFLECTION_RAD or abs(worst) > FULL_TURN_RAD:

@@ -143,7 +143,7 @@ def _from_middle(values: np.ndarray, starts: np.ndarray) -> np.ndarray:
 
 
 def _exchanged(columns: Columns) -> Iterator[DataFault]:
-    """Axis and motion disagree in every run. K is positive definite, so its determinant tells which of the two is
+    """Axis and motion disagree in every run. K is positive definite, so its determinant shows which of the two is
     wrong: exchanging the displacement columns turns its sign."""
     why = "the axis column names the direction that does not move, in every run"
     sign = _determinant_sign(columns)

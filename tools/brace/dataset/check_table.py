@@ -174,7 +174,7 @@ def _duplicates(columns: Columns) -> Iterator[DataFault]:
 
 def _asymmetry(columns: Columns, decimals: Mapping[str, int]) -> Iterator[DataFault]:
     """k_xz and k_zx are one number. Where they are not, the printed eigenvalues, or else positive definiteness and
-    the sign that the other rows have, tell which of the two is the misprint."""
+    the sign that the other rows have, show which of the two is the misprint."""
     allowed = 0.5 * 10.0 ** -decimals.get("k_xz", 0) + 0.5 * 10.0 ** -decimals.get("k_zx", 0)
     size = np.sqrt(np.abs(columns["k_xx"] * columns["k_zz"])) + np.minimum(
         np.abs(columns["k_xz"]), np.abs(columns["k_zx"])

@@ -33,7 +33,7 @@ class Story:
     facts: dict[str, object] = field(default_factory=dict)
 
 
-def tell(story: Story, advance: Advance) -> Iterator[str]:
+def narrate(story: Story, advance: Advance) -> Iterator[str]:
     """Runs the demo; yields what a person is to read, step by step."""
     table = paper_table.examine(advance)
     yield "1. The paper's Table I, as printed: what is wrong with it"
@@ -55,7 +55,7 @@ def tell(story: Story, advance: Advance) -> Iterator[str]:
     yield from _cyclic(story, load_limb(paper_table.DATA / "paper-limb.toml"))
     yield "6. Choice of stiffness for a foot on a ledge (Fig. 2) -> contact.png"
     yield from _contact(story, table.limb, table.tip_height_mm)
-    yield "7. A weight hangs on the limb: K that the controller tells, the limb's own, and K without the load [N/mm]"
+    yield "7. A weight hangs on the limb: K that the controller reports, the limb's own, and K without the load [N/mm]"
     yield from _weight(story, load_limb(paper_table.DATA / "paper-limb.toml"))
     yield "8. The loop over the wire: a controller whose model lacks something, tested, diagnosed, mended -> wire/"
     yield from _wire(story)
@@ -146,7 +146,7 @@ def _weight(story: Story, model: LimbModel) -> Iterator[str]:
     yield f"   tip bears   it sags by                    k_xx     k_xz     k_zz    off by   {posture}"
     for each in hung:
         head = f"   {each.carried_n:6.1f} N   {each.sag_mm:6.1f} mm"
-        for words, k in (("told", each.reported), ("the limb's own", each.truth), ("without load", each.unloaded)):
+        for words, k in (("reported", each.reported), ("the limb's own", each.truth), ("without load", each.unloaded)):
             off = "" if k is each.truth else f"   {each.off(k):7.3%}"
             yield f"{head:23}  {words:15}" + "".join(f" {entry:8.3f}" for entry in k) + off
             head = ""

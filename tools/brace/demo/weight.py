@@ -18,14 +18,14 @@ SETTLED_S = 3.0
 
 @dataclass(frozen=True)
 class Hung:
-    """K [N/mm] is k_xx, k_xz, k_zz. `sag_mm`: how far the weight moves the tip; `told` is the controller's."""
+    """K [N/mm] is k_xx, k_xz, k_zz. `sag_mm`: how far the weight moves the tip; `reported` is the controller's."""
 
     weight_n: float
     carried_n: float  # what of it the string, which has slackened as the limb gave way, still puts on the tip
     reported: np.ndarray
     truth: np.ndarray
     unloaded: np.ndarray
-    told_sag_mm: float
+    reported_sag_mm: float
     sag_mm: float
 
     def off(self, k: np.ndarray) -> float:

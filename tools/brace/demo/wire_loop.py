@@ -1,4 +1,4 @@
-"""The loop over the wire: a controller that believes one limb moves another one; its own loading tests tell
+"""The loop over the wire: a controller that believes one limb moves another one; its own loading tests show
 what its model lacks, the model with that in it is pushed back, and the K it reports is nearer to the truth.
 
 Every step is the command that a person would type, run as it is printed."""
@@ -90,9 +90,9 @@ def play(folder: Path) -> Generator[str, None, Turn]:
         _run(folder, push)
         yield _shown(ask)
         after = _k(_run(folder, ask))
-    told = ("k", "--model", "true.toml", "--theta1", theta1, "--theta2", theta2, "--json")
-    yield _shown(told)
-    truth = _k(_run(folder, told))
+    ask_true = ("k", "--model", "true.toml", "--theta1", theta1, "--theta2", theta2, "--json")
+    yield _shown(ask_true)
+    truth = _k(_run(folder, ask_true))
     return Turn(
         POSTURES[0], before, after, truth, json.loads((folder / FOUND / "diagnosis.json").read_text())
     )

@@ -49,23 +49,23 @@ def beside(there: Callable[[], T], here: Callable[[], T], processes: int) -> Ite
 
 def _begun(work: Callable[[], T]) -> tuple[multiprocessing.process.BaseProcess, Connection] | None:
     fork = multiprocessing.get_context("fork")
-    answer, tells = fork.Pipe(duplex=False)
-    process = fork.Process(target=_do, args=(work, answer, tells), daemon=True)
+    answer, sender = fork.Pipe(duplex=False)
+    process = fork.Process(target=_do, args=(work, answer, sender), daemon=True)
     try:
         process.start()
     except OSError:  # too many processes, or no memory for one
         answer.close()
         return None
     finally:
-        tells.close()  # the other side's own stays open until it ends
+        sender.close()  # the other side's own stays open until it ends
     return process, answer
 
 
-def _do(work: Callable[[], object], answer: Connection, tells: Connection) -> None:
+def _do(work: Callable[[], object], answer: Connection, sender: Connection) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C ends the first process, which ends this one
     answer.close()  # so that writing fails, and does not wait, once the first process is gone
     try:
-        told: tuple[object, Exception | None] = (work(), None)
+        outcome: tuple[object, Exception | None] = (work(), None)
     except Exception as error:
-        told = (None, error)
-    tells.send(told)
+        outcome = (None, error)
+    sender.send(outcome)

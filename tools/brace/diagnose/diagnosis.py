@@ -170,7 +170,7 @@ class Residuals:
 
 @dataclass(frozen=True)
 class JointSizes:
-    """What a joint test tells of its joint: by key of limb.toml, with 90 % intervals, which hold for the torques up to
+    """What a joint test shows of its joint: by key of limb.toml, with 90 % intervals, which hold for the torques up to
     `torque_n_mm` on each side and include the spread between `gear_positions`."""
 
     parameters: Mapping[str, Interval]

@@ -22,7 +22,7 @@ _VALUE = re.compile(r"""^(\s*[^=]+=\s*)("(?:[^"\\]|\\.)*"|'[^']*'|[^#]*?)(\s*)(#
 
 @dataclass(frozen=True)
 class Exported:
-    """The file's text, the model that reading it gives, and what a person must be told about it."""
+    """The file's text, the model that reading it gives, and what a person must know about it."""
 
     text: str
     model: LimbModel
@@ -62,7 +62,7 @@ def _changes(believed: LimbModel, model: LimbModel) -> dict[str, Any]:
 
 
 def _rounded(values: Mapping[str, Any]) -> dict[str, Any]:
-    """Floats of few enough digits to read; nothing that a controller could tell from the fit."""
+    """Floats of few enough digits to read; no controller shows a difference from the fit."""
     return {
         name: float(f"{value:.{_DIGITS}g}") if isinstance(value, float) else value
         for name, value in values.items()

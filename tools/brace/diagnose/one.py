@@ -44,7 +44,7 @@ def load(folder: Path, model: Path | None) -> Given:
     path = model_of(folder, model)
     believed = load_limb(path) if path is not None else None
     text = read_text(path, TOML_LIMIT_BYTES, WHAT) if path is not None else ""
-    dataset = load_dataset(folder, keep_unreadable=True)  # told as faults, not refused
+    dataset = load_dataset(folder, keep_unreadable=True)  # reported as faults, not refused
     if believed is None and dataset.kind != "joint_test":
         raise UsageError(
             "no model",

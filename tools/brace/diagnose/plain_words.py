@@ -133,5 +133,5 @@ def gap_pair(pair: GapPair, gap_unit: str) -> str:
 def held_out(found: HeldOut, gap_unit: str) -> str:
     """`by amplitude: displacements above 1.52 mm are predicted to 0.11 N (expected 0.1 N)`."""
     sizes = f"{number(found.off)} {unit(gap_unit)} (expected {number(found.expected)} {unit(gap_unit)})"
-    told = "are predicted to" if found.holds else "are NOT predicted: off by"
-    return f"by {found.by}: {found.words} {told} {sizes}"
+    outcome = "are predicted to" if found.holds else "are NOT predicted: off by"
+    return f"by {found.by}: {found.words} {outcome} {sizes}"

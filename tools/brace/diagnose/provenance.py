@@ -13,7 +13,7 @@ from brace.ground.files import DATA_LIMIT_BYTES, TOML_LIMIT_BYTES, read_bytes
 
 @dataclass(frozen=True)
 class Provenance:
-    """Where a diagnosis comes from, told without paths or clocks."""
+    """Where a diagnosis comes from, described without paths or clocks."""
 
     title: str
     kind: str

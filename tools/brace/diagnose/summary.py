@@ -38,8 +38,8 @@ def lines(found: Diagnosis) -> Iterator[str]:
         yield _k_change(found.stiffness)
     if found.joint is not None:
         yield f"  joint      {'; '.join(words.joint_sizes(found.joint))}"
-    told = {member for members in found.indistinguishable for member in members}
-    if further := [label for label in found.could_be if label not in told]:
+    named = {member for members in found.indistinguishable for member in members}
+    if further := [label for label in found.could_be if label not in named]:
         yield f"  could be   {', '.join(further)}"
     for spot in found.localised[:3]:
         share = "" if spot.share is None else f" ({percent(spot.share)} of it)"

@@ -56,15 +56,15 @@ def _image(machine: Machine, board: str, newest: tuple[float, str]) -> Finding:
         check_listed(image, unlisted=False)
     except BraceError as error:
         return Finding("images", name, MISSING, f"{SUMS_NAME}: {error.what}", _BUILD)
-    told = f"{image.info.version} ({image.info.hash})" if image.info else "says nothing of itself"
-    return _aged("images", name, path, newest, told)
+    described = f"{image.info.version} ({image.info.hash})" if image.info else "says nothing of itself"
+    return _aged("images", name, path, newest, described)
 
 
-def _aged(purpose: str, name: str, path: Path, newest: tuple[float, str], told: str) -> Finding:
+def _aged(purpose: str, name: str, path: Path, newest: tuple[float, str], described: str) -> Finding:
     changed_s, source = newest
     if changed_s > path.stat().st_mtime:
-        return Finding(purpose, name, OLD, f"{told}; {source} is newer", _BUILD)
-    return Finding(purpose, name, OK, told)
+        return Finding(purpose, name, OLD, f"{described}; {source} is newer", _BUILD)
+    return Finding(purpose, name, OK, described)
 
 
 def _newest(project: Path, folders: tuple[str, ...]) -> tuple[float, str]:

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from brace.doctor.finding import MISSING, NOTE, OK, OLD, Finding, Machine, first_line
 
-#: purpose, program, Debian package, how it tells its version
+#: purpose, program, Debian package, how it prints its version
 _PROGRAMS = (
     ("build", "gcc", "gcc", "--version"),
     ("build", "g++", "g++", "--version"),
@@ -37,7 +37,7 @@ def _install(package: str) -> str:
     return f"sudo apt-get install {package}"
 
 
-def _told(program: str, option: str) -> str:
+def _version_of(program: str, option: str) -> str:
     return (first_line([program, option]) if option else "") or "there"
 
 
@@ -45,20 +45,20 @@ def programs(machine: Machine) -> Iterator[Finding]:
     """Compilers, emulator, programmers, the wire's own tools."""
     for purpose, program, package, option in _PROGRAMS:
         if shutil.which(program):
-            yield Finding(purpose, program, OK, _told(program, option))
+            yield Finding(purpose, program, OK, _version_of(program, option))
         else:
             yield Finding(purpose, program, MISSING, "not installed", _install(package))
     yield _header("build", "Eigen", Path("/usr/include/eigen3/Eigen/Core"), "libeigen3-dev")
     yield _newlib()
     there = [(name, option) for name, _package, option in _PROGRAMMERS if shutil.which(name)]
     for name, option in there:
-        yield Finding("flash", name, OK, _told(name, option))
+        yield Finding("flash", name, OK, _version_of(name, option))
     if not there:
         names = ", ".join(name for name, _package, _option in _PROGRAMMERS)
         yield Finding("flash", "programmer", MISSING, f"none of {names} is installed", _install("openocd"))
     for name, package, option in _WIRE:
         if shutil.which(name):
-            yield Finding("wire", name, OK, _told(name, option))
+            yield Finding("wire", name, OK, _version_of(name, option))
         else:
             yield Finding("wire", name, NOTE, "not installed", _install(package))
 

@@ -29,7 +29,7 @@ def _section(effect: Effect) -> Iterator[str]:
     yield ""
     yield f"- Law: `{effect.law}`"
     yield f"- It may sit at: {', '.join(f'`{where}`' for where in effect.places)}"
-    yield from wrap(f"- What tells it from others: {effect.told_by}.", COLUMNS, subsequent_indent="  ")
+    yield from wrap(f"- What distinguishes it from others: {effect.told_by}.", COLUMNS, subsequent_indent="  ")
     yield f"- Shown by: {', '.join(_records(effect))}"
     for key in effect.keys:
         entry = KEY_BY_NAME[key]

@@ -58,7 +58,7 @@ class Number:
 @dataclass(frozen=True)
 class Way:
     """One way for an effect to show in a loading record: the numbers that are fitted and those that are set.
-    `stands_for` maps a fitted leaf to another that the record tells only in sum with it, and how much of the other
+    `stands_for` maps a fitted leaf to another that the record shows only in sum with it, and how much of the other
     makes the same readings. `seen`: whether a record of this size shows more of this way than of those before it.
     `multiplies` maps a leaf to the leaf of the place that changes by it: a fit turns the factor from the change on,
     over what was believed; limb.toml has what the place is today, and the factor by which it was another one before."""
@@ -120,7 +120,7 @@ class Effect:
     places        where the effect may sit: tables of limb.toml
     words         its name as a person says it, and `meaning`, what it does, in half a sentence
     law           what it does as a formula; host_sim/effects/<name>.h computes it
-    told_by       what a record must show to tell it from other effects
+    told_by       what a record must show to distinguish it from other effects
     ways          how it may show in a loading record; the first one is the most likely
     loading_seen  whether a loading record of this size can show it
     follows_time  it follows time, temperature or the order of the runs

@@ -25,7 +25,7 @@ class Freedom:
 @dataclass(frozen=True)
 class Variant:
     """One way for an effect to show. `settings` are keys that are set and not fitted. `stands_for` maps a fitted key to
-    another that the record tells only in sum with it, and how much of the other makes the same readings. `multiplies`
+    another that the record shows only in sum with it, and how much of the other makes the same readings. `multiplies`
     maps a fitted factor of a change to the key that changes by it."""
 
     effect: str

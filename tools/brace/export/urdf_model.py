@@ -15,8 +15,9 @@ _AXIS = {"femur": ("theta1", "0 -1 0", -1.0), "tibia": ("theta2", "0 1 0", 1.0)}
 def model_xml(model: LimbModel) -> str:
     """The URDF text. Joint angles are the commanded ones; x outwards, z up. A coxa of no length is left out."""
     root = ET.Element("robot", name=model.name)
-    told = [f"{key} = {model.number(key):.9g}" for key in sorted(model.given) if key.endswith(("_per_n", "_per_n_mm"))]
-    root.append(ET.Comment(" compliances, for brace and MuJoCo: " + "; ".join(told) + " "))
+    keys = [key for key in sorted(model.given) if key.endswith(("_per_n", "_per_n_mm"))]
+    compliances = [f"{key} = {model.number(key):.9g}" for key in keys]
+    root.append(ET.Comment(" compliances, for brace and MuJoCo: " + "; ".join(compliances) + " "))
     ET.SubElement(root, "link", name="base")
     parent, at_m = "base", 0.0
     if model.number("geometry.coxa_mm") > 0.0:

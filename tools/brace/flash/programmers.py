@@ -109,7 +109,7 @@ def nothing_attached(tool: str, said: str) -> NoDeviceError:
         "no probe and no board answer",
         where="flash",
         why=said,
-        next_step="plug the probe in, power the board, see SWDIO, SWCLK, GND; brace doctor tells what is seen"
+        next_step="plug the probe in, power the board, see SWDIO, SWCLK, GND; brace doctor shows what is seen"
         if tool != "dfu-util"
         else "hold BOOT0 high while the board resets, and plug its USB in; brace doctor lists what is seen",
     )
@@ -171,5 +171,5 @@ def _run(command: Sequence[str], limit_s: float) -> tuple[int | None, str]:
 
 def _last_words(program: str, said: str) -> str:
     lines = [line.strip() for line in said.splitlines() if line.strip()]
-    telling = [line for line in lines if "error" in line.lower()] or lines
-    return f"{program}: {telling[-1][:200]}" if telling else f"{program} said nothing"
+    error_lines = [line for line in lines if "error" in line.lower()] or lines
+    return f"{program}: {error_lines[-1][:200]}" if error_lines else f"{program} said nothing"

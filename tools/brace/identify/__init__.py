@@ -1,1 +1,1 @@
-"""Parameters from measurements: fitted in what the data can tell, with what it cannot tell said aloud."""
+"""Parameters from measurements: fitted as far as the data can show them, with a list of what the data cannot show."""

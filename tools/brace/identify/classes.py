@@ -1,8 +1,8 @@
 """Which parameters of a limb this record cannot tell apart, whether they were fitted or not.
 
 Each candidate has a signature: the change of every reading with it. A candidate belongs to a class when the
-signatures of a few others, in some mixture, make up its own; then no noise level and no cleverness tells them
-apart in this record."""
+signatures of a few others, in some mixture, make up its own; then the record cannot separate them at any noise
+level."""
 
 from __future__ import annotations
 

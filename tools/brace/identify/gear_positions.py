@@ -14,7 +14,7 @@ APART = 0.05  # of a test's swing: nearer ones are the same position, with a zer
 
 def apart(dataset: Dataset) -> Dataset:
     """The record with the angle of each gear position counted from the middle of its own loops, and a column that
-    numbers the positions; as it is where all tests stand at one. Tests tell their position only if they load the joint
+    numbers the positions; as it is where all tests stand at one. Tests show their position only if they load the joint
     both ways."""
     number = None if POSITION in dataset else _numbers(dataset)
     if number is None:
@@ -33,7 +33,7 @@ def count(dataset: Dataset) -> int:
 
 
 def _numbers(dataset: Dataset) -> np.ndarray | None:
-    """Each row's gear position in the order of the record; None where the tests do not tell, or tell one."""
+    """Each row's gear position in the order of the record; None where the tests show none, or one."""
     if "test" not in dataset:
         return None
     tests = list(dict.fromkeys(dataset["test"].tolist()))

@@ -381,7 +381,7 @@ def independent(off: np.ndarray, test: np.ndarray) -> float:
 
 
 def usable(columns: Mapping[str, np.ndarray]) -> np.ndarray:
-    """Averaged readings that tell of the joint: neither at the drive's limit nor where a drive that follows its command
+    """Averaged readings that show the joint: neither at the drive's limit nor where a drive that follows its command
     otherwise does not. There it runs through free travel and meets the far side, and its torque moves the motor."""
     most = saturated(columns)
     if "command_n_mm" not in columns:

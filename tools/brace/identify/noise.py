@@ -20,8 +20,8 @@ ROUNDING = "rounding to the sensor's resolution"
 ON_GRID = 1e-3  # of a step: how near to whole steps the readings of a sensor that rounds stand in the file
 FAR_SIGMAS = 4.5  # from which a difference is no noise; of white noise it cuts 7 in a million, 0.02 % of the variance
 MEDIAN_OF_SQUARES = 0.4549  # of a normal variable with variance 1
-THIRD_DIFFERENCES_SHARE = 2.31  # how many third differences of white noise tell as much as one independent reading
-ASSUMED_SHARE = 0.02  # of the largest reading: what scales and dial gauges read to by hand, where nothing tells
+THIRD_DIFFERENCES_SHARE = 2.31  # how many third differences of white noise show as much as one independent reading
+ASSUMED_SHARE = 0.02  # of the largest reading: what scales and dial gauges read to by hand, where nothing shows it
 ASSUMED_FREEDOM = 2.0  # readings that this is worth
 ASSUMED = "not enough readings; 2 % of the largest is assumed"
 GROWTH_GAIN = 12.0  # twice the log-likelihood that a noise growing with load must gain to be believed
@@ -109,7 +109,7 @@ def rounding_of(dataset: Dataset, channel: str) -> float:
 
 
 def _rounded(dataset: Dataset, found: _Differences, rounding: float) -> ChannelNoise:
-    """Rounding that noise does not blur comes again in every repeat: all repeats together tell as much of it as one."""
+    """Rounding that noise does not blur comes again in every repeat: all repeats together show as much of it as one."""
     repeats = len(list(_runs(dataset))) / len({key for key, _, _ in _runs(dataset)})
     floor = float(np.sqrt(found.spread**2 + repeats * (rounding**2 - found.spread**2)))
     half_step = (1.0 if dataset.meta.zeroed_per_run else 0.5) * np.sqrt(12.0) * rounding

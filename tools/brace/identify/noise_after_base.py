@@ -1,4 +1,4 @@
-"""What the refitted base tells of the noise of a record without repeats: its floor, once the limb's own shape is out of
+"""What the refitted base shows of the noise of a record without repeats: its floor, once the limb's own shape is out of
 the way."""
 
 from __future__ import annotations
@@ -18,11 +18,11 @@ from brace.identify.noise import (
 from brace.identify.record import NOT_MEASURED, Record
 
 LEAST_DIFFERENCES = 30
-REPEATED = (REPEATS, ROUNDING)  # how the source of a noise begins that repeats have told
+REPEATED = (REPEATS, ROUNDING)  # how the source of a noise begins that repeats have shown
 
 
 def without_repeats(record: Record) -> list[str]:
-    """The channels whose noise no repeats have told."""
+    """The channels whose noise no repeats have shown."""
     return [name for name, noise in record.noise.items() if not noise.source.startswith(REPEATED)]
 
 

@@ -165,12 +165,12 @@ def prior_parameter(model: LimbModel, key: str) -> Parameter | None:
 
 
 # Which share of the tibia's bending is a beam's. Without load it changes nothing, so no calibration at small loads
-# tells it: where limb.toml is silent it is anything from 0 to 1.
+# determines it: where limb.toml is silent it is anything from 0 to 1.
 TIBIA_BEAM = "link.tibia.moment_transfer"
 
 
 def tibia_beam(model: LimbModel) -> Parameter | None:
-    """What a record of a limb that turns may tell of the tibia, unless limb.toml says it."""
+    """What a record of a limb that turns may show of the tibia, unless limb.toml says it."""
     return None if TIBIA_BEAM in model.given else Parameter(TIBIA_BEAM, 0.5, 1.0, 0.0, 1.0, prior_sigma=0.5)
 
 
@@ -222,7 +222,7 @@ def checked_keys(keys: Sequence[str]) -> list[str]:
             near = did_you_mean(key, _fittable_keys())
             raise UsageError(
                 f"--fit {key}: no such parameter",
-                why="it is not a number of limb.toml that a measurement of the limb could tell",
+                why="it is not a number of limb.toml that a measurement of the limb could determine",
                 next_step=f"did you mean {near}?" if near else "e.g. --fit base.rotation_rad_per_n_mm",
             )
         if key not in result:

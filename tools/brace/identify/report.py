@@ -148,7 +148,7 @@ def _lines(result: Identification) -> Iterator[str]:
     for parameter, estimate in zip(result.fit.parameters.parameters, result.information.estimates()):
         yield f"  {parameter.key:38} {_value(estimate):46} {parameter.unit:12} start {parameter.start:.5g}"
     if result.combinations:
-        yield "what the tip does tell:"
+        yield "what the tip does show:"
         for name, estimate in result.combinations.items():
             yield f"  {name:18} {_value(estimate):46} {MEANING[name]}"
     for key, sigmas in outside_trust(result):

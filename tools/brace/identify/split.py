@@ -38,7 +38,7 @@ def structure_shares(models: np.ndarray, angles_rad: np.ndarray) -> np.ndarray:
     whole = reference_planar_many(models, angles_rad)
     if np.isnan(whole).any():
         raise BadFileError(
-            "the share of the structure cannot be told",
+            "the share of the structure cannot be found",
             why="nothing yields in some direction",
             next_step="give link or joint compliances",
         )

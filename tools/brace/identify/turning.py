@@ -1,7 +1,7 @@
 """Whether a loading record's limb turned as it was displaced.
 
 A real limb turns, so force is not proportional to displacement even where every spring is linear. Some simulations
-leave that out. A record may say so in its meta.toml (`displacements`). Where it does not, the readings tell. The
+leave that out. A record may say so in its meta.toml (`displacements`). Where it does not, the readings show it. The
 believed limb is refitted both ways, within what its calibration leaves open. The limb is taken for one that does not
 turn only where two things say so:
 
@@ -46,7 +46,7 @@ ENOUGH = 1e-6  # of a fit's cost: what it could still gain
 
 
 def settled(dataset: Dataset, believed: LimbModel) -> Dataset:
-    """The record, with `small_displacements` as its meta.toml says or its readings tell. In doubt the limb turned, as
+    """The record, with `small_displacements` as its meta.toml says or its readings show. In doubt the limb turned, as
     where a force of some rows was not read."""
     if dataset.meta.displacements or not dataset.reads_both_forces:
         return dataset

@@ -99,7 +99,7 @@ def forces(table: Table, axis: np.ndarray, rows: int, notes: list[str]) -> Colum
 
 def _refuse_twice(table: Table, axis: np.ndarray, plain: str, along: tuple[str, str]) -> None:
     """A column along the motion and one along this axis are two readings of one direction. A record keeps one of the
-    two, and nothing here tells which."""
+    two, and nothing here says which."""
     for number, name in enumerate(along):
         if name in table.columns and bool(np.any((axis == number) & ~np.isnan(table.columns[name]))):
             raise BadFileError(

@@ -73,7 +73,7 @@ def build(parts: Sequence[Part], mapping: MappingTable) -> Built:
 
 def _conversions(mapping: MappingTable) -> dict[str, str]:
     """Each of our columns: from which of theirs, in which unit, by what it was multiplied."""
-    told: dict[str, str] = {}
+    texts: dict[str, str] = {}
     for use in mapping.columns:
         if not use.used:
             continue
@@ -91,12 +91,12 @@ def _conversions(mapping: MappingTable) -> dict[str, str]:
             text += ", minus the first entry of each run"
         for target in use.targets:
             place = f" of {use.file}" if use.file else ""
-            told[target] = f"{told[target]}; {text}{place}" if target in told else text + place
+            texts[target] = f"{texts[target]}; {text}{place}" if target in texts else text + place
     for each in mapping.constants:
         place = f" in {each.file}" if each.file else ""
         text = f"{each.value} {each.unit}".strip() + place + (f" ({each.why})" if each.why else "")
-        told[each.target] = f"{told[each.target]}; {text}" if each.target in told else text
-    return told
+        texts[each.target] = f"{texts[each.target]}; {text}" if each.target in texts else text
+    return texts
 
 
 def in_our_unit(value: float, unit_text: str) -> float:
@@ -152,8 +152,8 @@ def _converted(part: Part, mapping: MappingTable, notes: list[str]) -> Table:
             next_step="is the right column mapped? is = \"ignore\" leaves a column out",
         )
     if bad.any():
-        told = "; ".join(f"{reason} ({count})" for reason, count in reasons.most_common(4))
-        notes.append(f"{part.places[0]}: {int(bad.sum())} of {bad.size} rows left out: {told}")
+        why = "; ".join(f"{reason} ({count})" for reason, count in reasons.most_common(4))
+        notes.append(f"{part.places[0]}: {int(bad.sum())} of {bad.size} rows left out: {why}")
     if part.skipped:
         notes.append(
             f"{part.places[0]}: {part.skipped} line{'s' if part.skipped > 1 else ''} among or below the readings left "

@@ -152,17 +152,20 @@ def _alike(each: Sequence[Constant], places: Sequence[str]) -> Constant | None:
     return each[0] if len({(constant.value, constant.unit) for constant in each}) == 1 else None
 
 
-def told_against_remarks(parts: Sequence[Part], table: MappingTable, said: Sequence[Constant]) -> list[str]:
+def against_remarks(parts: Sequence[Part], table: MappingTable, said: Sequence[Constant]) -> list[str]:
     """Notes of what was said (--set) against a table's own remark. Refuses a constant of the mapping that is not this
     table's alone and that its remark contradicts: it is another's."""
     notes = []
     for part in parts if all(part.log is None for part in parts) else ():
         for target in CONSTANTS[table.kind]:
             used = table.constant(part.places, target)
-            told = from_remarks(part, target, table.kind) or (axis_of_name(part) if target == "axis" else None)
-            if used is None or told is None or used.value == OPEN or _has(part, table, target) or _same(used, told):
+            remarked = from_remarks(part, target, table.kind) or (axis_of_name(part) if target == "axis" else None)
+            if used is None or remarked is None or used.value == OPEN:
                 continue
-            value, other = f"{used.value} {used.unit}".strip(), told.why if told.unit else f"{told.value} ({told.why})"
+            if _has(part, table, target) or _same(used, remarked):
+                continue
+            value = f"{used.value} {used.unit}".strip()
+            other = remarked.why if remarked.unit else f"{remarked.value} ({remarked.why})"
             if used in said:
                 notes.append(f"{part.places[0]}: {target} = {value} was said, and the file has {other}")
             elif used.file != part.places[0]:
@@ -201,11 +204,11 @@ def _has(part: Part, table: MappingTable, target: str) -> bool:
     return {"dwell_s": "t_s"}.get(target, target) in targets_of(part, table)
 
 
-def _same(used: Constant, told: Constant) -> bool:
+def _same(used: Constant, remarked: Constant) -> bool:
     """Whether both say the same; a remark without a unit is read in the other's."""
     if used.target == "axis":
-        return used.value == told.value
-    units = [unit_of(used.unit), unit_of(used.unit if told.unit == OPEN else told.unit)]
-    values = [float(each.value) for each in (used, told)]
+        return used.value == remarked.value
+    units = [unit_of(used.unit), unit_of(used.unit if remarked.unit == OPEN else remarked.unit)]
+    values = [float(each.value) for each in (used, remarked)]
     ours = [unit.factor * value + unit.offset if unit else value for unit, value in zip(units, values)]
     return abs(ours[0] - ours[1]) <= (SAME_DEGC if used.target == "temp_degc" else SAME_RAD)

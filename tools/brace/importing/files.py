@@ -27,7 +27,7 @@ def read_all(
     if twice is not None:
         raise UsageError(
             f"two files are called {twice}",
-            why="a mapping tells files apart by their names",
+            why="a mapping distinguishes files by their names",
             next_step="give each file once, or rename one",
         )
     parts: list[Part] = []

@@ -47,34 +47,34 @@ class ColumnUse:
     @property
     def questions(self) -> list[str]:
         """What has to be said about it."""
-        told = []
+        lines = []
         if OPEN in self.targets:
-            told.append(f"{self.name!r}: what is it?" + (f" ({self.why})" if self.why else ""))
+            lines.append(f"{self.name!r}: what is it?" + (f" ({self.why})" if self.why else ""))
         elif self.used:
             if self.unit == OPEN:
-                told.append(
+                lines.append(
                     f"{self.name!r}: in which unit?"
                     + (f" {self.why}." if "two meanings" in self.why else "")
                     + (f" Its entries go from {self.span}" if self.span else "")
                 )
             if self.sign == OPEN:
-                told.append(
+                lines.append(
                     f"{self.name!r}: must its sign be turned? {self.why + '. ' if self.why else ''}"
                     "sign = -1 turns it, sign = 1 keeps it"
                 )
                 if self.targets[0] in PUSHES:
-                    told[-1] += (
+                    lines[-1] += (
                         ". The force on a limb grows with its displacement, but many sensors read the force of the "
                         "limb on them. If the displacement has the wrong sign, turn that one"
                     )
             if self.wrap == OPEN:
-                told.append(f"{self.name!r}: has it gone round? {self.why}")
+                lines.append(f"{self.name!r}: has it gone round? {self.why}")
             if self.relative == OPEN:
-                told.append(
+                lines.append(
                     f"{self.name!r}: does 0 mean unloaded? It begins far from 0; relative = true subtracts each run's "
                     "first entry"
                 )
-        return told
+        return lines
 
 
 @dataclass(frozen=True)
@@ -232,8 +232,8 @@ def _refuse_twice(document: toml.Document, name: str, keys: Sequence[tuple[objec
     seen: set[tuple[object, ...]] = set()
     for number, key in enumerate(keys):
         if key in seen:
-            told = " ".join(str(part) for part in key if part)
-            raise _bad(document, f"{name}.{number}", f"a second [[{name}]] for {told}", "delete one of the two")
+            what = " ".join(str(part) for part in key if part)
+            raise _bad(document, f"{name}.{number}", f"a second [[{name}]] for {what}", "delete one of the two")
         seen.add(key)
 
 

@@ -42,7 +42,7 @@ _QUANTITIES = ("force", "length", "angle", "torque", "time", "temperature", "sti
 
 
 def quantity_of(name: Name) -> str:
-    """The physical quantity, by the words first and the unit where they leave it open; empty where neither tells."""
+    """The physical quantity, by the words first and the unit where they leave it open; empty where neither says it."""
     words = name.words
     if "mass" in words and (name.unit is None or name.unit.quantity == "force"):
         return "mass"

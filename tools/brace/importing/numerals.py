@@ -48,7 +48,7 @@ def is_number(text: str) -> bool:
 
 
 def decimal_sign(cells: Iterable[str]) -> tuple[str, str, str]:
-    """The decimal sign of a file's numbers ("." or ","); "" where it cannot be told; "?" where numbers contradict one
+    """The decimal sign of a file's numbers ("." or ","); "" where it is not known; "?" where numbers contradict one
     another. Behind it an example of each: with a point, with a comma."""
     point = comma = open_text = ""
     for cell in cells:

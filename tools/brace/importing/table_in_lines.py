@@ -129,8 +129,9 @@ def parts(path: Path, lines: Sequence[Line], *, decimal: str, how: str, sheet: s
 
     def close() -> None:
         if rows:
-            told = f"{how}, decimal {'comma' if sign == ',' else 'point'}"
-            found.append(Part(path, names, units, list(rows), list(numbers), sign, dict(remarks), sheet, told, skipped))
+            how_read = f"{how}, decimal {'comma' if sign == ',' else 'point'}"
+            cells, places = list(rows), list(numbers)
+            found.append(Part(path, names, units, cells, places, sign, dict(remarks), sheet, how_read, skipped))
         rows.clear()
         numbers.clear()
 

@@ -18,16 +18,16 @@ MEANING = {
 
 def lines(parts: Sequence[Part], mapping: MappingTable) -> list[str]:
     """How the files were read, every column, every constant, every open question."""
-    told = []
+    shown = []
     for path in dict.fromkeys(part.path for part in parts):
         own = [part for part in parts if part.path == path]
         rows = sum(len(part.rows) for part in own)
         tables = f", {len(own)} tables" if len(own) > 1 else ""
         from_line = "" if own[0].log else f" from line {own[0].lines[0]}"
         sheet = f", sheet {own[0].sheet!r}" if own[0].sheet else ""
-        told.append(f"{path.name}: {own[0].how}{sheet}; {rows} rows{from_line}{tables}")
-        told += [f"  {note}" for part in own for note in part.notes]
-    told += [f"read as {MEANING[mapping.kind]} (if it is none: --kind)", ""]
+        shown.append(f"{path.name}: {own[0].how}{sheet}; {rows} rows{from_line}{tables}")
+        shown += [f"  {note}" for part in own for note in part.notes]
+    shown += [f"read as {MEANING[mapping.kind]} (if it is none: --kind)", ""]
     table = [("column", "is", "unit", "entries", "because")]
     table += [_row(use) for use in mapping.columns]
     table += [
@@ -35,18 +35,18 @@ def lines(parts: Sequence[Part], mapping: MappingTable) -> list[str]:
     ]
     widths = [min(34, max(len(row[place]) for row in table)) for place in range(4)]
     for row in table:
-        told.append("  ".join([*(text.ljust(width) for text, width in zip(row, widths)), row[4]]).rstrip())
+        shown.append("  ".join([*(text.ljust(width) for text, width in zip(row, widths)), row[4]]).rstrip())
     if mapping.kind == "loading":
-        told += [
+        shown += [
             "",
             "x is outwards, z up; a force is the one on the limb; theta1 counts from +x, theta2 is 0 for a straight "
             "knee",
         ]
     questions = mapping.questions
     if questions:
-        told += ["", f"{len(questions)} open question{'s' if len(questions) > 1 else ''}:"]
-        told += [f"  {text}" for text in questions]
-    return told
+        shown += ["", f"{len(questions)} open question{'s' if len(questions) > 1 else ''}:"]
+        shown += [f"  {text}" for text in questions]
+    return shown
 
 
 def _row(use: ColumnUse) -> tuple[str, str, str, str, str]:

@@ -86,7 +86,7 @@ def read(path: Path, *, sheet: str = "", decimal: str = "") -> list[Part]:
 
 
 def _sheets(path: Path, data: bytes) -> dict[str, list[Row]]:
-    """The cells of every sheet of a table. A sheet tells how many rows it has; some programs write that wrongly."""
+    """The cells of every sheet of a table. A sheet states how many rows it has; some programs write that wrongly."""
     import openpyxl
 
     sheets = {}

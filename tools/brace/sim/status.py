@@ -31,11 +31,12 @@ def _load_words(load: Mapping[str, object]) -> str:
     if not load["is_counted"]:
         return "no load counted"
     factor = load["buckling_factor"]
-    reported = "none" if factor is None else f"{factor:.2f}"
+    buckling = "none" if factor is None else f"{factor:.2f}"
     return (
-        "load {force_x_n:.2f} {force_z_n:.2f} N, moved {moved_x_mm:.2f} {moved_z_mm:.2f} mm, buckling factor {told}, "
-        "K without load {unloaded_k_xx_n_per_mm:.3f} {unloaded_k_xz_n_per_mm:.3f} {unloaded_k_zz_n_per_mm:.3f} N/mm"
-    ).format_map({**load, "told": reported})
+        "load {force_x_n:.2f} {force_z_n:.2f} N, moved {moved_x_mm:.2f} {moved_z_mm:.2f} mm, "
+        "buckling factor {buckling}, K without load "
+        "{unloaded_k_xx_n_per_mm:.3f} {unloaded_k_xz_n_per_mm:.3f} {unloaded_k_zz_n_per_mm:.3f} N/mm"
+    ).format_map({**load, "buckling": buckling})
 
 
 def _in_space(space: Mapping[str, object]) -> str:

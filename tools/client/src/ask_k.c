@@ -106,13 +106,13 @@ static brace_client_status_t ask_under_force(brace_client_t *client, brace_quest
                                              int timeout_ms, brace_client_loaded_k_t *k)
 {
     const brace_can_tip_force_request_t force = {.fx_n = fx_n, .fz_n = fz_n};
-    brace_question_t told = {.code = BRACE_REQUEST_TIP_FORCE};
-    if (limited + brace_can_pack_tip_force_request(&force, told.data) + !is_number(fx_n) + !is_number(fz_n) != 0u) {
+    brace_question_t under = {.code = BRACE_REQUEST_TIP_FORCE};
+    if (limited + brace_can_pack_tip_force_request(&force, under.data) + !is_number(fx_n) + !is_number(fz_n) != 0u) {
         return brace_client_out_of_range(client);
     }
     if (client->bus != NULL) {
         const brace_client_status_t status =
-            brace_can_ask_under_force(client, &told, question, brace_client_deadline_after(timeout_ms));
+            brace_can_ask_under_force(client, &under, question, brace_client_deadline_after(timeout_ms));
         if (status == BRACE_CLIENT_OK) {
             take_loaded_k(question, k);
         }
@@ -257,10 +257,10 @@ brace_client_status_t brace_client_k_in_space_under_load(brace_client_t *client,
         .theta0_rad = theta_rad[0], .theta1_rad = theta_rad[1], .theta2_rad = theta_rad[2]};
     const brace_can_tip_force_in_space_request_t force = {
         .fx_n = force_n[0], .fy_n = force_n[1], .fz_n = force_n[2]};
-    brace_question_t told = {.code = BRACE_REQUEST_TIP_FORCE_IN_SPACE};
+    brace_question_t under = {.code = BRACE_REQUEST_TIP_FORCE_IN_SPACE};
     brace_question_t question = {.code = BRACE_REQUEST_K_IN_SPACE_AT_POSTURE};
     uint32_t limited = brace_can_pack_k_in_space_at_posture_request(&request, question.data) +
-                       brace_can_pack_tip_force_in_space_request(&force, told.data);
+                       brace_can_pack_tip_force_in_space_request(&force, under.data);
     for (int i = 0; i < 3; i++) {
         limited += (uint32_t)!is_number(theta_rad[i]) + (uint32_t)!is_number(force_n[i]);
     }
@@ -270,7 +270,7 @@ brace_client_status_t brace_client_k_in_space_under_load(brace_client_t *client,
     if (client->bus == NULL) {
         return ask_modbus_for_space_k(client, theta_rad, force_n, deadline_us, k);
     }
-    const brace_client_status_t status = brace_can_ask_under_force(client, &told, &question, deadline_us);
+    const brace_client_status_t status = brace_can_ask_under_force(client, &under, &question, deadline_us);
     if (status == BRACE_CLIENT_OK) {
         take_space_k(&question, k);
     }

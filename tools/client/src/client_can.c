@@ -31,7 +31,7 @@ typedef struct {
     brace_question_t *question;
 } waiting_t;
 
-/* A seal is a write_entry with the token of its command. If that is a write_entry too, the number of the entry tells
+/* A seal is a write_entry with the token of its command. If that is a write_entry too, the number of the entry shows
  * whose answer has come. */
 static bool is_of_seal(const brace_bus_frame_t *frame, const waiting_t *waiting)
 {
@@ -269,7 +269,7 @@ static brace_client_status_t explain_silence(brace_client_t *client, const char 
 
 /* ------------------------------------------------------------------------------------------- asking -- */
 
-/* How a request is sent. Commands are sealed on a guarded board. All other tokens tell masters apart. */
+/* How a request is sent. Commands are sealed on a guarded board. All other tokens distinguish masters. */
 typedef enum { ASKS, COMMANDS } manner_t;
 
 /* Has another client asked with this token of late? An answer to that one may still come. */
@@ -462,10 +462,10 @@ brace_client_status_t brace_can_ask_under_force(brace_client_t *client, brace_qu
             status = ask(client, question, ASKS, deadline_us);
         }
         /* The force is used up when an answer was lost, too, and the question repeated. */
-        const bool is_told = status == BRACE_CLIENT_OK || status == BRACE_CLIENT_E_REFUSED;
+        const bool is_answered = status == BRACE_CLIENT_OK || status == BRACE_CLIENT_E_REFUSED;
         const bool is_used_up = status == BRACE_CLIENT_OK ? is_without_force(question)
                                                           : client->refusal == BRACE_REFUSED_ORDER;
-        if (!is_told || (!is_used_up && !client->force_is_taken)) {
+        if (!is_answered || (!is_used_up && !client->force_is_taken)) {
             return status;
         }
         status = pause_apart(client, most_us, deadline_us);

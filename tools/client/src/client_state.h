@@ -39,7 +39,7 @@ struct brace_client {
     int32_t refusal;
 
     brace_client_owner_t owner;
-    uint8_t master; /* upper four bits of the tokens of commands: they tell masters on one CAN bus apart */
+    uint8_t master; /* upper four bits of the tokens of commands: they distinguish masters on one CAN bus */
     bool lives;     /* signs of life are given */
     uint64_t next_life_us;
     brace_client_motion_t motion;

@@ -220,8 +220,8 @@ static void give_up(brace_client_t *client)
     const bool in_fault = client->motion.in_fault;
     (void)brace_client_stop(client, STOP_MS); /* without signs of life the limb stands all the same */
     end(client, in_fault ? BRACE_MOTION_FAILED : BRACE_MOTION_TIMED_OUT, 0,
-        in_fault ? "a fault stays; the limb had the motion's limit to go back, and was told to stop; look at the faults"
-                 : "the motion was not done within its limit, and the limb was told to stop");
+        in_fault ? "a fault stays; the limb had the motion's limit to go back, was asked to stop; look at the faults"
+                 : "the motion was not done within its limit, and the limb was asked to stop");
 }
 
 /* An answer that does not come once is no news; the limit of the motion goes on. */

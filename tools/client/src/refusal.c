@@ -24,7 +24,7 @@ static const char *reason_of_request(uint32_t code, int32_t status, uint32_t det
         return "a joint's play is open, so nothing carries the tip in some direction; take it up first";
     }
     if (is_of_now && status == BRACE_E_MODE) {
-        return "K of now is not valid; its mode and faults tell why";
+        return "K of now is not valid; its mode and faults say why";
     }
     if (code == BRACE_REQUEST_K_IN_SPACE_AT_POSTURE && status == BRACE_E_UNSUPPORTED) {
         return BRACE_CLIENT_NO_COXA;

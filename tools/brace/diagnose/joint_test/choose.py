@@ -103,7 +103,7 @@ def _joined_by_rows(
     random: np.random.Generator,
     trying: Trying,
 ) -> Fitted:
-    """Weighted readings tell best what the joint does where it slips. Readings that count alike tell best what it does
+    """Weighted readings show best what the joint does where it slips. Readings that count alike show best what it does
     under high load, where it stays longest. A term that all judges ask for among readings that count alike joins too.
     Where an effect does, the record's own terms compete with it, and go first where they do about as well: else friction
     or creep would be named for what viscosity does."""

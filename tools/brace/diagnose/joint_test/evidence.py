@@ -103,10 +103,10 @@ def left_n_mm(fitter: Fitter, fitted: Fitted) -> float:
     return float(np.sqrt(max(0.0, robust_sigma(off) ** 2 - fitter.record.noise_n_mm**2)))
 
 
-def beside_what_is_left(key: str, told: Interval, left: float, compliance_rad_per_n_mm: float) -> Interval:
+def beside_what_is_left(key: str, interval: Interval, left: float, compliance_rad_per_n_mm: float) -> Interval:
     """What a model leaves may be play or dry friction of that size, so that their intervals hold it. `left`: N mm.
     Noise and a law of friction that is not the model's have nothing to do with one another: both add as squares do."""
     share = {"coulomb_n_mm": 1.0, "gap_rad": compliance_rad_per_n_mm}.get(key.rsplit(".", 1)[-1], 0.0) * left
-    low = told.value - np.hypot(told.value - told.low, share)
-    high = told.value + np.hypot(told.high - told.value, share)
-    return Interval(told.value, float(max(low, min(told.low, 0.0))), float(high))
+    low = interval.value - np.hypot(interval.value - interval.low, share)
+    high = interval.value + np.hypot(interval.high - interval.value, share)
+    return Interval(interval.value, float(max(low, min(interval.low, 0.0))), float(high))

@@ -16,7 +16,8 @@ from brace.model import LimbModel
 STEP = 1e-4
 REFUSED = 1e6
 PLENTY = 40  # evaluations of the slope
-SEARCHING, TELLING = 1e-5, 1e-8  # relative change of misfit or parameters that ends a fit: sets to choose from, sizes
+# relative change of misfit or parameters that ends a fit: of sets to choose from, of sizes
+SEARCHING, ESTIMATING = 1e-5, 1e-8
 
 
 @dataclass(frozen=True)
@@ -66,7 +67,7 @@ class Fitter:
     def over_all(self) -> Fitter:
         """The same fitter, for the readings that were held out, too."""
         other = Fitter(self.record.whole(), self.base, self.trust)
-        other.root_weight, other.tolerance = self.root_weight, TELLING
+        other.root_weight, other.tolerance = self.root_weight, ESTIMATING
         return other
 
     def own(self) -> tuple[Parameter, ...]:

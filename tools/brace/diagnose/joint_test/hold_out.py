@@ -26,7 +26,7 @@ def held_out(
 ) -> tuple[np.ndarray, str]:
     """Which readings take no part, and what they are in words ("" when nothing can be spared). Of the tests
     that reach about the same torque the last one is held out, so that both small and large loops are
-    predicted. Where that would take all tests of a gear position, whose numbers nothing else tells, ramps of every
+    predicted. Where that would take all tests of a gear position, whose numbers nothing else determines, ramps of every
     position are held out instead."""
     labels = np.unique(test)
     if labels.size >= 3:

@@ -1,7 +1,7 @@
 """A joint tested at several gear positions in one record: what a further position would have.
 
-Play, stiffness and friction of a gear differ from tooth to tooth. What one position tells, another holds only within
-that spread. Every position has its own sizes in the fit."""
+Play, stiffness and friction of a gear differ from tooth to tooth. What is measured at one position holds at another
+only within that spread. Every position has its own sizes in the fit."""
 
 from __future__ import annotations
 

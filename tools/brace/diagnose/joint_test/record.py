@@ -23,7 +23,7 @@ from brace.model import LimbModel
 from brace.native.plant_batch import model_numbers, number_index
 
 STEPS_A_PERIOD = 4.0  # of the encoder: what repeats faster is its rounding
-SPEEDS = 1.5  # by which fast motion must exceed slow motion for viscosity to be told from friction
+SPEEDS = 1.5  # by which fast motion must exceed slow motion for viscosity to be distinguished from friction
 
 
 # A joint that does nothing but rub: its torque is how far friction is turned.

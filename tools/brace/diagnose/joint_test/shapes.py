@@ -60,7 +60,7 @@ def added(
 
 
 def record_terms(size: JointTestSize, speeds_differ: bool) -> list[Term]:
-    """A torque that is read late, and what grows with speed. At one speed friction is all that can be told."""
+    """A torque that is read late, and what grows with speed. At one speed friction is all that can be found."""
     found: list[Term] = []
     if size.length_s <= 0.0 or size.speed_rad_per_s <= 0.0:
         return found

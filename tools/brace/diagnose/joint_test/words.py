@@ -96,7 +96,7 @@ def not_named(names: Sequence[str], values: Mapping[str, float]) -> str:
     numbers = "; ".join(f"{key.rpartition('.')[2]} {value:.3g}" for key, value in values.items())
     return (
         f"no model was given, so limb.toml also has {listed(names)} ({numbers}): it brings the model nearer to the"
-        " record, but the record does not tell it from other causes, so it is not named"
+        " record, but the record does not distinguish it from other causes, so it is not named"
     )
 
 

@@ -68,7 +68,7 @@ def diagnose_joint_test(
     random = np.random.default_rng(options.seed)
     found = _searched(dataset, base, believed, random, advance)
     advance(0.85, "weighing what was found")
-    return _told(dataset, believed, found, faults, options, random, advance)
+    return _diagnosed(dataset, believed, found, faults, options, random, advance)
 
 
 @dataclass(frozen=True)
@@ -135,7 +135,7 @@ def _refused_gap(fitter: Fitter, best: Fitted) -> str:
     return refusal(fitter.record, best) or is_friction_turning(fitter.record, alone)
 
 
-def _told(
+def _diagnosed(
     dataset: Dataset,
     believed: LimbModel | None,
     search: _Found,
@@ -160,8 +160,8 @@ def _told(
     small = [term.name for term in found if _is_small(term, exported.values, record)]
 
     def is_weak(one: NamedEffect) -> bool:
-        told = {**exported.values, **{key: size.value for key, size in one.parameters.items()}}
-        is_strained = any(term.name == one.name and at_an_end(term, told) for term in found)
+        reported = {**exported.values, **{key: size.value for key, size in one.parameters.items()}}
+        is_strained = any(term.name == one.name and at_an_end(term, reported) for term in found)
         return one.confidence <= LIKELIER_THAN_NOT or one.name in small or _may_be_nothing(one) or is_strained
 
     first = others  # what explained the record without an effect goes on doing so when another is no longer named
@@ -214,15 +214,15 @@ def _told(
     named = {effect.name for effect in effects}
     all_rows = by_rows.over_all()
     final = all_rows.fit(exported.terms, exported)
-    told = final if predicts is exported else all_rows.fit(predicts.terms, predicts)
-    if told is not final:
-        effects = tuple(_as_told(effect, positions.typical(record, told)) for effect in effects)
-    if more := [term for term in told.terms if term.role == "effect" and term.name not in named]:
+    reported = final if predicts is exported else all_rows.fit(predicts.terms, predicts)
+    if reported is not final:
+        effects = tuple(_as_reported(effect, positions.typical(record, reported)) for effect in effects)
+    if more := [term for term in reported.terms if term.role == "effect" and term.name not in named]:
         keys = [parameter.key for term in more for parameter in term.parameters if parameter.key in KEY_BY_NAME]
-        numbers = positions.typical(record, told)
+        numbers = positions.typical(record, reported)
         notes += (words.not_named([term.name for term in more], {key: numbers[key] for key in keys}),)
-    notes += tuple(words.shape(term.name, told.values) for term in told.terms if term.role == "law")
-    model = _exportable(record, fitter.base, told, believed, bool(effects))
+    notes += tuple(words.shape(term.name, reported.values) for term in reported.terms if term.role == "law")
+    model = _exportable(record, fitter.base, reported, believed, bool(effects))
     nearest = [one.label for one in choice.candidates if one.gain > 0.0 and " + " not in one.label]
     could_be = tuple(dict.fromkeys((*withheld, *nearest)))[:4] if verdict == "unknown" else ()
     if effects:
@@ -255,7 +255,7 @@ def _told(
         notes,
         options.seed,
         {"rows": rows, "held_out": record.held_words, "independent_readings": float(count)},
-        joint=_sizes(all_rows, told, effects, random) if verdict in ("effect", "none") else None,
+        joint=_sizes(all_rows, reported, effects, random) if verdict in ("effect", "none") else None,
     )
 
 
@@ -294,7 +294,7 @@ def _as_friction_fades(by_rows: Fitter, found: Fitted) -> Fitted:
     return faded if is_better and not strained(by_rows, faded) else found
 
 
-def _as_told(effect: NamedEffect, values: Mapping[str, float]) -> NamedEffect:
+def _as_reported(effect: NamedEffect, values: Mapping[str, float]) -> NamedEffect:
     """The effect with the numbers that limb.toml has, which may hold more than what was named."""
     held = {
         key: Interval(values[key], min(one.low, values[key]), max(one.high, values[key]))
@@ -309,16 +309,16 @@ def _sizes(
     """The spring beside what the effects say, all with the same intervals."""
     record = by_rows.record
     key = f"joint.{record.joint}.compliance_rad_per_n_mm"
-    told = dict(item for effect in effects for item in effect.parameters.items())
+    reported = dict(item for effect in effects for item in effect.parameters.items())
     if key in exported.values:
         known = intervals(by_rows, exported, random)[key]
         value, (_, low, high) = positions.typical(record, exported)[key], known
         if further := positions.further(record, exported).get(key):
             low, high = positions.together(value, further, known)
-        told = {key: Interval(value, min(value, low), max(value, high))} | told
+        reported = {key: Interval(value, min(value, low), max(value, high))} | reported
     torque = record.columns["torque_n_mm"][record.fitted]
     reach_n_mm = float(min(torque.max(), -torque.min()) if torque.min() < 0.0 < torque.max() else np.abs(torque).max())
-    return JointSizes(told, reach_n_mm, record.position_count)
+    return JointSizes(reported, reach_n_mm, record.position_count)
 
 
 def _is_gone(term: Term, fitted: Fitted) -> bool:
@@ -347,7 +347,7 @@ def _named(
     if not found:
         return ()
     record = fitter.record
-    all_rows = by_rows.over_all()  # choices are judged by what was held out, sizes are told by all readings
+    all_rows = by_rows.over_all()  # choices are judged by what was held out, sizes are estimated from all readings
     final = all_rows.fit(exported.terms, exported)
     limits, elsewhere = intervals(all_rows, final, random), ranges(by_rows, others, random)
     further, values = positions.further(record, final), positions.typical(record, final)
@@ -374,8 +374,8 @@ def _named(
             least, most = elsewhere.get(key, (value, value))
             if key in further:  # what differs from position to position is known no better
                 low, high = positions.together(value, further[key], limits[key])
-            told = Interval(value, min(value, low, other, least), max(value, high, other, most))
-            parameters[key] = beside_what_is_left(key, told, left, spring_rad_per_n_mm)
+            reported = Interval(value, min(value, low, other, least), max(value, high, other, most))
+            parameters[key] = beside_what_is_left(key, reported, left, spring_rad_per_n_mm)
         named.append((NamedEffect(term.name, term.where, confidence, parameters, 0.0), poorer.rss - best.rss))
     total = sum(max(rss, 0.0) for _, rss in named) or 1.0
     shared = [replace(effect, gap_share=max(rss, 0.0) / total) for effect, rss in named]
@@ -397,7 +397,7 @@ def _spring_rad_per_n_mm(record: JointRecord, values: Mapping[str, float]) -> fl
 
 
 def _is_small(term: Term, values: Mapping[str, float], record: JointRecord) -> bool:
-    """Whether the effect moves the joint by less than instruments can tell."""
+    """Whether the effect moves the joint by less than instruments can show."""
     lost_rad = _lost_rad(term, values, record)
     if term.name in STOPS and lost_rad < LEAST * record.size.angle_rad:
         return True

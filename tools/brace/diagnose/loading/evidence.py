@@ -31,7 +31,7 @@ def score(fitted: Fit, base: Fit, readings: int, noise_freedom: float) -> float:
 
 def evidence(cost: float, base: float, own: int, effects: int, readings: int, noise_freedom: float) -> float:
     """Log posterior odds of `effects` with so many freedoms of their `own` that bring the cost down from `base`. The
-    noise is known only as well as `noise_freedom` independent readings tell it, and integrated out (a Student
+    noise is known only as well as `noise_freedom` independent readings show it, and integrated out (a Student
     likelihood)."""
     known = max(noise_freedom, 1.0)
     gain = 0.5 * (known + readings) * np.log((known + base) / (known + cost))

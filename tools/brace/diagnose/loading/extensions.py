@@ -29,7 +29,7 @@ from brace.native.plant_batch import number_index
 
 PRIOR_OUTSIDE = 0.05  # of anything outside the catalogue, against nothing missing: a tenth of what is in it
 SAME_COSINE = 0.95  # from which a change is an effect of the catalogue by another name
-MUST_LEAD = 6.0  # nats, 400 to 1, to be told where nothing is missing
+MUST_LEAD = 6.0  # nats, 400 to 1, to be reported where nothing is missing
 TAKES_BACK = 0.0  # nats, even odds, to take back what would be named; below that, the odds only lower the confidence
 PROBE_SIGMAS = 3.0  # of the whole record: how far a number is turned to see what it does
 HIDDEN = 0.02  # share of a change that must stay when all that the hypothesis turns is taken out

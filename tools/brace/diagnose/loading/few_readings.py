@@ -1,4 +1,4 @@
-"""What even a few load-deflection pairs tell by themselves: how the force rises along each direction that was pushed,
+"""What even a few load-deflection pairs show by themselves: how the force rises along each direction that was pushed,
 with its interval, beside what the model says. And what of a diagnosis rests on a single reading."""
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from brace.identify.noise import FORCES
 from brace.identify.record import NOT_MEASURED, Record
 
 SATURATION = "sensor.saturation_n"
-FEW = 60  # rows, up to which a record's slopes are told
+FEW = 60  # rows, up to which a record's slopes are reported
 LEAST = 3  # readings of one slope
 
 

@@ -82,7 +82,7 @@ def _changes(
     record: Record, space: Space, x: np.ndarray, residual: np.ndarray, step: np.ndarray, final: bool
 ) -> np.ndarray:
     """How the model's whitened readings change with each key by its step, keys x readings. While a fit only screens, a
-    limb that does not turn tells most of them: nearly the same, and ten times as fast."""
+    limb that does not turn gives most of them: nearly the same, and ten times as fast."""
     points = x + np.diag(step)
     moved = np.empty((space.size, residual.size))
     played = np.array([final or key.startswith(SEEN_IN_TURNING) for key in space.keys], dtype=bool)

@@ -18,8 +18,8 @@ TIMES_AT_ONCE = 100
 
 def intervals(record: Record, fitted: Fit, keys: tuple[str, ...]) -> dict[str, Interval]:
     """By the curvature at the best fit, as `brace identify` has them: sigma grows with what the fit leaves beyond the
-    noise, and of few readings it is uncertain itself. A key that the record does not tell has infinite ends, cut at
-    what the format allows."""
+    noise, and of few readings it is uncertain itself. A key that the record does not determine has infinite ends,
+    cut at what the format allows."""
     space = fitted.space
     freedom = max(record.readings - space.own, 1)
     width = half_width_90(freedom) * float(np.sqrt(max(1.0, fitted.chi2 / freedom)))

@@ -23,7 +23,7 @@ from brace.model import LimbModel
 if TYPE_CHECKING:
     from brace.diagnose.loading.search_pass import Pass
 
-SAME_K = 0.01  # relative, Frobenius: a third of the uncertainty that a controller tells with a K
+SAME_K = 0.01  # relative, Frobenius: a third of the uncertainty that a controller reports with a K
 
 
 @dataclass(frozen=True)

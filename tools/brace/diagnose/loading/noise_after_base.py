@@ -1,4 +1,4 @@
-"""What a fit tells of the noise: of a record without repeats its floor, and whether the noise grows with the load."""
+"""What a fit shows of the noise: of a record without repeats its floor, and whether the noise grows with the load."""
 
 from __future__ import annotations
 
@@ -31,8 +31,8 @@ def with_known_noise(record: Record, trust: Trust) -> Record:
 
 
 def with_less_noise(record: Record, fitted: Fit) -> Record | None:
-    """The record with the noise that `fitted` leaves, in the channels whose noise no repeats have told. None where that
-    is not far less than before.
+    """The record with the noise that `fitted` leaves, in the channels whose noise no repeats have shown. None where
+    that is not far less than before.
 
     Their noise came from what the believed limb leaves, which a missing effect or a trouble of the instruments is in.
     The rms of the whole residual counts, not only its scatter from reading to reading, so that the search after this

@@ -56,7 +56,7 @@ if TYPE_CHECKING:
 MOST_CANDIDATES = 20
 FAR_OUT = 3.0  # sigmas of the calibration from which a refitted number is a finding
 STAYS_AHEAD = 0.5
-SURE, LIKELIER_THAN_NOT = 0.8, 0.5  # confidences from which a name is told without a word before it, with "probably"
+SURE, LIKELIER_THAN_NOT = 0.8, 0.5  # confidences from which a name is given without a word before it, with "probably"
 MOST_LIKELY = 0.9  # share of the members' probability from which the first is said to be it
 SIZE_FIRST = ("creep",)  # effects whose first number is their size, and whose others mean nothing without it
 LOST_NATS = -2.0  # of the held-out configurations: more than refitting alone makes
@@ -82,7 +82,7 @@ def diagnosis_of(
     with beside(following, following, options.processes if named else 1) as next_one:
         found = _all_but_next(whole, record, locked, believed, final, twin, contested, options)
         options.meanwhile()
-        return replace(found, next_experiment=_told_by(next_one(), contested))
+        return replace(found, next_experiment=_shown_by(next_one(), contested))
 
 
 def _all_but_next(
@@ -356,7 +356,7 @@ def _changing(final: Pass) -> str:
     return f"the error looks as if {outside.words}" if outside.likely else ""
 
 
-def _told_by(following: NextExperiment | None, contested: Sequence[Contest]) -> NextExperiment | None:
+def _shown_by(following: NextExperiment | None, contested: Sequence[Contest]) -> NextExperiment | None:
     """The measurement that shows a rival, before the loading test that separates what is in the catalogue."""
     if following is None or not contested:
         return following
@@ -425,9 +425,9 @@ def _verdict(final: Pass, resolved: Resolved) -> Verdict:
 
 def _beside(final: Pass, resolved: Resolved) -> Iterator[str]:
     """What the instruments did, behind what is said of the limb."""
-    told = "; ".join(one.shown for one in final.troubles)
-    if told and resolved.verdict != "none":
-        yield f"The instruments were in trouble, too, and the limb is judged without what they did: {told}."
+    troubles = "; ".join(one.shown for one in final.troubles)
+    if troubles and resolved.verdict != "none":
+        yield f"The instruments were in trouble, too, and the limb is judged without what they did: {troubles}."
 
 
 def _sentence(
@@ -528,7 +528,7 @@ def _notes(
         if not read.all():
             notes.append(
                 f"{name} was read in {np.count_nonzero(read)} of {read.size} rows; what only the other readings would "
-                "show is not told by this record"
+                "show, this record does not show"
             )
     if twin is None:
         notes.append("too few configurations to lock one away: no held-out misfit")

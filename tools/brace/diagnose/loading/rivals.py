@@ -1,7 +1,7 @@
-"""Causes outside the catalogue that the record cannot tell from what was chosen, or too small a part of them.
+"""Causes outside the catalogue that the record cannot distinguish from what was chosen, or too small a part of them.
 
 Every row of brace.effects.rivals that may stand in for the chosen effects, or for some of them, is fitted in their
-place with everything else, and weighed by the same evidence. What only a size can tell that no limb has is weighed by
+place with everything else, and weighed by the same evidence. What only a size that no limb has can show is weighed by
 the catalogue's prior on that size."""
 
 from __future__ import annotations
@@ -61,13 +61,13 @@ class RivalSpace(Space):
         return models
 
     def sinks_less_than_a_base(self, record: Record) -> bool:
-        """Whether the record tells a rig from a base by the limb's weight."""
+        """Whether the record distinguishes a rig from a base by the limb's weight."""
         heavy = bool(np.any(self.numbers[_weights()])) or any(key.startswith("gravity.") for key in self.keys)
         counts = not (record.dataset.small_displacements or record.dataset.meta.held_at_rest)
         return self.turn is _rig_yields and heavy and counts
 
     def gauged(self, record: Record) -> bool:
-        """Whether the record tells a rig from a base by gauges on the base."""
+        """Whether the record distinguishes a rig from a base by gauges on the base."""
         return self.turn is _rig_yields and any(name in GAUGES for name in record.channels)
 
     def residuals(self, record: Record, points: np.ndarray) -> np.ndarray:

@@ -132,10 +132,10 @@ def _without_troubles(found: Pass, variants: Sequence[Variant], advance: Advance
             sets = with_causes(cleaner)
             trouble = trouble if sets is cleaner.sets else likeliest(cleaner.record, sets)
         if trouble is None or not trouble.far_ahead or trouble.lead < cleaner.decision.outside.lead:
-            cleaner = replace(cleaner, rival=trouble if trouble is not None and trouble.told else None)
+            cleaner = replace(cleaner, rival=trouble if trouble is not None and trouble.is_named else None)
             break
         first = first or trouble
-        if not trouble.told:
+        if not trouble.is_named:
             cleaner = replace(cleaner, decision=undecided(cleaner.decision, trouble.lead, trouble.meaning))
             break
         record = cleaner.record.beside(trouble.columns)

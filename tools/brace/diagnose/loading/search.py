@@ -82,7 +82,7 @@ class Search:
         return sorted(self.tried.values(), key=lambda item: (-item.score, item.label))
 
     def _parts_of(self, best: Hypothesis) -> None:
-        """The sets that are left of the best one without some of its effects, where no search came that way. They tell
+        """The sets that are left of the best one without some of its effects, where no search came that way. They show
         what an effect is worth, and a trouble of the instruments may stand in the place of the others."""
         parts = [part for size in range(1, len(best.variants)) for part in combinations(best.variants, size)]
         for part in parts:

@@ -17,8 +17,8 @@ from brace.diagnose.loading.screen import Remover
 
 STRUCTURED_P = 1e-6  # family-wise; structure that matters is far below, and noise is never quite white
 MOST_DIMENSIONS = 160  # of one family
-LEAST_BESIDE = 6.0  # readings' worth of freedom that a family must leave: noise is not told by less
-ALIKE = 60  # readings of about the same size: enough to tell their own noise within a tenth
+LEAST_BESIDE = 6.0  # readings' worth of freedom that a family must leave: fewer do not show the noise
+ALIKE = 60  # readings of about the same size: enough to estimate their own noise within a tenth
 
 
 @dataclass(frozen=True)

@@ -32,10 +32,10 @@ class Decision:
 
     @property
     def hint_odds(self) -> float | None:
-        """Of something missing against nothing, where they are worth telling but not enough to name it."""
+        """Of something missing against nothing, where they are worth reporting but not enough to name it."""
         nothing = self.chosen.posterior
-        told = self.verdict == "none" and nothing < HINT
-        return (1.0 - nothing) / nothing if told else None
+        is_reported = self.verdict == "none" and nothing < HINT
+        return (1.0 - nothing) / nothing if is_reported else None
 
 
 def decide(sets: Sequence[LabelSet], structure: Structure, base: Fit, outside: Outside) -> Decision:

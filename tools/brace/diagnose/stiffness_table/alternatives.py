@@ -36,7 +36,7 @@ BASE = BY_NAME["base_compliance"].labels
 @dataclass(frozen=True)
 class Alternative:
     """A kind of limb: what is free beside the believed limb, what is set, and which effects this amounts to. Links are
-    free in all but the first, because a table that holds them to their calibration can tell nothing else."""
+    free in all but the first, because a table that holds them to their calibration can show nothing else."""
 
     name: str
     labels: tuple[str, ...]

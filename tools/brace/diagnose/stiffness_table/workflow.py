@@ -81,7 +81,7 @@ def diagnose_table(
     if base is None:
         return _faulty(dataset, believed, faults, options)
     judged = [one for one in (judge(problem, believed, each, step) for each in missing) if one is not None]
-    return _told(dataset, settled, problem, believed, base, judged, done, faults, options)
+    return _diagnosed(dataset, settled, problem, believed, base, judged, done, faults, options)
 
 
 def _faulty(
@@ -99,7 +99,7 @@ def _faulty(
     )
 
 
-def _told(
+def _diagnosed(
     dataset: Dataset,
     settled: Dataset,
     problem: TableProblem,
@@ -275,7 +275,7 @@ def _sentence(
         kinds += (" or " if kinds else "") + better[-1].alternative.name
         return (
             f"{first}The believed limb misses the table by {before.fitted:.3g} N/mm; {kinds} would each"
-            f" lessen that (to {after.fitted:.3g} N/mm at best), and a table of K alone cannot tell which."
+            f" lessen that (to {after.fitted:.3g} N/mm at best), and a table of K alone cannot show which."
         )
     if verdict == "unknown":
         return (
@@ -312,7 +312,7 @@ def _notes(problem: TableProblem, best: Judged, done: Sequence[str]) -> tuple[st
 def _next(could_be: Sequence[str]) -> NextExperiment:
     return NextExperiment(
         "record the loading cycles behind the table, with the tip's direction, encoders behind the gearboxes"
-        " and a dial gauge on the base, folded, half open and nearly straight: encoders tell joints from"
+        " and a dial gauge on the base, folded, half open and nearly straight: encoders separate joints from"
         " links, the gauge the base from both, the sign of the coupling between the two levers moment"
         " transfer",
         tuple(could_be[:4]),

@@ -159,22 +159,22 @@ class _Reader:
                 why=f"the log has {self._listed_unknown() or 'no frames'}; another node's, or another bus",
                 next_step="give the database of these frames: --dbc FILE.dbc",
             )
-        told = []
+        notes = []
         if self._unknown:
-            told.append(
+            notes.append(
                 f"frames that no database has, another node's or another device's, left out: {self._listed_unknown()}"
             )
         if missing := self._databases.missing(self._seen):
-            told.append(f"messages of the database that never came: {_listed(missing)}")
+            notes.append(f"messages of the database that never came: {_listed(missing)}")
         for text, count in self._broken.items():
-            told.append(f"{count} frames left out that do not fit their database: {text}")
+            notes.append(f"{count} frames left out that do not fit their database: {text}")
         for name, count in self._beyond.items():
-            told.append(f"{name}: {count} readings beyond the range of the database are taken as not known")
+            notes.append(f"{name}: {count} readings beyond the range of the database are taken as not known")
         if self._of_bus:
-            told.append(f"{self._of_bus} error and remote frames left out")
+            notes.append(f"{self._of_bus} error and remote frames left out")
         if self._computed:
-            told.append(our_frames.WHY_NOT)
-        return told
+            notes.append(our_frames.WHY_NOT)
+        return notes
 
 
 def _listed(texts: Sequence[str]) -> str:

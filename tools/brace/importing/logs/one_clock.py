@@ -188,12 +188,12 @@ def _held(signal: Signal, rows: np.ndarray) -> _Joined:
 def _said(signal: Signal, clock: Signal, joined: _Joined, role: str) -> list[str]:
     if signal.source == clock.source and np.array_equal(signal.times_s, clock.times_s):
         return []
-    told = []
+    notes = []
     if role == HELD:
         longest = f"{joined.oldest_s:.3g} s at most"
-        told.append(f"{signal.name} ({_rate(signal)}): each reading stands until the next, {longest}")
+        notes.append(f"{signal.name} ({_rate(signal)}): each reading stands until the next, {longest}")
     else:
-        told.append(f"{signal.name} ({_rate(signal)}) is interpolated between its neighbours in time")
+        notes.append(f"{signal.name} ({_rate(signal)}) is interpolated between its neighbours in time")
     lost = {
         "before its first reading": joined.before,
         "after its last": joined.after,
@@ -201,8 +201,8 @@ def _said(signal: Signal, clock: Signal, joined: _Joined, role: str) -> list[str
     }
     for where, count in lost.items():
         if count:
-            told.append(f"{signal.name}: {count} rows have none of it, {where}")
-    return told
+            notes.append(f"{signal.name}: {count} rows have none of it, {where}")
+    return notes
 
 
 def _period(signal: Signal) -> float:
@@ -220,14 +220,14 @@ def _rate(signal: Signal) -> str:
 
 def _rates(log: Log) -> list[str]:
     """A line for each source: how many readings, how far apart, the gaps."""
-    told = []
+    notes = []
     for source in dict.fromkeys(signal.source for signal in log.signals):
         signal = max((s for s in log.signals if s.source == source), key=lambda s: len(s.times_s))
         steps = np.diff(_apart(signal.times_s))
         gaps = steps[steps > GAP_PERIODS * _period(signal)] if len(steps) > 2 else steps[:0]
         text = f", {len(gaps)} gap{'s' if len(gaps) > 1 else ''}, the longest {gaps.max():.3g} s" if gaps.size else ""
-        told.append(f"{source}: {_rate(signal)}{text}")
-    return told
+        notes.append(f"{source}: {_rate(signal)}{text}")
+    return notes
 
 
 def _day(start_s: float) -> str | None:

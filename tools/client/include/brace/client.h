@@ -234,7 +234,7 @@ brace_client_status_t brace_client_k_under_load_at_tip(brace_client_t *client, f
  * BRACE_PART_LOAD has them of one. Over Modbus it is one read. */
 brace_client_status_t brace_client_load(brace_client_t *client, int timeout_ms, brace_client_load_t *load);
 
-/* Tells the controller where down is: its direction in the limb's plane, from +x, and how far it leans out of the plane
+/* Sends the controller where down is: its direction in the limb's plane, from +x, and how far it leans out of the plane
  * [rad; the ranges of gravity.direction_rad and gravity.lean_rad]. It holds until the controller's next start, for
  * every client; the parameters stay as they are. NaN for both: what the parameters say holds again. */
 brace_client_status_t brace_client_set_gravity(brace_client_t *client, float direction_rad, float lean_rad,

@@ -1,7 +1,7 @@
 /* Commands of the robot's computer to a limb controller: what moves the limb, stop, clear; and the key of a guarded
  * board. docs/security.md says who may command.
  *
- *   (void)brace_client_begin_take_up(limb, 1, +1, 500, 30000); // what comes of it, brace_client_step tells
+ *   (void)brace_client_begin_take_up(limb, 1, +1, 500, 30000); // what comes of it, brace_client_step reports
  *   while (brace_client_step(limb, 20, &motion) == BRACE_CLIENT_OK && motion.state <= BRACE_MOTION_RUNNING) {
  *       control_the_robot();
  *   }
@@ -36,9 +36,9 @@ typedef enum {
     BRACE_MOTION_REFUSED = 4,   /* the controller did not begin it */
     BRACE_MOTION_FAILED = 5,    /* it began and failed, or a fault ended it; what was taken up is let go */
     BRACE_MOTION_STOPPED = 6,   /* somebody has stopped it: the limb stands */
-    BRACE_MOTION_TIMED_OUT = 7, /* it took longer than its limit, and the client has told it to stop; or it
+    BRACE_MOTION_TIMED_OUT = 7, /* it took longer than its limit, and the client has asked it to stop; or it
                                    has not begun, because no answer came or the controller heard no sign of
-                                   life in time: brace_client_why tells which */
+                                   life in time: brace_client_why says which */
     BRACE_MOTION_OWNER_LOST = 8, /* the controller heard no sign of life in time: the limb stands */
     BRACE_MOTION_NOT_BEGUN = 9  /* the call that was to begin it failed before it asked for anything */
 } brace_motion_state_t;
@@ -66,11 +66,11 @@ brace_client_status_t brace_client_load_key(brace_client_t *client, const char *
 void brace_client_set_key(brace_client_t *client, const uint8_t key[BRACE_CLIENT_KEY_BYTES]);
 
 /* Each asks for a motion and waits at most timeout_ms for the controller's answer.
- *   limit_ms: the whole motion may take so long [1, 3 600 000]; then the client tells the limb to stop
+ *   limit_ms: the whole motion may take so long [1, 3 600 000]; then the client asks the limb to stop
  * returns OK: the controller has taken it, and it begins with the next sign of life; call brace_client_step. E_REFUSED: the controller does not begin it. E_USAGE, E_UNSUPPORTED: it
  *   was not asked for. E_TIMEOUT and other failures to answer: it may have begun; brace_client_step finds out, and
- *   tells NOT_BEGUN where the call failed before it asked. Where a motion runs already, that one goes on unless a new
- *   one has begun, and brace_client_step tells of it. */
+ *   reports NOT_BEGUN where the call failed before it asked. Where a motion runs already, that one goes on unless a new
+ *   one has begun, and brace_client_step reports it. */
 
 /* The motor of a joint (0 coxa, 1 femur, 2 tibia) moves through its backlash until one side of it, `flank` [+1, -1],
  * is loaded, and holds that. DONE: it holds, and needs no further signs of life. */
@@ -88,8 +88,8 @@ brace_client_status_t brace_client_begin_loading_test(brace_client_t *client, co
 /* A loading test that runs, or was stopped and stands, goes back to where it began. What was taken up is held. */
 brace_client_status_t brace_client_begin_end_test(brace_client_t *client, int timeout_ms, int limit_ms);
 
-/* Gives a sign of life when one is due, asks the controller how the motion goes, and tells it. At most timeout_ms, and
- * 100 ms more when it has to stop the limb; 20 suffices over CAN, 50 over Modbus. Without a motion it does nothing.
+/* Gives a sign of life when one is due, asks the controller how the motion goes, and reports it. At most timeout_ms,
+ * and 100 ms more when it has to stop the limb; 20 suffices over CAN, 50 over Modbus. Without a motion it does nothing.
  *   motion: written whatever is returned; null is allowed
  * returns OK; at once E_DOWN, E_FULL, E_VERSION, E_REFUSED (an exception over Modbus); after a second without an answer
  * E_TIMEOUT, E_SILENT, E_NODE, E_BIT_RATE */

@@ -23,7 +23,7 @@ LEAST_EXCESS = 1.5  # per reading, that a fault of a whole column makes
 REMOVED = 0.95  # of the excess, by a repair that is believed
 NEAR_NOISE = 0.5  # excess per reading that a repaired record may keep
 TIED = 1.5  # a repair that leaves no more than this factor of the best's is as likely
-SAME_SHAPE = 0.8  # correlation with the believed limb's forces, from which a unit can be told
+SAME_SHAPE = 0.8  # correlation with the believed limb's forces, from which a unit can be recognized
 UNITS = {**FORCE_SLIPS, 0.1: ("daN", 10.0), 1 / 0.27801385: ("ozf", 0.27801385)}
 SHIFTS: tuple[str, ...] = ("dx_mm", "dz_mm")
 ANGLES: tuple[str, ...] = ("theta1_rad", "theta2_rad")
@@ -65,10 +65,10 @@ def faults(judge: Judge) -> list[DataFault]:
         left = judge.agreement(mended, judge.few, np.array(repair.scale)).excess
         if left <= most:
             accepted.append((left, repair))
-    return list(_told(judge, accepted))
+    return list(_column_faults(judge, accepted))
 
 
-def _told(judge: Judge, accepted: list[tuple[float, Repair]]) -> Iterator[DataFault]:
+def _column_faults(judge: Judge, accepted: list[tuple[float, Repair]]) -> Iterator[DataFault]:
     if not accepted:
         return
     accepted.sort(key=lambda item: item[0])
@@ -111,7 +111,7 @@ def _units(dataset: Dataset) -> Iterator[Repair]:
                 names, f"fits only in {unit}", f"{unit}: multiply by {factor:g}", _scaled(names, factor), scale
             )
     if dataset.meta.number("rig.step_mm") > 0.0:
-        return  # the step tells the unit of displacements
+        return  # the step shows the unit of displacements
     for unit, factor in LENGTH_SLIPS.values():
         for names in (SHIFTS, SHIFTS[:1], SHIFTS[1:]):
             yield Repair(names, f"fits only in {unit}", f"{unit}: multiply by {factor:g}", _scaled(names, factor))

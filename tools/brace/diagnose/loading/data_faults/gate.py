@@ -19,7 +19,7 @@ from brace.model import LimbModel
 
 MOST_LISTED = 200
 FOLLOWS_P = 1e-6  # forces that follow the displacement by chance
-FEW_FOLLOW_P, FOLLOWED = 0.01, 0.9  # of a few readings no more can be told, if so much of their square follows
+FEW_FOLLOW_P, FOLLOWED = 0.01, 0.9  # few readings cannot show more, if so much of their square follows
 
 
 def gate(dataset: Dataset, believed: LimbModel, options: Options) -> Diagnosis | None:
@@ -44,7 +44,7 @@ def gate(dataset: Dataset, believed: LimbModel, options: Options) -> Diagnosis |
         return _too_little(
             believed, options, "the forces do not follow the displacement; is the tip held, is the sensor alive?"
         )
-    if not dataset.reads_both_forces:  # the faults of one axis look like effects: without the other, nothing tells them
+    if not dataset.reads_both_forces:  # the faults of one axis look like effects: the other would show which
         return None
     found = against_limb.faults(dataset, believed)
     if not found:  # what the record alone looked like: does the limb say so, too?

@@ -86,7 +86,7 @@ class Judge:
         record = Record(part, FORCES, noise, measured, sigma, self.player(part))
         found = fit(record, self.space, self.space.mean, final=False)
         if not (dataset.meta.displacements or dataset.small_displacements):
-            # a repaired record may tell that its limb does not turn, where a faulty one did not
+            # a repaired record may show that its limb does not turn, where a faulty one did not
             flat = fit(record.unturned, self.space, self.space.mean, final=False)
             if flat.cost < found.cost and settled(part, self.believed).small_displacements:
                 found = flat

@@ -68,9 +68,9 @@ def faults(judge: Judge) -> list[DataFault]:
             continue
         if runs.size >= MOST_RUNS * np.count_nonzero(here):
             rows = np.flatnonzero(config == pose)
-            told = list(_pose(judge, limb, int(pose), _bad(judge, rows, played, usual), played))
-            if told:
-                found += told
+            of_pose = list(_pose(judge, limb, int(pose), _bad(judge, rows, played, usual), played))
+            if of_pose:
+                found += of_pose
                 continue
         for run in runs:
             rows = np.arange(judge.starts[run], judge.starts[run + 1])

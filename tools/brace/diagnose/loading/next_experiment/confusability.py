@@ -87,8 +87,8 @@ def confusability(base: Fit, sets: Sequence[LabelSet]) -> Confusability:
             cosine[a, b] = min(1.0, made / lengths[a]) if lengths[a] > 0.0 else 0.0
             largest = np.linalg.svd(spans[a].T @ spans[b], compute_uv=False)[0]
             angle[a, b] = float(np.arccos(min(1.0, largest)))
-    told = chance_to_win(lengths[:, None] ** 2 * (1.0 - cosine**2))
-    return Confusability(tuple(labels), lengths, cosine, angle, told)
+    power = chance_to_win(lengths[:, None] ** 2 * (1.0 - cosine**2))
+    return Confusability(tuple(labels), lengths, cosine, angle, power)
 
 
 class _Removal:
@@ -128,16 +128,16 @@ def in_words(found: Confusability, labels: Sequence[str]) -> tuple[str, ...]:
     """Sentences for a report. Each names one of `labels` and the labels that this record may not tell from it; a label
     that the record tells from all others has no sentence. Two labels that look like each other share the sentence of
     the first."""
-    told: set[tuple[str, str]] = set()
+    named: set[tuple[str, str]] = set()
     sentences = []
     for label in labels:
         row = found.labels.index(label) if label in found.labels else 0
         chance = {other: found.power[row, found.labels.index(other)] for other in found.look_alikes(label)[1:]}
-        alike = [other for other, won in chance.items() if won <= TOLD_APART and (other, label) not in told]
+        alike = [other for other, won in chance.items() if won <= TOLD_APART and (other, label) not in named]
         if alike:
             listed = ", ".join(
                 f"{other} (of 100 such records {100.0 * chance[other]:.0f} would tell the two apart)" for other in alike
             )
             sentences.append(f"in this record {label} looks like {listed}")
-        told |= {(label, other) for other in alike}
+        named |= {(label, other) for other in alike}
     return tuple(sentences)

@@ -31,7 +31,7 @@ from brace.diagnose.loading.next_experiment.separation import (
     contenders,
     lambda_squared,
     no_rivals,
-    pairs_told,
+    pairs_separated,
     play,
     power,
     weights,
@@ -47,7 +47,7 @@ POSTURES_AND_REPEATS = ((3, 1), (5, 1), (8, 1), (8, 2), (8, 4))
 GOOD_ENOUGH = 0.99  # a test that is as sure as this need not be surer
 NEAR_BEST = 0.01  # of worth that is given up for a shorter test
 NO_POWER = 0.05  # below it nothing is separated
-LIKELY = 0.8  # power below which a person is told what else to do
+LIKELY = 0.8  # power below which the report also says what else to do
 
 
 @dataclass(frozen=True)
@@ -129,7 +129,7 @@ def _plans(
         for row, (count, repeats) in enumerate(sizes):
             amount[row][:, order[:count]] = repeats * _read(encoders, gauge)[:, None]
         found = lambda_squared(played, hypotheses, amount)
-        worths = 0.5 * (power(found, hypotheses) + pairs_told(found, hypotheses))
+        worths = 0.5 * (power(found, hypotheses) + pairs_separated(found, hypotheses))
         for (count, repeats), worth in zip(sizes, worths):
             minutes = condition.minutes(count, repeats, encoders, gauge, record)
             yield Plan(condition, angles[order[:count]], repeats, encoders, gauge, minutes, float(worth))

@@ -16,7 +16,7 @@ from brace.diagnose.loading.choose import LabelSet
 from brace.diagnose.loading.fit import BIG, PROBE, Fit
 from brace.identify.record import Record
 
-WIN_NATS = 3.0  # by which the right one must lead to count as told
+WIN_NATS = 3.0  # by which the right one must lead to count as separated
 LEAST_ODDS = -8.0  # log odds below the best from which a set is no rival of its own accord
 LEAST_RIVALS = 3  # that even a sure name is tested against
 MOST_HYPOTHESES = 6
@@ -147,7 +147,7 @@ def chance_to_win(found: np.ndarray, lead: np.ndarray | float = 0.0) -> np.ndarr
     return np.asarray(ndtr((0.5 * found + lead - WIN_NATS) / size))
 
 
-def told(found: np.ndarray, hypotheses: Sequence[Contender]) -> np.ndarray:
+def separated(found: np.ndarray, hypotheses: Sequence[Contender]) -> np.ndarray:
     """tests x truths x rivals: probability that the truth ends ahead of the rival by WIN_NATS. A lead that
     it has today counts by half, a lag in full. A set that only adds to the truth is no rival: it loses by
     its cost."""
@@ -164,14 +164,14 @@ def no_rivals(hypotheses: Sequence[Contender]) -> np.ndarray:
 
 def power(found: np.ndarray, hypotheses: Sequence[Contender]) -> np.ndarray:
     """Per test: probability that the right one, whichever it is, ends ahead of all others."""
-    worst = told(found, hypotheses).min(axis=2)
+    worst = separated(found, hypotheses).min(axis=2)
     judged = ~no_rivals(hypotheses).all(axis=1)
     share = weights(hypotheses) * judged
     return np.asarray(worst @ share / max(float(share.sum()), 1e-300))
 
 
-def pairs_told(found: np.ndarray, hypotheses: Sequence[Contender]) -> np.ndarray:
+def pairs_separated(found: np.ndarray, hypotheses: Sequence[Contender]) -> np.ndarray:
     """Per test: share of rivals that the right one, whichever it is, ends ahead of: what a test is worth
     where it cannot settle everything."""
     pair = np.where(no_rivals(hypotheses), 0.0, weights(hypotheses)[:, None])
-    return np.asarray(np.einsum("tab,ab->t", told(found, hypotheses), pair) / max(float(pair.sum()), 1e-300))
+    return np.asarray(np.einsum("tab,ab->t", separated(found, hypotheses), pair) / max(float(pair.sum()), 1e-300))

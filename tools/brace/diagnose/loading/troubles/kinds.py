@@ -21,14 +21,14 @@ from brace.native.plant_batch import number_index, reference_planar_many
 
 LAG, GAIN_STEP, ZERO_STEP, ZEROS, POSE, SLIP, OUTLIERS = (cause.name for cause in INSTRUMENT_TROUBLES)
 # What follows the posture may be of the limb or of an encoder. A tip that is displaced in proportion to time or to the
-# temperature tells of a rig, a limb or a ground that grows. These are no troubles of the instruments here. They stand
-# against those and against effects that would otherwise make up for them: some slips come near a way that grows.
+# temperature is a sign of a rig, a limb or a ground that grows. These are no troubles of the instruments here. They
+# stand against those and against effects that would otherwise make up for them: some slips come near a way that grows.
 # Nor is what does not begin in the record: a step after its first readings is hardly another thing.
 ZERO_BY_POSTURE, ZERO_AT_ONE, POSE_BY_POSTURE, GAIN_BY_POSTURE, GROWTH, ELSEWHERE, GAIN_OF_ONE = (
     "zero_per_posture", "zero_at_one_posture", "pose_error_per_posture", "gain_per_posture", "tip_moves_slowly",
     "tip_stands_elsewhere", "gain_of_one_axis",
 )  # fmt: skip
-NOT_TOLD = {
+NOT_NAMED = {
     ZERO_BY_POSTURE: "the force at rest differed from posture to posture",
     ZERO_AT_ONE: "the force at rest was another one at one of the postures",
     POSE_BY_POSTURE: "the joints stood at other angles than the record says, at each posture by others",

@@ -1,4 +1,4 @@
-"""How likely a lag is before the record is seen, and the sentence that tells of it. While a rig moves on, a late
+"""How likely a lag is before the record is seen, and the sentence that reports it. While a rig moves on, a late
 sensor reads the force of an earlier displacement. Where a rig waits before each reading, a delay changes nothing. Only
 a sensor that has not settled yet makes the same readings there."""
 

@@ -20,7 +20,7 @@ from brace.diagnose.loading.screen import Remover
 from brace.diagnose.loading.troubles.kinds import (
     GAIN_STEP,
     LAG,
-    NOT_TOLD,
+    NOT_NAMED,
     OUTLIERS,
     SLIP,
     ZERO_STEP,
@@ -62,19 +62,19 @@ class Trouble:
         return self.lead > MUST_LEAD
 
     @property
-    def told(self) -> bool:
+    def is_named(self) -> bool:
         """Whether the report may name it: it is a trouble of the instruments. Anything else has no name, and makes
         the verdict unknown where it is far ahead."""
-        return self.name not in NOT_TOLD
+        return self.name not in NOT_NAMED
 
     @property
     def meaning(self) -> str:
         """What it does, in half a sentence."""
-        return self.cause.meaning if self.told else NOT_TOLD[self.name]
+        return self.cause.meaning if self.is_named else NOT_NAMED[self.name]
 
     @property
     def cause(self) -> RivalCause:
-        """Name and words of a trouble of the instruments. KeyError where `told` is false."""
+        """Name and words of a trouble of the instruments. KeyError where `is_named` is false."""
         return RIVAL_BY_NAME[self.name]
 
     @property
@@ -113,11 +113,11 @@ def likeliest(record: Record, sets: Sequence[LabelSet]) -> Trouble | None:
 def most_likely(troubles: Sequence[Trouble]) -> Trouble | None:
     """Chooses the trouble with the most lead; None where even that trouble is improbable. Where it is far ahead of the
     catalogue and a trouble without a name is nearly as likely (1 to 20), the one without a name is returned, with the
-    lead of the first: one of the two is far ahead, and nobody can tell which."""
+    lead of the first: one of the two is far ahead, and nobody can say which."""
     first = max(troubles, key=lambda one: one.lead, default=None)
     if first is None or first.lead <= MAY_BE:
         return None
-    nameless = max((one for one in troubles if not one.told), key=lambda one: one.lead, default=None)
+    nameless = max((one for one in troubles if not one.is_named), key=lambda one: one.lead, default=None)
     if not first.far_ahead or nameless is None or nameless.lead <= first.lead + MAY_BE:
         return first
     return replace(nameless, lead=first.lead)
@@ -164,7 +164,7 @@ class _Option:
         return evidence(cost, base.cost, own, effects, record.readings, record.noise_freedom) - self.price
 
     def promise(self, record: Record, base: Fit) -> float:
-        """The score that a fit may come to. Slopes tell the less, the further the limb has to move."""
+        """The score that a fit may come to. Slopes say the less, the further the limb has to move."""
         return self.score(record, base, self.cost) + BY_SLOPES * (self.rest.best.fit.cost - self.cost)
 
 
@@ -191,7 +191,7 @@ def _options(record: Record, rest: LabelSet) -> Iterator[_Option]:
 
 
 def _fitted(record: Record, base: Fit, option: _Option, against: float) -> Trouble:
-    """The trouble with the limb fitted anew beside it, which may gain more than the slopes of the old fit tell."""
+    """The trouble with the limb fitted anew beside it, which may gain more than the slopes of the old fit show."""
     rest = option.rest.best.fit
     wide = option.columns * (option.spread or _flat(record, option.columns))
     fitted = fit(record.beside(wide), rest.space, rest.x)
@@ -208,7 +208,7 @@ def _fitted(record: Record, base: Fit, option: _Option, against: float) -> Troub
         lead -= rarity_nats(record, float(sizes[0]))
     if option.kind == SLIP and _goes_back(sizes):
         lead = -np.inf
-    return _told(record, option, fitted, wide, sizes, lead)
+    return _in_words(record, option, fitted, wide, sizes, lead)
 
 
 def _goes_back(sizes: np.ndarray) -> bool:
@@ -219,7 +219,7 @@ def _goes_back(sizes: np.ndarray) -> bool:
     return len(slips) > 1 and bool(net_mm < BACK * largest_mm)
 
 
-def _told(
+def _in_words(
     record: Record, option: _Option, fitted: Fit, wide: np.ndarray, sizes: np.ndarray, lead: float
 ) -> Trouble:
     """The trouble in words."""

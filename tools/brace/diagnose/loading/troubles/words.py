@@ -6,7 +6,7 @@ import numpy as np
 
 from brace.identify.record import Record
 from brace.diagnose.loading.troubles.lag import lag_in_words
-from brace.diagnose.loading.troubles.kinds import GAIN_STEP, LAG, NOT_TOLD, POSE, SLIP, ZERO_STEP, ZEROS
+from brace.diagnose.loading.troubles.kinds import GAIN_STEP, LAG, NOT_NAMED, POSE, SLIP, ZERO_STEP, ZEROS
 
 MOST_LISTED = 8  # rows
 
@@ -40,8 +40,8 @@ def shown(record: Record, name: str, columns: np.ndarray, sizes: np.ndarray, sig
             f"the posture differs from run to run by about {1e3 * float(np.std(sizes)):.2g} mrad from the commanded "
             "angles; measure the angles of every run (columns theta1_rad, theta2_rad)"
         )
-    if name in NOT_TOLD:
-        return NOT_TOLD[name]
+    if name in NOT_NAMED:
+        return NOT_NAMED[name]
     rows = sorted({int(row) + 1 for row in np.flatnonzero(np.any(columns != 0.0, axis=(0, 2)))})
     more = f" and {len(rows) - MOST_LISTED} more" if len(rows) > MOST_LISTED else ""
     listed = ", ".join(map(str, rows[:MOST_LISTED])) + more

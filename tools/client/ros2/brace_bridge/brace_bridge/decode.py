@@ -141,9 +141,9 @@ class Decoder:
 
     def __init__(self) -> None:
         self._joiner = Joiner()
-        self._told: dict[int, tuple[int, float]] = {}  # by node: the snapshot whose K in the plane has been given
-        self._load_told: dict[int, tuple[int, float]] = {}  # the same of its load
-        self._sigma_told: dict[int, tuple[tuple[int, float], Sigma]] = {}  # and of its uncertainty
+        self._reported: dict[int, tuple[int, float]] = {}  # by node: the snapshot whose K in the plane has been given
+        self._load_reported: dict[int, tuple[int, float]] = {}  # the same of its load
+        self._sigma_reported: dict[int, tuple[tuple[int, float], Sigma]] = {}  # and of its uncertainty
         self._cause: dict[int, str] = {}
         self._strangers: set[int] = set()  # nodes with another dictionary: their frames mean something else
 
@@ -175,16 +175,16 @@ class Decoder:
     def _messages_of(self, snapshot: Snapshot) -> list[Message]:
         messages: list[Message] = []
         this = (snapshot.sequence, snapshot.time_s)
-        if snapshot.adds not in ("space", "load", "sigma") or self._told.get(snapshot.node) != this:
+        if snapshot.adds not in ("space", "load", "sigma") or self._reported.get(snapshot.node) != this:
             messages.append(message_of(snapshot))
-        self._told[snapshot.node] = this
+        self._reported[snapshot.node] = this
         if snapshot.adds == "space" and snapshot.space is not None:
             messages.append(space_message_of(snapshot, snapshot.space))
-        if snapshot.load is not None and self._load_told.get(snapshot.node) != this:
-            self._load_told[snapshot.node] = this
+        if snapshot.load is not None and self._load_reported.get(snapshot.node) != this:
+            self._load_reported[snapshot.node] = this
             messages.append(load_message_of(snapshot, snapshot.load))
-        if snapshot.sigma is not None and self._sigma_told.get(snapshot.node) != (this, snapshot.sigma):
-            self._sigma_told[snapshot.node] = (this, snapshot.sigma)
+        if snapshot.sigma is not None and self._sigma_reported.get(snapshot.node) != (this, snapshot.sigma):
+            self._sigma_reported[snapshot.node] = (this, snapshot.sigma)
             messages.append(uncertainty_message_of(snapshot, snapshot.sigma))
         return messages
 

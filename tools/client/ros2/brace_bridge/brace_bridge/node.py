@@ -111,7 +111,7 @@ def _diagnostic(limb: str, health: LimbHealth) -> DiagnosticArray:
     status.name = f"brace: {limb}"
     status.hardware_id = limb
     status.message = health.text
-    values = {"faults": " ".join(health.faults) or "none", "drift_cause": health.drift_cause or "not told yet"}
+    values = {"faults": " ".join(health.faults) or "none", "drift_cause": health.drift_cause or "not reported yet"}
     status.values = [KeyValue(key=key, value=value) for key, value in values.items()]
     array.status = [status]
     return array
