@@ -10,8 +10,8 @@ import xml.etree.ElementTree
 
 def reason_of(case: xml.etree.ElementTree.Element) -> str:
     """Why a test was skipped, in one line."""
-    told = case.find("skipped")
-    text = "" if told is None else told.get("message") or told.text or ""
+    skipped = case.find("skipped")
+    text = "" if skipped is None else skipped.get("message") or skipped.text or ""
     return " ".join(text.split()) or "no reason given"
 
 

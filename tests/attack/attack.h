@@ -1,7 +1,7 @@
 /* A limb with play on a guarded board or a bench, its operator, who has the key, and somebody else on the same buses.
  *
  * Each attack says what it sends. Then the limb must have commanded nothing new, the set in force and what is staged
- * must be the operator's, and the controller must have refused, told and counted. */
+ * must be the operator's, and the controller must have refused, reported and counted. */
 #ifndef ATTACK_H
 #define ATTACK_H
 
@@ -125,9 +125,9 @@ static inline void make_sign(const uint8_t *key, uint32_t number, uint32_t token
 /* What everybody hears in answers: the number of now. */
 static inline uint32_t number_now(void)
 {
-    brace_session_report_t told;
-    brace_app_session(&app, &told);
-    return told.number;
+    brace_session_report_t reported;
+    brace_app_session(&app, &reported);
+    return reported.number;
 }
 
 static inline void sign_of_life(void)
@@ -303,18 +303,18 @@ static inline bool is_own_refusal(int32_t status)
 }
 
 /* How many of the answers that have come refuse somebody as a stranger, a replay, ... */
-static inline uint32_t refusals_told(void)
+static inline uint32_t refusals_reported(void)
 {
     brace_can_frame_t frame;
-    uint32_t told = 0;
+    uint32_t reported = 0;
     while (brace_fake_frame_take(&fake, &frame)) {
         if (frame.id == 0x580u + NODE && is_refusal(frame.data)) {
             brace_can_refusal_t refusal;
             brace_can_unpack_refusal(frame.data, &refusal);
-            told += is_own_refusal(refusal.status);
+            reported += is_own_refusal(refusal.status);
         }
     }
-    return told;
+    return reported;
 }
 
 #endif

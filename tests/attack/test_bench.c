@@ -140,7 +140,7 @@ static void test_a_second_master_is_refused_while_the_first_moves_the_limb(void)
         const state_t before = state_now();
         says_as(other_token, data);
         pass(5);
-        TEST_ASSERT_EQUAL(1, refusals_told());
+        TEST_ASSERT_EQUAL(1, refusals_reported());
         const state_t after = state_now();
         TEST_ASSERT_EQUAL(before.refused + 1u, after.refused);
         TEST_ASSERT_TRUE(after.offset_rad[BRACE_FEMUR] > before.offset_rad[BRACE_FEMUR]);
@@ -213,7 +213,7 @@ static void stands_within_150_ms(void)
             TEST_ASSERT_TRUE(fake.joint[i].sample.taken_us == fake.now_us || i == BRACE_COXA);
         }
         stood_ms = moves ? ms : stood_ms;
-        TEST_ASSERT_TRUE(fake.now_us - fake.joint[BRACE_FEMUR].commanded_us < 100000u); /* and told again and again */
+        TEST_ASSERT_TRUE(fake.now_us - fake.joint[BRACE_FEMUR].commanded_us < 100000u); /* and commanded again and again */
     }
     TEST_ASSERT_TRUE(stood_ms <= 150);
     TEST_ASSERT_TRUE(offset_rad(BRACE_FEMUR) != 0.0f);
@@ -459,8 +459,8 @@ static void test_no_parameter_passes_the_board_s_ceilings(void)
     TEST_ASSERT_EQUAL(5, brace_app_parameters(&app)->controller.node_id);
 }
 
-/* A set that was stored before the board's file was written: the drives are told no more than the board allows. */
-static void test_drives_are_told_no_more_than_the_board_allows(void)
+/* A set that was stored before the board's file was written: the drives are commanded no more than the board allows. */
+static void test_drives_are_commanded_no_more_than_the_board_allows(void)
 {
     static const brace_hal_ceiling_t ceiling[3] = {{900.0f, -2.5f, 3.2f, 0.05f}, {900.0f, -2.5f, 3.2f, 0.05f},
                                                    {900.0f, -2.5f, 3.2f, 0.05f}};
@@ -585,7 +585,7 @@ int main(void)
     RUN_TEST(test_a_commit_by_register_names_its_set);
     RUN_TEST(test_seventy_commits_erase_once);
     RUN_TEST(test_no_parameter_passes_the_board_s_ceilings);
-    RUN_TEST(test_drives_are_told_no_more_than_the_board_allows);
+    RUN_TEST(test_drives_are_commanded_no_more_than_the_board_allows);
     RUN_TEST(test_the_way_back_is_no_faster_than_the_board_allows);
     RUN_TEST(test_a_drive_that_is_behind_stands_too);
     RUN_TEST(test_a_flipped_bit_makes_no_jump);

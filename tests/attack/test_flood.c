@@ -1,4 +1,4 @@
-/* A stop is heard whatever else comes, and nobody's questions starve another's: judged by what the drives are told and
+/* A stop is heard whatever else comes, and nobody's questions starve another's: judged by what the drives are commanded and
  * by counting frames.
  *
  *     build/host/tests/test_flood [TRIALS]     default 400; trust.md has the figure of 10,000
@@ -31,7 +31,7 @@ static void stop_arrives(by_t by)
 static uint32_t stood_after(flood_t flood, by_t by, uint32_t flooded_ms, uint32_t burst)
 {
     const uint32_t before = below(REQUESTS_PER_MS);
-    set_points_t told = set_points();
+    set_points_t commanded = set_points();
     for (uint32_t i = 0; i < flooded_ms; i++) {
         flooded_tick(flood, REQUESTS_PER_MS);
     }
@@ -40,18 +40,18 @@ static uint32_t stood_after(flood_t flood, by_t by, uint32_t flooded_ms, uint32_
     }
     const set_points_t then = set_points();
     if (flooded_ms + burst / REQUESTS_PER_MS > 0u) {
-        TEST_ASSERT_FALSE_MESSAGE(are_equal(&told, &then), "the limb did not move before the stop");
+        TEST_ASSERT_FALSE_MESSAGE(are_equal(&commanded, &then), "the limb did not move before the stop");
     }
     noise_arrives(flood, before);
     stop_arrives(by);
     noise_arrives(flood, REQUESTS_PER_MS - 1u - before);
     uint32_t stood = 0;
-    told = set_points();
+    commanded = set_points();
     for (uint32_t i = 1; i <= TICKS_AFTER; i++) {
         flooded_tick(flood, i == 1u ? 0u : REQUESTS_PER_MS);
-        const set_points_t now_told = set_points();
-        stood = are_equal(&told, &now_told) ? stood : i;
-        told = now_told;
+        const set_points_t now_commanded = set_points();
+        stood = are_equal(&commanded, &now_commanded) ? stood : i;
+        commanded = now_commanded;
     }
     return stood < STANDS_WITHIN ? stood : STANDS_WITHIN + 1u;
 }
@@ -83,10 +83,10 @@ static void test_a_ring_that_has_run_over_keeps_the_stop(void)
         stop_arrives(BY_FRAME);
         noise_arrives(ANY_QUESTIONS, BURST_MOST);
         TEST_ASSERT_GREATER_THAN(BURST_MOST, fake.can_health.frames_lost);
-        const set_points_t told = set_points();
+        const set_points_t commanded = set_points();
         ticks(30);
         const set_points_t then = set_points();
-        TEST_ASSERT_TRUE(are_equal(&told, &then));
+        TEST_ASSERT_TRUE(are_equal(&commanded, &then));
         TEST_ASSERT_EQUAL(fake.can_health.frames_lost, counters().frames_lost);
     }
 }
@@ -103,11 +103,11 @@ static void test_a_command_from_before_a_stop_moves_nothing(void)
     }
     stop_arrives(BY_FRAME);
     ticks(1);
-    const set_points_t told = set_points();
+    const set_points_t commanded = set_points();
     for (int i = 0; i < 40; i++) {
         ticks(1);
         const set_points_t then = set_points();
-        TEST_ASSERT_TRUE(are_equal(&told, &then));
+        TEST_ASSERT_TRUE(are_equal(&commanded, &then));
         empty_the_bus();
     }
     operator_lives = true;
@@ -129,10 +129,10 @@ static void test_who_a_stop_is_for(void)
         app.wires.can.bus.setup.urgent_id = row[i].stop_id;
         fake.can_setup.urgent_id = row[i].stop_id;
         frame_arrives(row[i].sent, NULL, 0);
-        const set_points_t told = set_points();
+        const set_points_t commanded = set_points();
         pass(10);
         const set_points_t then = set_points();
-        TEST_ASSERT_EQUAL(row[i].stands, are_equal(&told, &then));
+        TEST_ASSERT_EQUAL(row[i].stands, are_equal(&commanded, &then));
     }
 }
 

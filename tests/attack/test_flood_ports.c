@@ -253,8 +253,8 @@ static bool stands(port_t port)
     for (uint32_t i = 10u + below(30); i > 0u; i--) {
         one_tick(port, true);
     }
-    set_points_t told = set_points();
-    TEST_ASSERT_FALSE_MESSAGE(are_equal(&before, &told), "the limb did not move before the stop");
+    set_points_t commanded = set_points();
+    TEST_ASSERT_FALSE_MESSAGE(are_equal(&before, &commanded), "the limb did not move before the stop");
     switch (port) {
     case SLCAN: slcan_stop(); break;
     case TCP: tcp_stop(); break;
@@ -264,13 +264,13 @@ static bool stands(port_t port)
         one_tick(port, false); /* the stop's last byte is still on its way */
     }
     uint32_t stood = 0;
-    told = set_points();
+    commanded = set_points();
     const uint32_t silence = port == RTU ? RTU_SILENT_TICKS : 0u;
     for (uint32_t i = 1; i <= TICKS_AFTER; i++) {
         one_tick(port, true);
         const set_points_t then = set_points();
-        stood = are_equal(&told, &then) ? stood : i;
-        told = then;
+        stood = are_equal(&commanded, &then) ? stood : i;
+        commanded = then;
     }
     return stood <= STANDS_WITHIN + silence;
 }

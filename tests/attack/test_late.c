@@ -336,11 +336,11 @@ static void carry_out(order_t order)
 static bool record(const script_t *script)
 {
     float before_rad[BRACE_LINK_COUNT], after_rad[BRACE_LINK_COUNT];
-    brace_session_report_t told;
+    brace_session_report_t reported;
     messages = now_ms = counter = 0;
     note(before_rad);
-    brace_app_session(&app, &told);
-    challenge = told.challenge;
+    brace_app_session(&app, &reported);
+    challenge = reported.challenge;
     if (is_guarded()) {
         give_sign();
         step(3);

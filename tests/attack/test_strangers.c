@@ -1,5 +1,5 @@
 /* Somebody without the key on the buses of a guarded limb: commands, forged and replayed seals, floods. None succeeds,
- * each is refused, told and counted, whatever the operator is doing meanwhile. */
+ * each is refused, reported and counted, whatever the operator is doing meanwhile. */
 #include "attack.h"
 
 typedef enum { ALONE, WITH_SESSION, MOVING, CONFIGURING, SITUATIONS } situation_t;
@@ -30,8 +30,8 @@ static void begin(situation_t situation)
     drain();
 }
 
-/* Nothing of the operator's has changed; the stranger has been refused, told and counted. */
-static void nothing_came_of_it(const state_t *before, situation_t situation, const char *attack, uint32_t told)
+/* Nothing of the operator's has changed; the stranger has been refused, reported and counted. */
+static void nothing_came_of_it(const state_t *before, situation_t situation, const char *attack, uint32_t reported)
 {
     char where[160];
     const state_t after = state_now();
@@ -45,7 +45,7 @@ static void nothing_came_of_it(const state_t *before, situation_t situation, con
     TEST_ASSERT_EQUAL_MESSAGE(before->mode, after.mode, where);
     TEST_ASSERT_EQUAL_FLOAT_MESSAGE(before->gravity_rad, after.gravity_rad, where);
     TEST_ASSERT_TRUE_MESSAGE(after.refused > before->refused, where);
-    TEST_ASSERT_TRUE_MESSAGE(told > 0u, where);
+    TEST_ASSERT_TRUE_MESSAGE(reported > 0u, where);
     attacks++;
 }
 
@@ -152,7 +152,7 @@ static void test_no_command_of_a_stranger_is_taken(void)
                 const state_t before = state_now();
                 send_dressed(data, (dress_t)dress);
                 ticks(6);
-                nothing_came_of_it(&before, (situation_t)situation, attack, refusals_told());
+                nothing_came_of_it(&before, (situation_t)situation, attack, refusals_reported());
                 if (situation != ALONE) { /* the operator goes on: the attack has not shut it out */
                     sign_of_life();
                     ticks(2);
@@ -286,13 +286,13 @@ static void test_a_broadcast_moves_nothing(void)
 static void replay_all(situation_t situation, const char *attack)
 {
     const state_t before = state_now();
-    uint32_t told = 0;
+    uint32_t reported = 0;
     for (uint32_t i = 0; i < recorded_count; i++) {
         says(recorded[i]);
         ticks(3);
-        told += refusals_told();
+        reported += refusals_reported();
     }
-    nothing_came_of_it(&before, situation, attack, told);
+    nothing_came_of_it(&before, situation, attack, reported);
 }
 
 /* The operator opens a session, uploads a whole block, commits it, and goes; somebody has recorded every frame. */
@@ -341,12 +341,12 @@ static void test_a_command_does_not_count_twice_or_under_a_stolen_seal(void)
     state_t before = state_now();
     says(data);
     ticks(3);
-    nothing_came_of_it(&before, MOVING, "the command alone, once more", refusals_told());
+    nothing_came_of_it(&before, MOVING, "the command alone, once more", refusals_reported());
     before = state_now();
     says(recorded[recorded_count - 2u]);
     says(data);
     ticks(4);
-    nothing_came_of_it(&before, MOVING, "the command and its seal, once more", refusals_told());
+    nothing_came_of_it(&before, MOVING, "the command and its seal, once more", refusals_reported());
     /* The stranger's command between the operator's seal and its command is refused, and the seal waits for its own. */
     make_let_go(data);
     seal(data, sealing);
@@ -356,7 +356,7 @@ static void test_a_command_does_not_count_twice_or_under_a_stolen_seal(void)
     says(sealing);
     says(stolen);
     ticks(3);
-    nothing_came_of_it(&before, MOVING, "a stranger's command under the operator's seal", refusals_told());
+    nothing_came_of_it(&before, MOVING, "a stranger's command under the operator's seal", refusals_reported());
     operator_says(data);
     ticks(3);
     TEST_ASSERT_TRUE(something_waits());
@@ -433,7 +433,7 @@ static void test_what_comes_between_seal_and_command_changes_nothing(void)
     asking[0] = BRACE_REQUEST_LET_GO;
     says(asking);
     ticks(4);
-    nothing_came_of_it(&before, WITH_SESSION, "a command between a seal and its own", refusals_told());
+    nothing_came_of_it(&before, WITH_SESSION, "a command between a seal and its own", refusals_reported());
     operator_says(data);
     ticks(4);
     TEST_ASSERT_TRUE(something_waits());
@@ -496,7 +496,7 @@ static void test_a_session_is_not_taken_over_after_its_time(void)
     make_sign(the_key, number_now(), OPERATOR_TOKEN, data);
     says(data);
     ticks(10);
-    nothing_came_of_it(&before, WITH_SESSION, "the session that is over goes on", refusals_told());
+    nothing_came_of_it(&before, WITH_SESSION, "the session that is over goes on", refusals_reported());
     /* Who has the key opens another one, and lets go. */
     open_session();
     operator_lives = true;
@@ -518,7 +518,7 @@ static void test_two_masters_with_the_key_take_turns(void)
     make_let_go(data);
     says(data);
     ticks(3);
-    nothing_came_of_it(&before, MOVING, "a second session", refusals_told());
+    nothing_came_of_it(&before, MOVING, "a second session", refusals_reported());
     const uint32_t number = counter + 1u;
     uint8_t pdu[14], sealing[14];
     const uint32_t count = make_block(COMMAND_REGISTER(let_go), 1, 0, 1, pdu);
@@ -535,7 +535,7 @@ static void test_a_flood_of_guesses_moves_nothing(void)
 {
     begin(ALONE);
     const state_t before = state_now();
-    uint32_t told = 0;
+    uint32_t reported = 0;
     for (uint32_t i = 0; i < 30000u; i++) {
         uint8_t data[8];
         const uint32_t low = next_random(), high = next_random();
@@ -552,10 +552,10 @@ static void test_a_flood_of_guesses_moves_nothing(void)
         says(data);
         do {
             ticks(1);
-            told += refusals_told();
+            reported += refusals_reported();
         } while (fake.can_received.count > 40u);
     }
-    nothing_came_of_it(&before, ALONE, "guesses", told);
+    nothing_came_of_it(&before, ALONE, "guesses", reported);
 }
 
 /* Beside the flood the operator's stop is heard, and what it holds is held. */
@@ -581,7 +581,7 @@ static void test_stop_is_heard_in_a_flood(void)
     const state_t before = state_now();
     says(data);
     ticks(5);
-    nothing_came_of_it(&before, WITH_SESSION, "let_go of a limb that was stopped", refusals_told());
+    nothing_came_of_it(&before, WITH_SESSION, "let_go of a limb that was stopped", refusals_reported());
     make_let_go(data);
     accepted_command(data);
     pass(500);
@@ -627,8 +627,8 @@ static void test_a_guarded_board_stores_no_set_that_is_not_named(void)
     TEST_ASSERT_EQUAL_FLOAT(190.0f, brace_app_parameters(&app)->limb.femur_mm);
 }
 
-/* No request tells a byte of the key: every entry, every register. */
-static void test_the_key_is_never_told(void)
+/* No request reads a byte of the key: every entry, every register. */
+static void test_the_key_is_never_sent(void)
 {
     begin(ALONE);
     for (uint32_t index = 0; index < 0x2040u; index++) {
@@ -659,7 +659,7 @@ static void test_without_a_key_nobody_moves_it(void)
         const state_t before = state_now();
         says(data);
         ticks(4);
-        nothing_came_of_it(&before, ALONE, command_name[which], refusals_told());
+        nothing_came_of_it(&before, ALONE, command_name[which], refusals_reported());
     }
     TEST_ASSERT_EQUAL(BRACE_SETTING_NO_KEY, read_entry(ENTRY(setting)));
 }
@@ -692,7 +692,7 @@ int main(void)
     RUN_TEST(test_stop_is_heard_in_a_flood);
     RUN_TEST(test_configuration_is_its_owner_s);
     RUN_TEST(test_a_guarded_board_stores_no_set_that_is_not_named);
-    RUN_TEST(test_the_key_is_never_told);
+    RUN_TEST(test_the_key_is_never_sent);
     RUN_TEST(test_without_a_key_nobody_moves_it);
     RUN_TEST(test_reading_stays_open);
     (void)printf("%u attacks, none succeeded\n", (unsigned)attacks);

@@ -136,7 +136,7 @@ static brace_client_status_t read_space(brace_client_t *client)
     return BRACE_CLIENT_OK;
 }
 
-static brace_client_status_t tell_drift(brace_client_t *client)
+static brace_client_status_t print_drift(brace_client_t *client)
 {
     brace_client_drift_t drift;
     const brace_client_status_t status = brace_client_drift(client, timeout_ms, &drift);
@@ -150,7 +150,7 @@ static brace_client_status_t tell_drift(brace_client_t *client)
     return status;
 }
 
-static brace_client_status_t tell_take_up(brace_client_t *client)
+static brace_client_status_t print_take_up(brace_client_t *client)
 {
     int32_t outcome;
     const brace_client_status_t status = brace_client_take_up(client, (uint32_t)numbers[0], timeout_ms, &outcome);
@@ -240,9 +240,9 @@ static brace_client_status_t client_call(brace_client_t *client, const char *cal
                    loaded.moved_z_mm);
         }
     } else if (strcmp(call, "drift") == 0) {
-        status = tell_drift(client);
+        status = print_drift(client);
     } else if (strcmp(call, "take_up") == 0) {
-        status = tell_take_up(client);
+        status = print_take_up(client);
     } else if (strcmp(call, "force") == 0) {
         brace_client_force_t force;
         status = brace_client_contact_force(client, n[0], n[1], timeout_ms, &force);

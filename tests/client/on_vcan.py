@@ -72,7 +72,7 @@ def test_interface_goes_down_meanwhile(empty: str) -> None:
 
 def test_silence(empty: str, probe: Probe) -> None:
     answer = probe(empty, "identity", timeout_ms=PROMISED_MS)
-    assert answer.code == SILENT and answer.told_in_time
+    assert answer.code == SILENT and answer.reported_in_time
 
 
 def test_error_frames_are_a_wrong_bit_rate(empty: str, probe: Probe) -> None:
@@ -87,7 +87,7 @@ def test_error_frames_are_a_wrong_bit_rate(empty: str, probe: Probe) -> None:
     assert process.returncode == BIT_RATE and "bit rate" in err and "exit 4" in err
 
 
-def test_a_full_queue_is_told(empty: str) -> None:
+def test_a_full_queue_is_reported(empty: str) -> None:
     """The kernel drops what finds no room, and says how many: the joiner must know."""
     process = dump(empty)
     subprocess.run(["kill", "-STOP", str(process.pid)], check=True)

@@ -41,19 +41,19 @@ int select(int count, fd_set *reads, fd_set *writes, fd_set *excepts, struct tim
     const double begin_ms = time_of(CLOCK_MONOTONIC);
     const double most_ms = timeout != NULL ? (double)most.tv_sec * 1e3 + (double)most.tv_nsec * 1e-6 : -1.0;
     const int found = (int)syscall(SYS_pselect6, count, reads, writes, excepts, timeout != NULL ? &most : NULL, NULL);
-    if (timeout != NULL) { /* Linux tells what is left */
+    if (timeout != NULL) { /* Linux writes what is left */
         *timeout = (struct timeval){most.tv_sec, most.tv_nsec / 1000L};
     }
     count_wait(begin_ms, most_ms);
     return found;
 }
 
-static void tell(void)
+static void write_own_time(void)
 {
     fprintf(stderr, "own time %.0f ms\n", waited_ms + time_of(CLOCK_PROCESS_CPUTIME_ID));
 }
 
 __attribute__((constructor)) static void begin(void)
 {
-    atexit(tell);
+    atexit(write_own_time);
 }

@@ -125,7 +125,7 @@ def test_k_comes_at_its_rate(probe: Probe, sim: Sim) -> None:
     steps = [(other - one) % 256 for one, other in zip(numbers, numbers[1:], strict=False)]
     assert min(steps) > 0  # none twice
     # 200 Hz, counted on the controller's own clock of 1 kHz: a limb that is late leaves out ticks. Where the machine is
-    # slow, a snapshot is left out while the bus is still taking the one before, so the shorter steps tell the rate.
+    # slow, a snapshot is left out while the bus is still taking the one before, so the shorter steps show the rate.
     assert 3 <= sorted(steps)[len(steps) // 10] <= 6, steps
 
 
@@ -194,7 +194,7 @@ def test_a_posture_that_can_not_be_is_not_asked(probe: Probe, url: str, angle: f
 def test_limbs_on_one_bus_and_a_node_that_is_not_there(probe: Probe, sim: Sim) -> None:
     assert probe(sim.can, "identity", node=2).values["node"] == 2
     answer = probe(sim.can, "identity", node=9, timeout_ms=PROMISED_MS)
-    assert answer.code == 9 and "heard: 1, 2" in answer.err and answer.told_in_time
+    assert answer.code == 9 and "heard: 1, 2" in answer.err and answer.reported_in_time
 
 
 def test_two_clients_at_once(probe: Probe, sim: Sim) -> None:

@@ -114,11 +114,11 @@ def test_play_is_taken_up_and_let_go(bench: Sim, wire: str) -> None:
     outcome = f"entry:{INDEX['take_up_tibia']}"
     mode = f"entry:{INDEX['mode']}"
     done, why = acts(url, "take_up:1:1", UP, "wait", outcome, mode, "let_go", "wait", mode, "clear:128", "let_go")
-    refused, up, held, told, holds, go, back, at_rest, cleared, nothing = done
+    refused, up, held, reported, holds, go, back, at_rest, cleared, nothing = done
     assert (refused.status, refused.state, refused.reason) == (REFUSED, IS_REFUSED, -8 if wire == "can" else 4)
     assert "has no backlash to take up" in why
     assert (up.status, up.state, held.status, held.state) == (0, RUNNING, 0, DONE), why
-    assert told.state == 2 and MODE.name_of(holds.state) == "TAKING_UP"
+    assert reported.state == 2 and MODE.name_of(holds.state) == "TAKING_UP"
     assert (go.status, back.status, back.state) == (0, 0, DONE) and MODE.name_of(at_rest.state) == "MONITOR"
     assert (cleared.status, cleared.state) == (0, 0)
     assert (nothing.status, nothing.state) == (REFUSED, IS_REFUSED) and "nothing is taken up" in why

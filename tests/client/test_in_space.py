@@ -53,8 +53,8 @@ def url(request: pytest.FixtureRequest, spatial: Sim) -> str:
 def k_of_the_model(model: Path, *theta_rad: float) -> np.ndarray:
     angles = [text for i, value in enumerate(theta_rad) for text in (f"--theta{i}", str(value))]
     command = [sys.executable, "-m", "brace", "k", "--model", model, *angles, "--json"]
-    told = json.loads(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
-    return np.array([told[f"{name}_n_per_mm"] for name in ENTRIES])
+    reported = json.loads(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
+    return np.array([reported[f"{name}_n_per_mm"] for name in ENTRIES])
 
 
 def test_k_in_space_is_read(probe: Probe, url: str, model: Path) -> None:
@@ -86,11 +86,11 @@ def _counted_load(probe: Probe, url: str) -> dict[str, float]:
     """The load, once the controller counts one and its filter has settled: it begins without."""
     until = time.monotonic() + 20.0
     before: dict[str, float] = {}
-    while (told := probe(url, "load").values)["is_counted"] != 1 or told != pytest.approx(before, rel=1e-3, abs=1e-3):
-        assert time.monotonic() < until, told
-        before = told
+    while (load := probe(url, "load").values)["is_counted"] != 1 or load != pytest.approx(before, rel=1e-3, abs=1e-3):
+        assert time.monotonic() < until, load
+        before = load
         time.sleep(0.05)
-    return told
+    return load
 
 
 @pytest.mark.parametrize("port", ["can", "modbus"])
@@ -99,11 +99,12 @@ def test_the_load_across_the_plane_comes_with_its_k(probe: Probe, pressed: Sim, 
     asked = _counted_load(probe, url)
     answer = probe(url, "read", LOAD_ACROSS, 3)
     assert answer.code == 0, answer.err
-    for told in answer.snapshots:
-        assert int(told["parts"]) & LOAD_ACROSS == LOAD_ACROSS and told["force_y"] > 1.0 and told["moved_y"] > 1.0
+    for reported in answer.snapshots:
+        assert int(reported["parts"]) & LOAD_ACROSS == LOAD_ACROSS
+        assert reported["force_y"] > 1.0 and reported["moved_y"] > 1.0
         for name in ("force_x", "force_y", "moved_y", "unloaded_k_across"):
             # the limb stands still and its sensors are free of noise
-            assert told[name] == pytest.approx(asked[name], rel=2e-2, abs=0.002), name
+            assert reported[name] == pytest.approx(asked[name], rel=2e-2, abs=0.002), name
 
 
 @pytest.mark.parametrize("port", ["can", "modbus"])
@@ -112,7 +113,7 @@ def test_a_limb_in_its_plane_has_no_load_across(probe: Probe, sim: Sim, port: st
     assert answer.code in (5, 12) and "coxa joint" in answer.err
 
 
-def test_the_load_across_the_plane_is_told(probe: Probe, url: str, sim: Sim) -> None:
+def test_the_load_across_the_plane_is_reported(probe: Probe, url: str, sim: Sim) -> None:
     """A free foot: the coxa joint's torque says that hardly anything pulls across the plane."""
     load, k = probe(url, "load").values, probe(url, "space", 1).snapshots[-1]
     assert load["is_counted"] == 1 and abs(load["force_y"]) < 0.3
@@ -143,9 +144,9 @@ def test_k_in_space_under_a_force(probe: Probe, url: str, model: Path) -> None:
     answer = probe(url, "space_under_load", theta0, 0.5, 1.7, *force_n)
     assert answer.code == 0, answer.err
     wanted = np.array([k[0, 0], k[0, 1], k[0, 2], k[1, 1], k[1, 2], k[2, 2]])
-    told = np.array([answer.values[name] for name in ENTRIES])
-    assert np.linalg.norm(told - wanted) <= WORST_K * np.linalg.norm(wanted)
-    assert np.linalg.norm(told - k_of_the_model(model, theta0, 0.5, 1.7)) > 5 * WORST_K * np.linalg.norm(wanted)
+    reported = np.array([answer.values[name] for name in ENTRIES])
+    assert np.linalg.norm(reported - wanted) <= WORST_K * np.linalg.norm(wanted)
+    assert np.linalg.norm(reported - k_of_the_model(model, theta0, 0.5, 1.7)) > 5 * WORST_K * np.linalg.norm(wanted)
     moves = [answer.values[f"moved_{axis}"] for axis in "xyz"]
     assert moves == pytest.approx(moved, abs=0.05 * float(np.linalg.norm(moved)))
     folds = probe(url, "space_under_load", theta0, 0.5, 1.7, -300.0, 0.0, 0.0)
@@ -160,15 +161,15 @@ def test_a_limb_without_a_coxa_joint_has_no_k_in_space(probe: Probe, sim: Sim) -
     assert over_modbus.code == 12 and "no coxa joint" in over_modbus.err
 
 
-def test_the_drift_check_is_told(probe: Probe, url: str) -> None:
+def test_the_drift_check_is_reported(probe: Probe, url: str) -> None:
     answer = probe(url, "drift")
     assert answer.code == 0, answer.err
-    told = answer.values
-    assert (told["state"], told["cause"], told["could_be"], told["next_step"], told["readings"]) == (0, 0, 0, 1, 0)
+    names = ("state", "cause", "could_be", "next_step", "readings")
+    assert tuple(answer.values[name] for name in names) == (0, 0, 0, 1, 0)
     assert "learns the limb's own baseline" in answer.err and "Go on learning" in answer.err
 
 
-def test_how_a_take_up_went_is_told(probe: Probe, url: str) -> None:
+def test_how_a_take_up_went_is_reported(probe: Probe, url: str) -> None:
     for joint in range(3):
         answer = probe(url, "take_up", joint)
         assert answer.code == 0 and answer.values == {"outcome": 0}

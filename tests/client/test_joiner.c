@@ -12,7 +12,7 @@ enum { NODE = 9, TICK_US = 250 };
 void setUp(void) {}
 void tearDown(void) {}
 
-/* Every member of a snapshot tells the tick it is of: 19 bits of it. */
+/* Every member of a snapshot encodes the tick it is of: 19 bits of it. */
 static float mark(uint32_t tick)
 {
     return (float)(tick & 0x7ffffu) * 0.002f; /* whole steps of 0.0005 N/mm, within every range used */
@@ -79,7 +79,7 @@ static uint32_t random_below(uint32_t limit)
 }
 
 /* 1.2 million snapshots, each frame of them lost with probability 1/8, whole stretches of random length lost too (the
- * receiver's queue was full: told; the sender's: not told, time passes). */
+ * receiver's queue was full: reported; the sender's: not reported, time passes). */
 static void test_no_snapshot_is_of_two_ticks(void)
 {
     brace_joiner_t joiner = {0};
@@ -92,7 +92,7 @@ static void test_no_snapshot_is_of_two_ticks(void)
             if (fate < 500u) { /* lost without a word */
                 continue;
             }
-            if (fate == 500u) { /* a queue overflowed: told with the frame after */
+            if (fate == 500u) { /* a queue overflowed: reported with the frame after */
                 lost += 1u + random_below(5u);
                 tick += random_below(600u);
                 skipping = true;
@@ -210,7 +210,7 @@ static void test_a_frame_of_can_fd_is_a_whole_snapshot(void)
 
 /* ------------------------------------------------------------------------------------------ K in space -- */
 
-/* Parts 0 to 6 of K in space; every value tells the tick, as in frame_of. */
+/* Parts 0 to 6 of K in space; every value encodes the tick, as in frame_of. */
 static brace_bus_frame_t space_frame_of(uint32_t part, uint32_t tick, uint64_t now_us)
 {
     const uint32_t sequence = tick & 0xffu;
@@ -337,7 +337,7 @@ static void test_over_can_fd_k_in_space_is_a_second_frame(void)
 
 /* ---------------------------------------------------------------------------------------------- the load -- */
 
-/* The six frames of the load; every value tells the tick. */
+/* The six frames of the load; every value encodes the tick. */
 static brace_bus_frame_t load_frame_of(uint32_t part, uint32_t tick, uint64_t now_us)
 {
     const uint32_t sequence = tick & 0xffu;
@@ -604,7 +604,7 @@ static void test_faults_are_those_last_heard(void)
     (void)brace_can_pack_emergency(&(brace_can_emergency_t){.faults = 4u}, frame.data);
     TEST_ASSERT_NULL(brace_joiner_add(&joiner, NODE, &frame, 0u));
     TEST_ASSERT_EQUAL_HEX32(4u, faults_now(&joiner, 0u));
-    TEST_ASSERT_EQUAL_HEX32(UINT32_MAX, faults_now(&joiner, 1u)); /* the frame that was lost may have told another */
+    TEST_ASSERT_EQUAL_HEX32(UINT32_MAX, faults_now(&joiner, 1u)); /* the frame that was lost may have reported another */
     frame.id = BRACE_CAN_ID_EMERGENCY + NODE + 1;
     (void)brace_joiner_add(&joiner, NODE, &frame, 1u);
     TEST_ASSERT_EQUAL_HEX32(UINT32_MAX, faults_now(&joiner, 1u)); /* a neighbour's */

@@ -45,7 +45,7 @@ def test_another_dictionary_is_refused_and_both_are_named(probe: Probe) -> None:
         assert "0x1234abcd" in answer.err and f"0x{DICTIONARY_HASH:08x}" in answer.err
 
 
-def test_another_dictionary_that_only_the_heartbeat_tells(probe: Probe) -> None:
+def test_another_dictionary_that_only_the_heartbeat_reports(probe: Probe) -> None:
     with SlcanController(hash_=0x1234ABCD, answers=False) as controller:
         assert probe(controller.url, "identity").code == VERSION
 
@@ -62,27 +62,27 @@ def test_wrong_node(probe: Probe) -> None:
         answer = probe(controller.url, "identity", node=7)
         assert answer.code == NODE and "exit 4" in answer.err
         assert "heard: 3" in answer.err and "try node 3" in answer.err
-        assert answer.told_in_time
+        assert answer.reported_in_time
 
 
 def test_silence(probe: Probe) -> None:
     with SlcanController(speaks=False, answers=False) as controller:
         answer = probe(controller.url, "identity")
         assert answer.code == SILENT and "powered" in answer.err and "exit 4" in answer.err
-        assert answer.told_in_time
+        assert answer.reported_in_time
 
 
-def test_wrong_bit_rate_as_an_adapter_tells_it(probe: Probe) -> None:
+def test_wrong_bit_rate_as_an_adapter_reports_it(probe: Probe) -> None:
     with SlcanController(speaks=False, answers=False, errors=0x80) as controller:
         answer = probe(controller.url, "identity")
         assert answer.code == BIT_RATE and "bit rate" in answer.err and "exit 4" in answer.err
-        assert answer.told_in_time
+        assert answer.reported_in_time
 
 
 def test_wrong_baud_rate_of_the_serial_line(probe: Probe) -> None:
     with SlcanController(speaks=False, answers=False, garbage=b"\xf0\x81\r\x05\xfe\r") as controller:
         answer = probe(controller.url, "identity")
-        assert answer.code == BIT_RATE and answer.told_in_time
+        assert answer.code == BIT_RATE and answer.reported_in_time
 
 
 @pytest.mark.parametrize("what", [b"\r", b"z", b"T000000010\r", b"\xf0\x81\r", b"t70015\r"])
@@ -91,12 +91,12 @@ def test_an_endless_flood_of_what_is_no_frame(probe: Probe, what: bytes) -> None
     half a frame."""
     with SlcanController(flood=what * (65536 // len(what))) as controller:
         answer = probe(controller.url, "identity")
-        assert answer.code in (SILENT, BIT_RATE) and "exit 4" in answer.err and answer.told_in_time, answer.err
+        assert answer.code in (SILENT, BIT_RATE) and "exit 4" in answer.err and answer.reported_in_time, answer.err
         answer = probe(controller.url, "dump", 200)
-        assert answer.code == TIMEOUT and answer.told_in_time and answer.out.splitlines()[0] == "open"
+        assert answer.code == TIMEOUT and answer.reported_in_time and answer.out.splitlines()[0] == "open"
 
 
-def test_a_peer_that_goes_is_told_and_kills_nobody(probe: Probe) -> None:
+def test_a_peer_that_goes_is_reported_and_kills_nobody(probe: Probe) -> None:
     with socket.create_server(("127.0.0.1", 0)) as server:
 
         def hang_up() -> None:
@@ -107,13 +107,13 @@ def test_a_peer_that_goes_is_told_and_kills_nobody(probe: Probe) -> None:
         threading.Thread(target=hang_up, daemon=True).start()
         answer = probe(f"tcp://127.0.0.1:{server.getsockname()[1]}", "dump", 500)
         assert answer.code == DOWN  # -13 would be SIGPIPE, of the farewell to nobody
-        assert answer.told_in_time
+        assert answer.reported_in_time
 
 
 def test_heard_but_no_answer(probe: Probe) -> None:
     with SlcanController(answers=False) as controller:
         answer = probe(controller.url, "identity")
-        assert answer.code == TIMEOUT and "is heard" in answer.err and answer.told_in_time
+        assert answer.code == TIMEOUT and "is heard" in answer.err and answer.reported_in_time
 
 
 def test_the_other_end_hangs_up(probe: Probe) -> None:
@@ -202,14 +202,14 @@ def test_values_out_of_range_are_not_sent(probe: Probe) -> None:
 )  # fmt: skip
 def test_no_device(probe: Probe, url: str, status: int) -> None:
     answer = probe(url, "identity")
-    assert answer.code == status and answer.told_in_time
+    assert answer.code == status and answer.reported_in_time
     assert f"exit {2 if status == USAGE else 4}" in answer.err
     assert len(answer.err.splitlines()[0]) > 30
 
 
 def test_socketcan_where_the_kernel_has_none(probe: Probe) -> None:
     answer = probe("can-none0", "identity")
-    assert answer.code in (NO_KERNEL, NO_DEVICE) and "exit 4" in answer.err and answer.told_in_time
+    assert answer.code in (NO_KERNEL, NO_DEVICE) and "exit 4" in answer.err and answer.reported_in_time
     assert "no CAN" in answer.err or "no such interface" in answer.err
 
 
@@ -218,7 +218,7 @@ def test_a_serial_device_that_says_nothing(probe: Probe, kind: str) -> None:
     ours, theirs = pty.openpty()
     try:
         answer = probe(f"{kind}:{os.ttyname(theirs)}", "identity")
-        assert answer.code == SILENT and "exit 4" in answer.err and answer.told_in_time, answer.err
+        assert answer.code == SILENT and "exit 4" in answer.err and answer.reported_in_time, answer.err
     finally:
         os.close(ours)
         os.close(theirs)
@@ -256,7 +256,7 @@ def test_modbus_on_a_serial_line_has_the_controller_s_parity(
 def test_a_port_that_accepts_and_says_nothing(probe: Probe, kind: str) -> None:
     with socket.create_server(("127.0.0.1", 0)) as server:
         answer = probe(f"{kind}://127.0.0.1:{server.getsockname()[1]}", "identity")
-        assert answer.code == SILENT and answer.told_in_time, answer.err
+        assert answer.code == SILENT and answer.reported_in_time, answer.err
 
 
 @pytest.mark.parametrize("times", [1, 1000])
@@ -274,7 +274,7 @@ def test_modbus_noise(probe: Probe, times: int) -> None:
 
     threading.Thread(target=answer_with_noise, daemon=True).start()
     answer = probe(f"modbus:{os.ttyname(theirs)}", "identity")
-    assert answer.code == BIT_RATE and answer.told_in_time, answer.err
+    assert answer.code == BIT_RATE and answer.reported_in_time, answer.err
     os.close(theirs)
 
 

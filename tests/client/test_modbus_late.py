@@ -33,31 +33,31 @@ def test_a_late_answer_is_not_the_next_one_s(late: set[int]) -> None:
     late answer, not for two of them."""
     with rtu_unit(lambda number: LATE_S if number in late else 0.0) as unit:
         done, why = acts(unit.url, *(f"entry:{index}" for index in INDICES))
-    told = [(index, act.state) for index, act in zip(INDICES, done) if act.status == 0]
-    assert all(value == 2 * index for index, value in told), why
-    assert len(told) >= len(INDICES) - (len(late) - 1) and done[-1].status == 0, why
+    reported = [(index, act.state) for index, act in zip(INDICES, done) if act.status == 0]
+    assert all(value == 2 * index for index, value in reported), why
+    assert len(reported) >= len(INDICES) - (len(late) - 1) and done[-1].status == 0, why
 
 
 @pytest.mark.parametrize("late", [{8, 9}, {8, 9, 10}, set(range(8, 14))])
 def test_nor_does_brace_query_take_it(late: set[int]) -> None:
     """The same unit and the client in Python, which tries again after 0.6 s, three times in all."""
     holding = [register for register in REGISTERS if register.table == "holding"][:12]
-    told: list[tuple[int, int]] = []
+    reported: list[tuple[int, int]] = []
     with rtu_unit(lambda number: 0.75 if number in late else 0.0) as unit:
         controller = ModbusController(parse(unit.url))
         for register in holding:
             with contextlib.suppress(NoDeviceError):
-                told.append((register.address, controller.read_entry(register.name)))
+                reported.append((register.address, controller.read_entry(register.name)))
         controller.close()
-    assert all(value == address for address, value in told)
-    assert len(told) >= len(holding) - (len(late) + 1) // 2 and told[-1][0] == holding[-1].address
+    assert all(value == address for address, value in reported)
+    assert len(reported) >= len(holding) - (len(late) + 1) // 2 and reported[-1][0] == holding[-1].address
 
 
 def test_an_answer_that_trickles_ends_with_the_time_out(probe: Callable[..., Answer]) -> None:
     """A byte each 0.19 s: a client that waits anew with every byte would wait for all 255 of them, 48 s."""
     with rtu_unit(lambda number: 0.0, byte_s=lambda number: 0.19 if number >= OPENED else 0.0) as unit:
         answer = probe(unit.url, "read", 1, 1)
-    assert answer.code in (SILENT, BIT_RATE) and answer.told_in_time, answer.err
+    assert answer.code in (SILENT, BIT_RATE) and answer.reported_in_time, answer.err
     assert unit.answered == OPENED
 
 

@@ -1,4 +1,4 @@
-"""What the C client tells of a motion that a fault or a restart of the controller meets. A controller in Python plays
+"""What the C client reports of a motion that a fault or a restart of the controller meets. A controller in Python plays
 it step by step, by its entries."""
 
 from __future__ import annotations
@@ -70,7 +70,7 @@ def test_one_that_failed_in_a_fault_has_ended_when_the_limb_is_back() -> None:
         assert limb.heard_s[-1] - limb.heard_s[0] > 0.6
 
 
-def test_a_fault_that_stays_is_told_at_the_limit() -> None:
+def test_a_fault_that_stays_is_reported_at_the_limit() -> None:
     with played((0.2, TAKING_UP, RUNNING), (LONG_S, FAULT, NONE)) as limb:
         (_, waited), why = acts(limb.url, "take_up:2:-1:1000", "wait")
         assert waited.state == FAILED and "a fault stays" in why

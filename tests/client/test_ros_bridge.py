@@ -103,7 +103,7 @@ def test_halves_of_two_snapshots_give_nothing() -> None:
     assert decoder.add(frame("stiffness_b", sequence=2)) == []
 
 
-def test_a_controller_with_another_dictionary_is_told_and_not_read() -> None:
+def test_a_controller_with_another_dictionary_is_reported_and_not_read() -> None:
     decoder = Decoder()
     assert decoder.add(frame("heartbeat", dictionary_hash=DICTIONARY_HASH)) == []
     [health] = decoder.add(frame("condition"))
@@ -124,8 +124,8 @@ def test_k_in_space_in_si_units() -> None:
     assert [type(m) for m in messages] == [LimbStiffness, LimbStiffnessInSpace]
     space = messages[1]
     assert isinstance(space, LimbStiffnessInSpace) and space.k_is_valid and (space.node, space.sequence) == (3, 7)
-    told = (space.k_xx, space.k_xy, space.k_xz, space.k_yy, space.k_yz, space.k_zz)
-    assert told == pytest.approx((4000.0, -1500.0, -500.0, 750.0, 125.0, 250.0))
+    reported = (space.k_xx, space.k_xy, space.k_xz, space.k_yy, space.k_yz, space.k_zz)
+    assert reported == pytest.approx((4000.0, -1500.0, -500.0, 750.0, 125.0, 250.0))
     assert (space.lambda_1, space.lambda_2, space.lambda_3) == pytest.approx((200.0, 500.0, 4500.0))
     assert (space.stiff_axis_x, space.stiff_axis_y, space.stiff_axis_z) == pytest.approx((1.0, -0.5, 0.0))
     assert (space.theta0, space.k_across) == pytest.approx((0.25, 500.0))
@@ -197,11 +197,11 @@ def test_an_uncertainty_in_si_units_and_k_but_once() -> None:
     sigma = [Frame(100.0, layout.identifier + 3, layout.encode(values)) for layout in GROUPS["sigma"]]
     messages = [m for one in (*k, *sigma) for m in decoder.add(one)]
     assert [type(m) for m in messages] == [LimbStiffness, LimbUncertainty]
-    told = messages[1]
-    assert isinstance(told, LimbUncertainty) and (told.node, told.sequence, told.stiff_axis) == (3, 7, 0.25)
-    assert (told.k_xx, told.k_xz, told.k_zz) == pytest.approx((100.0, 50.0, 200.0))
-    assert (told.lambda_min, told.lambda_max) == pytest.approx((10.0, 300.0), rel=0.05)
-    assert math.isnan(told.space_k_yy) and math.isnan(told.k_across)
+    reported = messages[1]
+    assert isinstance(reported, LimbUncertainty) and (reported.node, reported.sequence, reported.stiff_axis) == (3, 7, 0.25)
+    assert (reported.k_xx, reported.k_xz, reported.k_zz) == pytest.approx((100.0, 50.0, 200.0))
+    assert (reported.lambda_min, reported.lambda_max) == pytest.approx((10.0, 300.0), rel=0.05)
+    assert math.isnan(reported.space_k_yy) and math.isnan(reported.k_across)
     of_space = {"sequence": 7} | {f"k_{name}": 0.5 for name in ("xx", "xy", "xz", "yy", "yz", "zz", "across")}
     of_space |= {f"lambda_{number}": 0.4 for number in (1, 2, 3)}
     later = [m for layout in GROUPS["sigma_space"]

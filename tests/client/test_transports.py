@@ -122,10 +122,10 @@ def test_text_in_every_cut() -> None:
                 line.sendall(text[cut:])
                 out, _ = process.communicate(timeout=60)
             assert frames_in(out) == whole, cut
-            assert out.splitlines()[-2:] == ["errors 0", "lost 4"]  # the broken lines are told
+            assert out.splitlines()[-2:] == ["errors 0", "lost 4"]  # the broken lines are counted
 
 
-def test_a_serial_line_that_goes_is_told(pair: tuple[Path, Path, subprocess.Popen[bytes]]) -> None:
+def test_a_serial_line_that_goes_is_reported(pair: tuple[Path, Path, subprocess.Popen[bytes]]) -> None:
     process = dump(f"slcan:{pair[0]}", 1)
     pair[2].terminate()
     process.communicate(timeout=60)

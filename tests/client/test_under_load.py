@@ -68,18 +68,18 @@ def check(answer: Answer, limb: LimbModel, posture: tuple[float, float], force_n
           down_rad: float = -math.pi / 2) -> None:
     """K, the tip's displacement and the buckling factor against the reference."""
     assert answer.code == 0, answer.err
-    told = answer.values
+    reported = answer.values
     rest = under_force(limb, *posture, [force_n], down_rad)
     k, moved, factor = rest.k_n_per_mm[0], rest.displacement_mm[0], float(rest["buckling_factor"][0])
     size = float(np.linalg.norm(k))
     for name, wanted in zip(K_NAMES, (k[0, 0], k[0, 1], k[1, 1]), strict=True):
-        assert told[name] == pytest.approx(wanted, abs=0.5 * STEP + K_RATIO * size), name
+        assert reported[name] == pytest.approx(wanted, abs=0.5 * STEP + K_RATIO * size), name
     # the tip moves as K's error lets it: by K_RATIO of what it moves
     room_mm = 0.5 * STEP_MM + K_RATIO * float(np.linalg.norm(moved))
-    assert (told["moved_x"], told["moved_z"]) == pytest.approx(tuple(moved), abs=room_mm)
+    assert (reported["moved_x"], reported["moved_z"]) == pytest.approx(tuple(moved), abs=room_mm)
     if factor < 10.0:
-        assert told["buckling_factor"] == pytest.approx(factor, rel=FACTOR_RATIO)
-    assert bool(int(told["flags"]) & SOFTENED) == (factor < 3.0)
+        assert reported["buckling_factor"] == pytest.approx(factor, rel=FACTOR_RATIO)
+    assert bool(int(reported["flags"]) & SOFTENED) == (factor < 3.0)
 
 
 @pytest.mark.parametrize("force_n", [(0.0, 0.0), (0.0, 10.0), (-20.0, 0.0), (12.0, -8.0)])
@@ -111,7 +111,7 @@ def check_k_alone(answer: Answer, limb: LimbModel, posture: tuple[float, float])
         assert answer.values[name] == pytest.approx(wanted, abs=room), name
 
 
-def test_what_the_load_does_to_k_is_told(probe: Probe, url: str, model: Path) -> None:
+def test_what_the_load_does_to_k_is_reported(probe: Probe, url: str, model: Path) -> None:
     """The reference, at the angles where the limb stands and under the force that is counted, moves as far and has the
     same K without load."""
     answer = probe(url, "load")
@@ -131,8 +131,8 @@ def test_what_the_load_does_to_k_is_told(probe: Probe, url: str, model: Path) ->
     assert (load["moved_x"], load["moved_z"]) == pytest.approx(tuple(moved), abs=room_mm)
     without = under_force(leaning(limb, math.pi / 2), *motors, [(0.0, 0.0)]).k_n_per_mm[0]
     # K's slope is below 20 N/mm/rad here
-    told = (load["unloaded_k_xx"], load["unloaded_k_xz"], load["unloaded_k_zz"])
-    assert told == pytest.approx((without[0, 0], without[0, 1], without[1, 1]), abs=20 * 2e-5 + 3e-5)
+    reported = (load["unloaded_k_xx"], load["unloaded_k_xz"], load["unloaded_k_zz"])
+    assert reported == pytest.approx((without[0, 0], without[0, 1], without[1, 1]), abs=20 * 2e-5 + 3e-5)
     factor = float(rest["buckling_factor"][0])
     assert load["buckling_factor"] == (pytest.approx(factor, rel=2 * FACTOR_RATIO) if factor < 10.0 else math.inf)
 
@@ -141,9 +141,9 @@ def test_the_load_comes_with_its_k(probe: Probe, url: str) -> None:
     """A snapshot has its load, and it is what the controller says when it is asked."""
     answer = probe(url, "read", ALL_OF_IT, 3)
     assert answer.code == 0, answer.err
-    for told in answer.snapshots:
-        assert int(told["parts"]) & ALL_OF_IT == ALL_OF_IT and told["is_counted"] == 1 and told["valid"] == 1
-        assert math.hypot(told["force_x"], told["force_z"]) > 2.0
+    for reported in answer.snapshots:
+        assert int(reported["parts"]) & ALL_OF_IT == ALL_OF_IT and reported["is_counted"] == 1 and reported["valid"] == 1
+        assert math.hypot(reported["force_x"], reported["force_z"]) > 2.0
     asked = probe(url, "load").values
     last = answer.snapshots[-1]
     for name in ("force_x", "force_z", "moved_x", "moved_z", "unloaded_k_xx", "gravity_direction"):
@@ -152,7 +152,7 @@ def test_the_load_comes_with_its_k(probe: Probe, url: str) -> None:
 
 
 def test_a_controller_that_sends_no_load(probe: Probe, sim: Sim) -> None:
-    """controller.load_hz is 0: no frame has it, and the call says which parameter it is; asked, it tells the load."""
+    """controller.load_hz is 0: no frame has it, and the call says which parameter it is; asked, it reports the load."""
     answer = probe(sim.can, "read", ALL_OF_IT, 1, timeout_ms=600)
     assert answer.code == TIMEOUT and "controller.load_hz" in answer.err
     assert probe(sim.can, "load").values["is_counted"] == 1
@@ -186,7 +186,7 @@ def test_down_is_where_it_is_said_to_be(probe: Probe, url: str, model: Path) -> 
 
 
 def test_clients_that_ask_under_other_forces_at_once(url: str, model: Path) -> None:
-    """A controller counts the force that was told last. Whom another client comes between asks again."""
+    """A controller counts the force that was sent last. Whom another client comes between asks again."""
     forces = [(0.0, 10.0), (12.0, -8.0), (-6.0, 2.0)]
     processes = [
         subprocess.Popen(

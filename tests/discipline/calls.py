@@ -148,7 +148,7 @@ class _Unit:
         return not local and not any(isinstance(d, c_ast.Decl) and d.name == name for d in self.source.tree.ext)
 
     def _structure(self, node: c_ast.Node) -> str:
-        """Structure type of an expression; empty when it cannot be told."""
+        """Structure type of an expression; empty when it is not known."""
         node = _plain(node)
         match node:
             case c_ast.ID():
@@ -220,7 +220,7 @@ def graph_of(sources: Iterable[Source]) -> Graph:
     graph = Graph()
     for source in sources:
         _Unit(graph, source).take_in()
-    for place in [p for p in graph.targets if p.startswith(".")]:  # of a structure that could not be told: of any
+    for place in [p for p in graph.targets if p.startswith(".")]:  # of a structure that is not known: of any
         for other in [p for p in graph.targets if p.endswith(place)] + [m for m in graph.members if m.endswith(place)]:
             graph.targets.setdefault(other, set()).update(graph.targets[place])
     changed = True
@@ -285,8 +285,8 @@ def frames(build: Path) -> tuple[dict[str, int], list[Finding]]:
     sizes: dict[str, int] = {}
     found = []
     for path in build.rglob("*.su"):
-        for told, line, name, size, kind in SU_LINE.findall(path.read_text()):
-            file = (build / told).resolve()  # ccache has the compiler name its source from the build folder
+        for source, line, name, size, kind in SU_LINE.findall(path.read_text()):
+            file = (build / source).resolve()  # ccache has the compiler name its source from the build folder
             if not any(file.is_relative_to(folder) for folder in FOLDERS_WITH_FIGURES):
                 continue
             if kind == "dynamic":
@@ -299,7 +299,7 @@ def frames(build: Path) -> tuple[dict[str, int], list[Finding]]:
 
 def deepest(graph: Graph, sizes: dict[str, int], root: str, there: Callable[[str], bool],
             outside: Callable[[str], int]) -> tuple[int, list[str]]:
-    """Deepest stack from `root` down [B] and the chain; `outside` tells it for functions that are not ours."""
+    """Deepest stack from `root` down [B] and the chain; `outside` gives it for functions that are not ours."""
     known: dict[str, tuple[int, list[str]]] = {}
 
     def go(key: str, above: tuple[str, ...]) -> tuple[int, list[str]]:

@@ -122,16 +122,16 @@ def check_k(board: Board, limb: dict[str, float]) -> str:
     """Waits for a valid K of a later tick than now's and compares it; the console's line."""
     first = number(stiffness(board), "tick")
     for _ in range(1000):  # the first samples have to come in
-        told = stiffness(board)
-        if told.startswith("k: valid") and number(told, "tick") > first:
+        reported = stiffness(board)
+        if reported.startswith("k: valid") and number(reported, "tick") > first:
             break
-    assert told.startswith("k: valid") and number(told, "tick") > first
-    values = {key: float(value) for key, value in re.findall(r"(\w+) (-?\d+\.\d+)", told)}
+    assert reported.startswith("k: valid") and number(reported, "tick") > first
+    values = {key: float(value) for key, value in re.findall(r"(\w+) (-?\d+\.\d+)", reported)}
     k_xx, k_xz, k_zz = (values[f"k_{entry}_n_per_mm"] for entry in ("xx", "xz", "zz"))
     expected = k_of(limb, values["theta1_rad"], values["theta2_rad"])
     # four decimals are printed; the core is held to 2e-6 of the largest entry
     np.testing.assert_allclose([[k_xx, k_xz], [k_xz, k_zz]], expected, atol=5e-5 + 2e-6 * expected.max())
-    return told
+    return reported
 
 
 @pytest.mark.parametrize("name", BOARDS)
@@ -198,7 +198,7 @@ CRASHES = {
 
 
 @pytest.mark.parametrize("name", BOARDS)
-def test_a_crash_is_told_by_the_next_start(name: str) -> None:
+def test_a_crash_is_reported_by_the_next_start(name: str) -> None:
     elf = image(f"brace-{name}-crash-test")
     with Board(name, elf) as board:
         board.banner()
@@ -288,9 +288,9 @@ def test_the_real_boards_image_names_what_the_emulated_chip_lacks() -> None:
         banner = board.banner()
         assert BANNER.match(banner["brace"])[4] == "stm32f405"  # type: ignore[index]
         assert banner["board"] == "PLL does not start: 16 MHz, too slow for the joints"
-        told = stiffness(board)
-        assert told.startswith("k: not valid flags") and "k_xx" not in told
-        assert " setting NO_KEY " in told  # so it refuses motion, until its console says otherwise
+        reported = stiffness(board)
+        assert reported.startswith("k: not valid flags") and "k_xx" not in reported
+        assert " setting NO_KEY " in reported  # so it refuses motion, until its console says otherwise
         board.ask("key")
         board.until(r"^key: its memory does not answer$")
         # The emulated clock follows this machine's. Where this machine is busy, the clock's steps are coarse, and a wrong

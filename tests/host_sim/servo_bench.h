@@ -105,7 +105,7 @@ struct Bench {
         }
     }
 
-    // The servo read its encoder between the time it tells and the answer's last byte; half a step of the encoder.
+    // The servo read its encoder between the time it reports and the answer's last byte; half a step of the encoder.
     bool is_true(int joint, const brace_hal_joint_t &sample) const
     {
         const double from_us = sample.taken_us, to_us = from_us + 500, step_rad = 1 / kCountsPerRad;
@@ -161,16 +161,16 @@ struct Bench {
 
     brace_servo_report_t report(int joint) const
     {
-        brace_servo_report_t told{};
-        brace_dynamixel_report(&driver, joint, &told);
-        return told;
+        brace_servo_report_t reported{};
+        brace_dynamixel_report(&driver, joint, &reported);
+        return reported;
     }
 
     brace_servo_counters_t counters() const
     {
-        brace_servo_counters_t told{};
-        brace_dynamixel_counters(&driver, &told);
-        return told;
+        brace_servo_counters_t reported{};
+        brace_dynamixel_counters(&driver, &reported);
+        return reported;
     }
 
     void be_ready()
@@ -183,7 +183,7 @@ struct Bench {
         forget();
     }
 
-    // All joints stand; this one holds where it was told to.
+    // All joints stand; this one holds where it was commanded to.
     void hold_at(int joint, float angle_rad)
     {
         turns_rad_per_s = 0.0;
@@ -194,12 +194,12 @@ struct Bench {
 
     void say(const char *what, double seconds) const
     {
-        const brace_servo_counters_t told = counters();
+        const brace_servo_counters_t reported = counters();
         std::printf("%s: %.0f %.0f %.0f samples/s, oldest at use %.2f ms, damaged %u, lost %u %u %u, doubted %u, "
                     "wrong %u\n",
                     what, fresh[0] / seconds, fresh[1] / seconds, fresh[2] / seconds,
                     1e-3 * static_cast<double>(oldest_us),
-                    told.damaged, report(0).lost, report(1).lost, report(2).lost,
+                    reported.damaged, report(0).lost, report(1).lost, report(2).lost,
                     report(0).doubted + report(1).doubted + report(2).doubted, wrong[0] + wrong[1] + wrong[2]);
     }
 };

@@ -113,9 +113,9 @@ brace_loaded_space_result_t reference(const brace_plant_model_t &limb, const Vec
                                              within * std::cos(limb.gravity.direction_rad),
                                              std::sin(limb.gravity.lean_rad),
                                              within * std::sin(limb.gravity.direction_rad)};
-    brace_loaded_space_result_t told;
-    TEST_ASSERT_EQUAL_INT(BRACE_HOST_OK, brace_reference_space_under_force(&limb, 1, &asked, parts, &told, nullptr));
-    return told;
+    brace_loaded_space_result_t expected;
+    TEST_ASSERT_EQUAL_INT(BRACE_HOST_OK, brace_reference_space_under_force(&limb, 1, &asked, parts, &expected, nullptr));
+    return expected;
 }
 
 Pressed settled(PressedLimb &limb, const Vector3d &motor_rad, double t_s = 0.0, double temp_degc = kRoom_degc)
@@ -147,16 +147,16 @@ void assert_equilibria(std::uint64_t seed, int count, double strength, bool weig
         const brace_plant_model_t limb = random_limb(draw, strength, weighs);
         const Vector3d posture(draw.between(-1.0, 1.0), draw.between(-1.2, 1.2), draw.between(0.3, 2.4));
         const Vector3d force_n = draw.between(2.0, 20.0) * draw.direction();
-        const brace_loaded_space_result_t told = reference(limb, posture, force_n, parts);
-        if (!(told.buckling_factor > 2.0)) {
+        const brace_loaded_space_result_t expected = reference(limb, posture, force_n, parts);
+        if (!(expected.buckling_factor > 2.0)) {
             continue; // near collapse the smallest difference grows
         }
-        const Pressed pressed = pressed_by(limb, posture, {told.dx_mm, told.dy_mm, told.dz_mm});
+        const Pressed pressed = pressed_by(limb, posture, {expected.dx_mm, expected.dy_mm, expected.dz_mm});
         TEST_ASSERT_DOUBLE_WITHIN(tolerance * force_n.norm() + 1e-6, 0.0, (pressed.force_n - force_n).norm());
-        const Vector3d turn_rad(told.coxa_rad, told.femur_rad, -told.tibia_rad);
+        const Vector3d turn_rad(expected.coxa_rad, expected.femur_rad, -expected.tibia_rad);
         TEST_ASSERT_DOUBLE_WITHIN(tolerance * turn_rad.norm() + 1e-9, 0.0,
                                   (pressed.link_rad - posture - turn_rad).norm());
-        const Vector3d load_n_mm(-told.coxa_n_mm, -told.femur_n_mm, told.tibia_n_mm);
+        const Vector3d load_n_mm(-expected.coxa_n_mm, -expected.femur_n_mm, expected.tibia_n_mm);
         TEST_ASSERT_DOUBLE_WITHIN(tolerance * load_n_mm.norm() + 1e-4, 0.0, (pressed.load_n_mm - load_n_mm).norm());
     }
 }
@@ -188,18 +188,18 @@ void the_motors_feel_the_tangent()
         model.base = {};
         const Vector3d posture(0.3, draw.between(-1.0, 1.0), draw.between(0.5, 2.2));
         const Vector3d force_n = 10.0 * draw.direction();
-        const brace_loaded_space_result_t told = reference(model, posture, force_n, brace::plant::kBeamParts);
+        const brace_loaded_space_result_t expected = reference(model, posture, force_n, brace::plant::kBeamParts);
         PressedLimb limb(model);
-        limb.take_hold(posture, 5.0, {told.dx_mm, told.dy_mm, told.dz_mm}, 0.0, kRoom_degc);
+        limb.take_hold(posture, 5.0, {expected.dx_mm, expected.dy_mm, expected.dz_mm}, 0.0, kRoom_degc);
         const Pressed here = settled(limb, posture);
         for (const int joint : {0, 1, 2}) {
             const double step_rad = 1e-6;
             const Vector3d step = step_rad * Vector3d::Unit(joint);
             const Vector3d by_difference =
                 (settled(limb, posture + step).load_n_mm - settled(limb, posture - step).load_n_mm) / (2.0 * step_rad);
-            const Vector3d told_n_mm = here.stiffness_n_mm_per_rad.col(joint);
+            const Vector3d expected_n_mm = here.stiffness_n_mm_per_rad.col(joint);
             // Rounding of a torque, 1e-7 N mm, over the step; and what the second difference leaves.
-            TEST_ASSERT_DOUBLE_WITHIN(1e-4 * told_n_mm.norm() + 1.0, 0.0, (by_difference - told_n_mm).norm());
+            TEST_ASSERT_DOUBLE_WITHIN(1e-4 * expected_n_mm.norm() + 1.0, 0.0, (by_difference - expected_n_mm).norm());
         }
     }
 }
@@ -225,8 +225,8 @@ void the_contact_yields_in_series()
 {
     const brace_plant_model_t model = spatial_limb();
     const Vector3d force_n(2.0, -6.0, 5.0);
-    const brace_loaded_space_result_t told = reference(model, kPosture, force_n, 1);
-    const Vector3d moved_mm(told.dx_mm, told.dy_mm, told.dz_mm);
+    const brace_loaded_space_result_t expected = reference(model, kPosture, force_n, 1);
+    const Vector3d moved_mm(expected.dx_mm, expected.dy_mm, expected.dz_mm);
     const Pressed soft = pressed_by(model, kPosture, moved_mm + force_n / 0.5, 0.5);
     TEST_ASSERT_DOUBLE_WITHIN(1e-6, 0.0, (soft.force_n - force_n).norm());
     const Pressed loose = pressed_by(model, kPosture, {0.0, 2.0, 0.0}, 0.0);
@@ -238,12 +238,12 @@ void a_free_limb_hangs_under_its_weight()
     Draw draw(9);
     for (int i = 0; i < 20; ++i) {
         const brace_plant_model_t model = random_limb(draw, i % 2, true);
-        const brace_loaded_space_result_t told = reference(model, kPosture, Vector3d::Zero(), 0);
+        const brace_loaded_space_result_t expected = reference(model, kPosture, Vector3d::Zero(), 0);
         const Pressed hangs = pressed_by(model, kPosture, Vector3d::Zero(), 0.0);
-        const Vector3d load_n_mm(-told.coxa_n_mm, -told.femur_n_mm, told.tibia_n_mm);
+        const Vector3d load_n_mm(-expected.coxa_n_mm, -expected.femur_n_mm, expected.tibia_n_mm);
         // It is held by 1e-6 N/mm over some ten millimetres and a lever of 500 mm: 0.01 N mm.
         TEST_ASSERT_DOUBLE_WITHIN(1e-3 * load_n_mm.norm() + 0.1, 0.0, (hangs.load_n_mm - load_n_mm).norm());
-        TEST_ASSERT_TRUE(std::fabs(told.coxa_n_mm) > 1.0); // some weight is across the plane
+        TEST_ASSERT_TRUE(std::fabs(expected.coxa_n_mm) > 1.0); // some weight is across the plane
     }
 }
 
@@ -256,18 +256,18 @@ void play_acts_in_the_turned_joint()
     // The force's frame is that of the turned plane for the reference.
     const double c = std::cos(0.5 * gap_rad), s = std::sin(0.5 * gap_rad);
     const Vector3d in_turned(c * force_n.x() + s * force_n.y(), c * force_n.y() - s * force_n.x(), force_n.z());
-    const brace_loaded_space_result_t told = reference(model, kPosture, in_turned, 1);
+    const brace_loaded_space_result_t expected = reference(model, kPosture, in_turned, 1);
     const auto &length = model.geometry;
     const Vector3d tip_mm(length.coxa_mm + length.femur_mm * std::cos(1.0) + length.tibia_mm * std::cos(-0.4), 0.0,
                           length.femur_mm * std::sin(1.0) + length.tibia_mm * std::sin(-0.4));
-    const Vector3d place = tip_mm + Vector3d(told.dx_mm, told.dy_mm, told.dz_mm);
+    const Vector3d place = tip_mm + Vector3d(expected.dx_mm, expected.dy_mm, expected.dz_mm);
     const Vector3d back(c * place.x() - s * place.y(), s * place.x() + c * place.y(), place.z());
     model.joint[0].gap_rad = gap_rad;
     const Pressed pressed = pressed_by(model, kPosture, back - tip_mm);
     TEST_ASSERT_DOUBLE_WITHIN(1e-6, 0.0, (pressed.force_n - force_n).norm());
     TEST_ASSERT_EQUAL_INT(-1, pressed.flank[0]);
-    assert_close(kPosture[0] + 0.5 * gap_rad + told.coxa_rad, pressed.link_rad[0], 1e-9);
-    assert_close(-told.coxa_n_mm, pressed.load_n_mm[0], 1e-6);
+    assert_close(kPosture[0] + 0.5 * gap_rad + expected.coxa_rad, pressed.link_rad[0], 1e-9);
+    assert_close(-expected.coxa_n_mm, pressed.load_n_mm[0], 1e-6);
 }
 
 void play_carries_nothing_until_a_flank_is_reached()

@@ -1,4 +1,4 @@
-// Servos that are silent, that start anew or that the driver does not know: what the driver tells of them, and what it
+// Servos that are silent, that start anew or that the driver does not know: what the driver reports of them, and what it
 // sends them. No servo moves unless somebody commands it.
 #include "servo_bench.h"
 
@@ -10,7 +10,7 @@ namespace
 
 // ------------------------------------------------------------------------------------------------ what goes wrong
 
-void test_a_silent_servo_is_told_and_the_others_go_on()
+void test_a_silent_servo_is_reported_and_the_others_go_on()
 {
     for (int silent = 0; silent < 3; ++silent) {
         Bench bench;
@@ -58,10 +58,10 @@ void test_a_servo_that_starts_anew_under_a_command_does_not_jump()
     bench.turns_rad_per_s = 0.0;
     bench.be_ready();
     const brace_hal_joint_command_t command = {0.05f, 500.0f};
-    const auto tell = [&] { (void)brace_dynamixel_command(&bench.driver, kFemur, &command); };
-    bench.run(0.1, tell);
+    const auto command_it = [&] { (void)brace_dynamixel_command(&bench.driver, kFemur, &command); };
+    bench.run(0.1, command_it);
     brace_servos_power(bench.servos.get(), kFemur, 1000 * bench.now_us);
-    bench.run(1.0, tell);
+    bench.run(1.0, command_it);
     TEST_ASSERT_EQUAL(BRACE_SERVO_READY, bench.report(kFemur).state);
     double goal_rad = 0, last_rad = 0, most_a = 0;
     TEST_ASSERT_EQUAL(1, brace_servos_goal(bench.servos.get(), kFemur, &last_rad, &most_a));
@@ -160,7 +160,7 @@ void test_a_servo_that_waits_too_long_before_it_answers_is_refused()
     TEST_ASSERT_EQUAL(BRACE_SERVO_READY, bench.report(kTibia).state);
 }
 
-void test_a_hardware_error_is_told_and_the_joint_is_still_measured()
+void test_a_hardware_error_is_reported_and_the_joint_is_still_measured()
 {
     Bench bench;
     bench.be_ready();
@@ -220,7 +220,7 @@ void test_foreign_servos_are_refused()
     TEST_ASSERT_EQUAL(BRACE_HAL_E_UNSUPPORTED, brace_dynamixel_read(&bench.driver, -1, &sample));
 }
 
-void test_a_line_that_takes_nothing_is_told()
+void test_a_line_that_takes_nothing_is_reported()
 {
     Bench bench;
     bench.be_ready();
@@ -263,10 +263,10 @@ void test_an_offset_fades_from_where_it_was_when_a_servo_is_back()
         double before_rad = 0, goal_rad = 0, last_rad = 0, most_a = 0;
         TEST_ASSERT_EQUAL(1, brace_servos_goal(bench.servos.get(), kFemur, &before_rad, &most_a));
         const brace_hal_joint_command_t command = {0.05f, INFINITY};
-        const auto tell = [&] {
+        const auto command_it = [&] {
             TEST_ASSERT_EQUAL(BRACE_HAL_OK, brace_dynamixel_command(&bench.driver, kFemur, &command));
         };
-        bench.run(0.1, tell);
+        bench.run(0.1, command_it);
         const auto plug = [&](int is_in) {
             for (int i = 0; i < 3; ++i) {
                 if (i == kFemur || !is_alone) {
@@ -312,7 +312,7 @@ void test_a_goal_that_the_line_did_not_take_is_sent_again_at_once()
     }
 }
 
-// The driver asks a servo where it stands, and then tells it to stay there. A damaged answer must not move the servo.
+// The driver asks a servo where it stands, and then commands it to stay there. A damaged answer must not move the servo.
 void test_no_burst_that_the_crc_misses_sends_a_servo_elsewhere()
 {
     constexpr std::size_t kPlace = 9 + 4 + 2;
@@ -354,7 +354,7 @@ void test_no_burst_that_the_crc_misses_makes_another_servo_of_it()
     }
 }
 
-// In position mode (3) a servo takes no goal beyond its turn: it cannot be told to stand where it is.
+// In position mode (3) a servo takes no goal beyond its turn: it cannot be commanded to stand where it is.
 void test_a_servo_beyond_its_turn_is_refused_and_not_moved()
 {
     Bench bench;
@@ -397,7 +397,7 @@ void test_position_limits_are_kept()
 }
 
 // A servo may refuse what sets it up. The driver reports that servo as refused, and goes on with the others.
-void test_a_servo_that_refuses_its_set_up_is_told()
+void test_a_servo_that_refuses_its_set_up_is_reported()
 {
     Bench bench;
     bench.turns_rad_per_s = 0.0;
@@ -408,12 +408,12 @@ void test_a_servo_that_refuses_its_set_up_is_told()
             brace_servos_poke(bench.servos.get(), kFemur, 48, 4, 100);
         }
     };
-    bool is_told = false;
-    for (int i = 0; i < 400 && !is_told; ++i) {
+    bool is_reported = false;
+    for (int i = 0; i < 400 && !is_reported; ++i) {
         bench.run(0.001, narrow);
-        is_told = bench.report(kFemur).state == BRACE_SERVO_MODE;
+        is_reported = bench.report(kFemur).state == BRACE_SERVO_MODE;
     }
-    TEST_ASSERT_TRUE(is_told);
+    TEST_ASSERT_TRUE(is_reported);
     TEST_ASSERT_EQUAL(10, bench.report(kFemur).refused);
     bench.run(0.2);
     TEST_ASSERT_EQUAL(BRACE_SERVO_READY, bench.report(kTibia).state);
@@ -449,7 +449,7 @@ void test_a_servo_that_holds_goes_on_holding_when_the_controller_starts_anew()
     TEST_ASSERT_DOUBLE_WITHIN(1e-9, before_rad, goal_rad);
 }
 
-void test_nobody_is_told_to_hold_who_shall_not()
+void test_nobody_is_commanded_to_hold_who_shall_not()
 {
     Bench bench;
     bench.setup.holds = false;
@@ -467,18 +467,18 @@ void test_nobody_is_told_to_hold_who_shall_not()
 int main()
 {
     UNITY_BEGIN();
-    RUN_TEST(test_a_silent_servo_is_told_and_the_others_go_on);
+    RUN_TEST(test_a_silent_servo_is_reported_and_the_others_go_on);
     RUN_TEST(test_a_servo_that_starts_anew_stands_where_it_is_and_is_counted);
     RUN_TEST(test_a_servo_that_starts_anew_under_a_command_does_not_jump);
     RUN_TEST(test_a_command_waits_for_an_offset_on_its_way_back);
     RUN_TEST(test_a_bounded_servo_does_not_snap_when_the_controller_starts_anew);
     RUN_TEST(test_an_alert_that_stays_hides_nothing_of_the_others);
     RUN_TEST(test_a_servo_that_waits_too_long_before_it_answers_is_refused);
-    RUN_TEST(test_a_hardware_error_is_told_and_the_joint_is_still_measured);
+    RUN_TEST(test_a_hardware_error_is_reported_and_the_joint_is_still_measured);
     RUN_TEST(test_servos_that_know_no_fast_sync_read_are_asked_otherwise);
     RUN_TEST(test_a_line_that_hears_itself_disturbs_nothing);
     RUN_TEST(test_foreign_servos_are_refused);
-    RUN_TEST(test_a_line_that_takes_nothing_is_told);
+    RUN_TEST(test_a_line_that_takes_nothing_is_reported);
     RUN_TEST(test_offsets_and_torque_limits_reach_the_servos_and_fade);
     RUN_TEST(test_an_offset_fades_from_where_it_was_when_a_servo_is_back);
     RUN_TEST(test_a_goal_that_the_line_did_not_take_is_sent_again_at_once);
@@ -486,9 +486,9 @@ int main()
     RUN_TEST(test_no_burst_that_the_crc_misses_makes_another_servo_of_it);
     RUN_TEST(test_a_servo_beyond_its_turn_is_refused_and_not_moved);
     RUN_TEST(test_position_limits_are_kept);
-    RUN_TEST(test_a_servo_that_refuses_its_set_up_is_told);
+    RUN_TEST(test_a_servo_that_refuses_its_set_up_is_reported);
     RUN_TEST(test_commands_that_make_no_sense_are_refused);
     RUN_TEST(test_a_servo_that_holds_goes_on_holding_when_the_controller_starts_anew);
-    RUN_TEST(test_nobody_is_told_to_hold_who_shall_not);
+    RUN_TEST(test_nobody_is_commanded_to_hold_who_shall_not);
     return UNITY_END();
 }

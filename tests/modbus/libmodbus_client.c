@@ -22,7 +22,7 @@ static void refused(void)
     }
 }
 
-static void told(const uint16_t *values, int count)
+static void print_values(const uint16_t *values, int count)
 {
     printf("ok");
     for (int i = 0; i < count; i++) {
@@ -39,7 +39,7 @@ static void identify(modbus_t *bus)
     for (int i = 0; i < count; i++) {
         values[i] = bytes[i];
     }
-    count < 0 ? refused() : told(values, count);
+    count < 0 ? refused() : print_values(values, count);
 }
 
 static void request(modbus_t *bus, char *line)
@@ -67,7 +67,7 @@ static void request(modbus_t *bus, char *line)
         }
         done = modbus_write_registers(bus, numbers[0], count - 1, values);
     }
-    done < 0 ? refused() : told(values, wanted);
+    done < 0 ? refused() : print_values(values, wanted);
 }
 
 int main(int argc, char **argv)

@@ -86,9 +86,9 @@ class Line:
 
     def count(self, name: str) -> int:
         """A counter."""
-        told = self.ask(struct.pack(">BHH", 4, int(MAP[name]["address"]), 2))
-        assert told[:2] == b"\4\4" and len(told) == 6, f"another answer: {told!r}"
-        return int.from_bytes(told[2:], "big")
+        reported = self.ask(struct.pack(">BHH", 4, int(MAP[name]["address"]), 2))
+        assert reported[:2] == b"\4\4" and len(reported) == 6, f"another answer: {reported!r}"
+        return int.from_bytes(reported[2:], "big")
 
     def pause_s(self) -> float:
         """Forty ticks, as long as they take now: twice what a controller waits for the rest of a frame."""

@@ -63,7 +63,7 @@ def version() -> str:
     return str(tomllib.loads(text)["project"]["version"])
 
 
-def test_probes_tell_the_word_order(client: Client) -> None:
+def test_probes_report_the_word_order(client: Client) -> None:
     assert client.read("input", 0, 4) == [0x4640, 0xE600, 0x0102, 0x0304]
     assert get(client, "probe_f32") == 12345.5 and get(client, "probe_u32") == 0x01020304
     assert get(client, "dictionary_hash") == DICTIONARY_HASH
@@ -145,16 +145,16 @@ def test_contact_force_and_sag_undo_each_other(client: Client) -> None:
     assert abs(sag["asked_sag_x"] - 0.2) < 5e-3 and abs(sag["asked_sag_z"] + 0.4) < 5e-3
 
 
-def test_friction_margin_is_of_the_force_that_is_told(client: Client) -> None:
-    told = block(client, "force_x", "force_z")
-    if any(math.isnan(value) for value in told.values()):
+def test_friction_margin_is_of_the_force_that_is_reported(client: Client) -> None:
+    reported = block(client, "force_x", "force_z")
+    if any(math.isnan(value) for value in reported.values()):
         with pytest.raises(Refused) as refused:
             ask(client, "asked_normal", math.pi / 2, 0.5)
         assert refused.value.code == 4
         return
     ask(client, "asked_normal", math.pi / 2, 0.5)
     answered = block(client, "asked_margin", "asked_contact")
-    assert abs(answered["asked_margin"] - (0.5 * told["force_z"] - abs(told["force_x"]))) < 0.5
+    assert abs(answered["asked_margin"] - (0.5 * reported["force_z"] - abs(reported["force_x"]))) < 0.5
     assert answered["asked_contact"] in (0, 1, 2)
 
 
@@ -162,16 +162,16 @@ def test_friction_margin_is_of_the_force_that_is_told(client: Client) -> None:
 def test_who_answers(place: Place, kind: type[Libmodbus] | type[Pymodbus]) -> None:
     client = kind(place)
     try:
-        told = client.server_id()
+        reported = client.server_id()
         words = f"Brace {version()} dictionary {DICTIONARY_HASH:08x}".encode()
         if isinstance(client, Libmodbus):
-            assert told == b"\xb2\xff" + words
+            assert reported == b"\xb2\xff" + words
             for half, word in enumerate(registers_of(0xC0DE0002, "u32")):  # function 06: a value in two halves
                 client.write_one(int(MAP["set_mode"]["address"]) + half, word)
             enter(client, "CONFIGURATION")
             enter(client, "MONITOR")
         else:
-            assert told == (b"\xb2\xff" + words)[:-1]  # it takes the last byte for the run indicator
+            assert reported == (b"\xb2\xff" + words)[:-1]  # it takes the last byte for the run indicator
             assert client.device_id() == {0: b"Brace", 1: b"limb controller", 2: version().encode()}
     finally:
         client.close()

@@ -2,10 +2,10 @@
 every parameter of joint and link, the gap to the last digit, the motor's motion without quantisation.
 
 On the same histories as backlash_histories.py, four times: current with its noise or without, the world's doings unknown
-or told (save the torques' size). The machine, which knows the gap to 20 % and nothing of the link, is printed beside it.
+or known (save the torques' size). The machine, which knows the gap to 20 % and nothing of the link, is printed beside it.
 What comes out of it: with the gap open and the motor at rest within its friction nothing reaches the motor's side.
 
-With --feel the motor may leave its setpoint, to touch what it cannot tell from where it stands: by half a gap, which is
+With --feel the motor may leave its setpoint, to touch what it cannot find from where it stands: by half a gap, which is
 what a side shifts the link by, by one gap, by more. Once with an oracle that knows the joint exactly, once with one
 that knows no more than a controller may: gap, friction and inertia as the machine, the link's to 20 %, encoder and current
 as read.
@@ -28,11 +28,11 @@ class OracleCounts(ctypes.Structure):
                 ("judged", ctypes.c_double), ("flank_wrong", ctypes.c_double), ("error", ctypes.c_double * bench.BINS)]
 
 
-def oracle(lib: ctypes.CDLL, first: int, count: int, particles: int, exact: bool, told: bool, joint_exact: bool = True,
+def oracle(lib: ctypes.CDLL, first: int, count: int, particles: int, exact: bool, known: bool, joint_exact: bool = True,
            reach_gaps: float = 0.0, shares: list[float] | None = None) -> OracleCounts:
     """All histories' counts.
 
-    exact: the current has no noise. told: it knows what the world does, save the torques' size. joint_exact: the joint's
+    exact: the current has no noise. known: it knows what the world does, save the torques' size. joint_exact: the joint's
     parameters and the motor's motion are known exactly; else what a controller may know: gap, friction and inertia as the
     machine believes them, the link's to 20 %, and of the motor what encoder and current read. reach_gaps: how far the
     motor may leave its setpoint to feel for a side. shares (out): of each history's ticks those beyond a
@@ -41,7 +41,7 @@ def oracle(lib: ctypes.CDLL, first: int, count: int, particles: int, exact: bool
     counts = OracleCounts()
     for seed in range(first, first + count):
         beyond, ticks = counts.beyond_a_tenth, counts.ticks
-        status = lib.backlash_oracle(ctypes.c_uint64(seed), particles, int(exact), int(told), int(joint_exact),
+        status = lib.backlash_oracle(ctypes.c_uint64(seed), particles, int(exact), int(known), int(joint_exact),
                                      ctypes.c_double(reach_gaps), ctypes.byref(counts))
         assert status == 0, f"seed {seed}: status {status}"
         if shares is not None:
@@ -65,17 +65,17 @@ def report_oracle(name: str, c: OracleCounts, shares: list[float]) -> None:
 
 
 def seeing(lib: ctypes.CDLL, first: int, count: int, particles: int) -> None:
-    """What can be told by looking on."""
+    """What can be found by looking on."""
     report_machine(bench.histories(lib, first, count, exact=False, expecting=False))
     for exact in (False, True):
-        for told in (False, True):
+        for known in (False, True):
             shares: list[float] = []
-            c = oracle(lib, first, count, particles, exact, told, shares=shares)
-            report_oracle(f"current {'exact' if exact else 'noisy'}, world {'told' if told else 'unknown'}", c, shares)
+            c = oracle(lib, first, count, particles, exact, known, shares=shares)
+            report_oracle(f"current {'exact' if exact else 'noisy'}, world {'known' if known else 'unknown'}", c, shares)
 
 
 def feeling(lib: ctypes.CDLL, first: int, count: int, particles: int) -> None:
-    """What can be told when the motor may leave its setpoint; noisy current, world unknown."""
+    """What can be found when the motor may leave its setpoint; noisy current, world unknown."""
     for reach_gaps in REACHES_GAPS:
         print(f"motor sent off its setpoint by up to {reach_gaps:g} gaps:")
         report_machine(bench.histories(lib, first, count, exact=False, expecting=False, reach_gaps=reach_gaps))

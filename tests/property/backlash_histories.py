@@ -4,14 +4,14 @@
 impacts; random gap (0.1-1.5 degrees, believed 20 % wrong), Coulomb friction before and behind the gap, gravity, current
 noise of 5 % of range (one sigma a tick), an offset of 0.5 %. The simulation (backlash_plant.c) shares no code with the
 firmware. The crossing itself, from the simulation's truth: the ticks with the gap open, and after each the stated
-detection time (52 ms). All other ticks are judged; where no flank is told is counted apart ("withheld"), and once more by the
+detection time (52 ms). All other ticks are judged; where no flank is decided is counted apart ("withheld"), and once more by the
 best guess (the sign of the offset), which is always there.
 
 The motor's friction is the same at rest as in motion there. Gears stick (backlash_measured.py): two more runs take up to twice as
-much to break away, once with a machine that knows nothing of it, once with one that is told as docs/backlash.md says.
+much to break away, once with a machine that knows nothing of it, once with one that is given it as docs/backlash.md says.
 
 The report has the angle error of five sets of ticks: all of them, those in which a side touches, those outside the
-crossing, those in which the machine tells a side, and those that it calls valid. With the gap believed 20 % wrong the
+crossing, those in which the machine decides a side, and those that it calls valid. With the gap believed 20 % wrong the
 right side alone leaves up to a tenth of the gap. Over all ticks, those with an open gap among them, there is no
 bound: a machine that only watches the joint cannot reach a tenth (backlash_floor.py).
 
@@ -39,7 +39,7 @@ HISTORY_FIELDS = ["ticks", "open", "excluded", "judged", "wrong", "withheld", "b
                   "late_valid", "longest_valid_open_us", "cnc_command_wrong", "cnc_encoder_wrong", "detection_us_max",
                   "open_longest_us"]
 ERROR_FIELDS = {"all": "all ticks", "touching": "a side touching", "outside_crossing": "outside the crossing",
-                "told": "a side told", "valid_only": "told valid", "cnc_command": "by commanded direction, all ticks",
+                "decided": "a side decided", "valid_only": "reported valid", "cnc_command": "by commanded direction, all ticks",
                 "cnc_encoder": "by the encoder's direction, all ticks"}
 TRACE_FIELDS = ["t_s", "offset_rad", "corrected_rad", "cnc_command_rad", "cnc_encoder_rad", "load_n_mm", "truth", "flank",
                 "valid", "kind"]
@@ -115,8 +115,8 @@ def history_bounds(c: HistoryCounts) -> dict[str, bool]:
     return {
         "flank wrong <= 0.2 % of judged ticks": c.wrong <= 0.002 * c.judged,
         "never valid with the gap open past detection": c.late_valid == 0,
-        "angle error <= a tenth of the gap at the 95th percentile, told valid": percentile(c.valid_only, 0.95) <= 0.1,
-        "angle error <= a tenth of the gap at the 95th percentile, a side told": percentile(c.told, 0.95) <= 0.1,
+        "angle error <= a tenth of the gap at the 95th percentile, reported valid": percentile(c.valid_only, 0.95) <= 0.1,
+        "angle error <= a tenth of the gap at the 95th percentile, a side decided": percentile(c.decided, 0.95) <= 0.1,
         "angle error <= a tenth of the gap at the 95th percentile, a side touching":
             percentile(c.touching, 0.95) <= 0.1,
         "angle error <= a tenth of the gap at the 95th percentile, outside the crossing":
@@ -129,7 +129,7 @@ def history_bounds(c: HistoryCounts) -> dict[str, bool]:
 def takeup_bounds(held: TakeupCounts, free: TakeupCounts, count: int) -> dict[str, bool]:
     over = [getattr(c, name) for c in (held, free) for name in ("torque_over", "travel_over", "time_over", "not_idle")]
     return {"take-up succeeds in >= 99.9 %": held.really_done >= 0.999 * count,
-            "no take-up told done that is not": held.done == held.really_done and free.done == free.really_done,
+            "no take-up reported done that is not": held.done == held.really_done and free.done == free.really_done,
             "bounded in the rest": not any(over)}
 
 

@@ -30,7 +30,7 @@ typedef struct {
     plant_t plant;
     brace_backlash_params_t believed;
     double hold_stiffness, gravity_off;
-    bool expecting; /* gravity (15 % off, and 2 % of range for friction) is told while nothing else touches the link
+    bool expecting; /* gravity (15 % off, and 2 % of range for friction) is given while nothing else touches the link
                        and it is at rest */
     world_t world;
     segment_t segment;
@@ -45,7 +45,7 @@ brace_backlash_params_t joint_as_believed(const plant_t *plant, double gap_off, 
 history_t history_begin(uint64_t seed, gap_belief_t belief, bool expecting, breakaway_t breakaway);
 
 /* Before a tick: the motor may leave its setpoint, by reach_gaps of the gap as believed at most, to touch what cannot be
- * told from where it stands. While no flank is told (0) it goes to the one that the offset lies nearer to; else back. */
+ * found from where it stands. While no flank is decided (0) it goes to the one that the offset lies nearer to; else back. */
 void history_feel_for_flank(history_t *history, int flank, double offset_rad, double reach_gaps);
 
 /* Goes on by a millisecond and reads the instruments. */

@@ -3,8 +3,8 @@
 The link stands still, so the motor's angle alone says where in its play a joint is: beyond half the gap from the middle a
 flank touches. That is the truth here; torque, from the motor's current as the machine sees it, has no part in it, but for the
 middle itself (half way between the angles at equal and opposite torques). Gap and friction are what `brace diagnose` finds in
-the record. The machine is told them once as found, friction to 20 %, and once as docs/backlash.md says that a gear wants to
-be told: the upper end of friction's interval, and nothing between rest and motion taken for sure (1). The gap is told right,
+the record. The machine is given them once as found, friction to 20 %, and once as docs/backlash.md says that a gear wants to
+be set: the upper end of friction's interval, and nothing between rest and motion taken for sure (1). The gap is given right,
 and 20 % off either way.
 
     BRACE_REAL_DATA=FOLDER PYTHONPATH=tools .venv/bin/python tests/property/backlash_measured.py
@@ -42,7 +42,7 @@ class Joint(ctypes.Structure):
 
 @dataclass(frozen=True)
 class Found:
-    """What a diagnosis tells of a joint."""
+    """What a diagnosis reports of a joint."""
 
     gap_rad: float
     friction_n_mm: float
@@ -51,18 +51,18 @@ class Found:
 
 @dataclass
 class Judged:
-    """Ticks, all tests and gaps told of a record together."""
+    """Ticks, all tests and believed gaps of a record together."""
 
     ticks: int = 0
     touching: int = 0
-    told: int = 0
+    decided: int = 0
     valid: int = 0
-    wrong: int = 0        # the flank told is not the one that touches
-    valid_wrong: int = 0  # told valid on the side on which the motor is not
+    wrong: int = 0        # the flank decided is not the one that touches
+    valid_wrong: int = 0  # reported valid on the side on which the motor is not
     late_valid: int = 0   # valid with the gap open for longer than the time in which that has to be noticed
     direction_wrong: int = 0
     errors: tuple[Floats, ...] = ()       # |offset - truth| in gaps, every tick
-    told_errors: tuple[Floats, ...] = ()  # where a flank is told
+    decided_errors: tuple[Floats, ...] = ()  # where a flank is decided
 
     def percentile(self, which: tuple[Floats, ...]) -> float:
         """The 95th [gaps]."""
@@ -75,9 +75,9 @@ def found_in(folder: Path) -> Found:
     from brace.diagnose.options import Options
     from brace.diagnose.run import diagnose
 
-    told = {key.rsplit(".", 1)[-1]: interval for effect in diagnose(load_dataset(folder), None, Options()).effects
+    sizes = {key.rsplit(".", 1)[-1]: interval for effect in diagnose(load_dataset(folder), None, Options()).effects
             for key, interval in effect.parameters.items()}
-    return Found(told["gap_rad"].value, told["coulomb_n_mm"].value, told["coulomb_n_mm"].high)
+    return Found(sizes["gap_rad"].value, sizes["coulomb_n_mm"].value, sizes["coulomb_n_mm"].high)
 
 
 def middle_rad(angle_rad: Floats, torque_n_mm: Floats) -> float:
@@ -124,14 +124,14 @@ def play_test(lib: ctypes.CDLL, joint: Joint, angle_rad: Floats, torque_n_mm: Fl
     errors = np.abs(offset_rad + np.clip(off_middle, -0.5 * gap_rad, 0.5 * gap_rad)) / gap_rad
     judged.ticks += len(angle)
     judged.touching += int(touching.sum())
-    judged.told += int((flank != 0.0).sum())
+    judged.decided += int((flank != 0.0).sum())
     judged.valid += int(valid.sum())
     judged.wrong += int((touching & (flank == -side)).sum())
     judged.valid_wrong += int((valid & (flank == -side)).sum())
     judged.late_valid += int((valid & (ticks_open(touching) * joint.tick_us > detection_us)).sum())
     judged.direction_wrong += int((touching & (by_direction(angle) == -side)).sum())
     judged.errors += (errors,)
-    judged.told_errors += (errors[flank != 0.0],)
+    judged.decided_errors += (errors[flank != 0.0],)
 
 
 def judge(lib: ctypes.CDLL, folder: Path) -> Iterator[tuple[str, bool, Judged]]:
@@ -161,10 +161,10 @@ def share(part: int, whole: int) -> str:
 def report(record: str, setting: str, to_full_load: bool, j: Judged) -> str:
     """One row."""
     return (f"{record:20} {'40 N m' if to_full_load else ' 4 N m'}  {setting:35} gap open {share(j.ticks - j.touching, j.ticks)}  "
-            f"told {share(j.told, j.ticks)}  valid {share(j.valid, j.ticks)}  wrong {share(j.wrong, j.touching)}  "
+            f"decided {share(j.decided, j.ticks)}  valid {share(j.valid, j.ticks)}  wrong {share(j.wrong, j.touching)}  "
             f"valid and wrong {share(j.valid_wrong, j.ticks)}, past detection {share(j.late_valid, j.ticks)}  "
             f"by direction wrong {share(j.direction_wrong, j.touching)}  "
-            f"95 % within {j.percentile(j.told_errors):.3f} gaps told, {j.percentile(j.errors):.3f} at all ticks")
+            f"95 % within {j.percentile(j.decided_errors):.3f} gaps decided, {j.percentile(j.errors):.3f} at all ticks")
 
 
 def main() -> None:

@@ -2,8 +2,8 @@
  * parameter of motor, gap, link and gravity as it is, and the motor's motion without quantisation. It sees the motor's
  * current with its noise (or, on request, without). It does not know what the world does to the link. Assumed of that:
  * a torque that wanders and jumps (steps of 25 % of range, kicks of 8 %), and holds that come and go at the link's place,
- * of a stiffness drawn as the histories draw it; on request it is told instead which kind of time it is, and the hold's
- * stiffness. Told of each tick: the offset in whose neighbourhood, a tenth of the gap to either side, most of the
+ * of a stiffness drawn as the histories draw it; on request it is given instead which kind of time it is, and the hold's
+ * stiffness. Found for each tick: the offset in whose neighbourhood, a tenth of the gap to either side, most of the
  * probability lies: the best there is for that measure. On request it knows only what a controller may know: gap,
  * friction and inertia as the machine believes them, the link's to 20 %, and of the motor what its encoder and its
  * current read; and it may let the motor leave its setpoint to feel for a flank. Judges the attainable; shares no code
@@ -37,7 +37,7 @@ typedef struct {
 } motor_t;
 
 typedef struct {
-    bool exact_torque, told_world, exact_joint; /* of the joint: its parameters and the motor's motion */
+    bool exact_torque, known_world, exact_joint; /* of the joint: its parameters and the motor's motion */
 } knows_t;
 
 /* A motor's angle and speed by its encoder: steady Kalman gains, and the variance of what the encoder reads anew. */
@@ -94,12 +94,12 @@ static void rejuvenate(particle_t *q, const plant_t *p, knows_t knows, dice_t *d
     const bool engaged = dice_uniform(dice, 0.0, 1.0) < 0.7;
     q->link_rad = q->motor_rad + (engaged ? -copysign(half, load) - load / p->stiffness : dice_uniform(dice, -half, half));
     q->link_speed = q->motor_speed;
-    if (!knows.told_world) {
+    if (!knows.known_world) {
         q->world_n_mm = engaged ? -load - plant_gravity_n_mm(p, q->link_rad) : 0.0;
     }
 }
 
-static void world_as_told(particle_t *q, const history_t *h, bool newly_held, dice_t *dice)
+static void world_as_known(particle_t *q, const history_t *h, bool newly_held, dice_t *dice)
 {
     const double range = h->plant.range_n_mm, u = dice_uniform(dice, 0.0, 1.0);
     const kind_t kind = h->segment.kind;
@@ -322,7 +322,7 @@ static void normalise_and_resample(cloud_t *cloud)
 }
 
 /* reach_gaps: how far the motor may leave its setpoint to feel for a flank; 0: not */
-int backlash_oracle(uint64_t seed, int particles, int exact_torque, int told_world, int exact_joint, double reach_gaps,
+int backlash_oracle(uint64_t seed, int particles, int exact_torque, int known_world, int exact_joint, double reach_gaps,
                     oracle_counts_t *counts)
 {
     static particle_t of[PARTICLES_MOST], resampled[PARTICLES_MOST];
@@ -330,7 +330,7 @@ int backlash_oracle(uint64_t seed, int particles, int exact_torque, int told_wor
     if (particles < 1 || particles > PARTICLES_MOST) {
         return -1;
     }
-    const knows_t knows = {exact_torque != 0, told_world != 0, exact_joint != 0};
+    const knows_t knows = {exact_torque != 0, known_world != 0, exact_joint != 0};
     history_t h = history_begin(seed, GAP_WITHIN_20_PERCENT, false, SLIPS);
     cloud_t cloud = {of, resampled, log_weight, particles, {seed * 77u + 5u}};
     const plant_t *real = &h.plant, known = knows.exact_joint ? *real : as_believed(&h, &cloud.dice), *p = &known;
@@ -350,8 +350,8 @@ int backlash_oracle(uint64_t seed, int particles, int exact_torque, int told_wor
         for (int i = 0; i < particles; i++) {
             particle_t *q = &of[i];
             rejuvenate(q, p, knows, &cloud.dice);
-            if (knows.told_world) {
-                world_as_told(q, &h, h.segment.held && !held_before, &cloud.dice);
+            if (knows.known_world) {
+                world_as_known(q, &h, h.segment.held && !held_before, &cloud.dice);
             } else {
                 world_as_assumed(q, p, &cloud.dice);
             }

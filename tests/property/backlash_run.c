@@ -19,7 +19,7 @@ typedef struct {
     double cnc_command_wrong, cnc_encoder_wrong;
     double detection_us_max;
     double open_longest_us;
-    errors_t all, touching, outside_crossing, told, valid_only;
+    errors_t all, touching, outside_crossing, decided, valid_only;
     errors_t cnc_command, cnc_encoder; /* all ticks */
 } history_counts_t;
 
@@ -102,7 +102,7 @@ int backlash_history(uint64_t seed, int belief, int expecting, int breakaway, do
         }
         count_error(&counts->all, error_rad, p->gap_rad);
         if (out.flank != 0) {
-            count_error(&counts->told, error_rad, p->gap_rad);
+            count_error(&counts->decided, error_rad, p->gap_rad);
         }
         count_error(&counts->cnc_command, cnc_command_rad - offset_rad, p->gap_rad);
         count_error(&counts->cnc_encoder, cnc_encoder_rad - offset_rad, p->gap_rad);

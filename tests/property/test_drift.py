@@ -51,7 +51,7 @@ def test_an_unchanged_limb_raises_no_alarm_at_postures_of_its_choice(name: str, 
     assert not alarm and readings >= 100_000
 
 
-def test_random_limbs_raise_no_alarm_at_postures_of_their_choice_and_tell_most_losses() -> None:
+def test_random_limbs_raise_no_alarm_at_postures_of_their_choice_and_report_most_losses() -> None:
     """Nine in ten losses on 1,000 limbs; of these 80 at least 66 (three sigma below 74) if as many are."""
     cases = [figures.random_choice(SEED + 100 + i, True) for i in range(40)]
     assert not any(alarm for _, alarm, _ in cases)

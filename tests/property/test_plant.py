@@ -301,7 +301,7 @@ def test_creep_relaxes_with_its_time_constant() -> None:
     np.testing.assert_allclose(f, wanted, rtol=0, atol=np.abs(f).max() * dt / time_constant)
 
 
-def test_creep_rests_between_runs_unless_told() -> None:
+def test_creep_rests_between_runs_unless_asked() -> None:
     """A new run begins with no force at no displacement; with creep_runs_on it does not."""
     keys = PAPER | {"creep.ratio": 0.2, "creep.time_constant_s": 30.0}
     run = np.repeat([1, 2], 10)

@@ -148,7 +148,7 @@ def test_the_controller_as_a_package(preset: str, tmp_path: Path) -> None:
 
 
 def test_the_whole_taken_in(tmp_path: Path) -> None:
-    """add_subdirectory of the repository: configuring tells whether all targets are there; nothing but libraries."""
+    """add_subdirectory of the repository: configuring shows whether all targets are there; nothing but libraries."""
     HOST.skip_without()
     (tmp_path / "user.c").write_text(USER)
     (tmp_path / "CMakeLists.txt").write_text(

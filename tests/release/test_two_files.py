@@ -46,9 +46,9 @@ def test_reference_k(target: Target, core: Path, tmp_path: Path) -> None:
     place = "host" if target.name.startswith("host") else target.name
     where = (f"CC={target.compiler}", f"CORE={core}", f"OUT={tmp_path}")
     text = output_of("make", "-s", *where, f"run-{place}", cwd=EXAMPLES / "bare_loop")
-    told = k_values(text)
-    assert len(told) == 3
-    assert told[0] == pytest.approx(REFERENCE_K, abs=TOLERANCE_N_PER_MM)
+    reported = k_values(text)
+    assert len(reported) == 3
+    assert reported[0] == pytest.approx(REFERENCE_K, abs=TOLERANCE_N_PER_MM)
 
 
 def test_same_bytes_and_nothing_of_others(core: Path, tmp_path: Path) -> None:

@@ -20,7 +20,7 @@ NULLS = ("-serial", "null") * 4  # between the console and USART6
 
 
 def angles(board: Board) -> tuple[float, float] | None:
-    """theta1 and theta2 as the console's `k` tells them; None: not yet."""
+    """theta1 and theta2 as the console's `k` reports them; None: not yet."""
     board.ask("k")
     found = re.search(r"theta1_rad (\S+) theta2_rad (\S+)", board.until(r"^k: ")[-1])
     return (float(found[1]), float(found[2])) if found else None
@@ -34,8 +34,8 @@ def test_the_board_reads_its_servos() -> None:
         with Board("netduinoplus2", image("brace-netduinoplus2-servos"), *options) as board:
             board.banner()
             end = time.monotonic() + PATIENCE_S
-            while (told := angles(board)) is None:
+            while (reported := angles(board)) is None:
                 assert time.monotonic() < end
                 time.sleep(0.1)  # the console's words take the board's time, which its servos need
-            assert told == pytest.approx((1.0, 1.4), abs=COUNT_RAD + 1e-3)
-            assert [line.peek(place, 64, 1) for place in (0, 1)] == [1, 1]  # they were told to hold
+            assert reported == pytest.approx((1.0, 1.4), abs=COUNT_RAD + 1e-3)
+            assert [line.peek(place, 64, 1) for place in (0, 1)] == [1, 1]  # they were commanded to hold

@@ -23,7 +23,7 @@ COUNT_RAD = 2 * math.pi / 4096
 
 
 def end_of(*options: str) -> dict[str, Any]:
-    """What the limb tells at the end of a run."""
+    """What the limb reports at the end of a run."""
     command = (*BRACE, "sim", "--model", str(LIMB), "--can", "none", "--modbus", "none", "--json", *options)
     done = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
     assert done.returncode == 0, done.stderr
@@ -62,10 +62,10 @@ def test_every_servo_is_sampled_at_least_500_times_a_second_and_all_is_counted()
         before = [node.servo(0, joint)["samples"] for joint in (1, 2)]
         node.step(10.0)
         for joint, samples in zip((1, 2), before, strict=True):
-            told = node.servo(0, joint)
-            assert told["state"] == READY and told["model"] == 321
-            assert (told["samples"] - samples) / 10 >= 500
-            assert told["lost"] == told["damaged"] == told["restarts"] == 0
+            reported = node.servo(0, joint)
+            assert reported["state"] == READY and reported["model"] == 321
+            assert (reported["samples"] - samples) / 10 >= 500
+            assert reported["lost"] == reported["damaged"] == reported["restarts"] == 0
         assert node.servo(0, 0)["state"] == 0  # a limb in a plane has no coxa joint
 
 
@@ -88,7 +88,7 @@ def test_servos_at_a_device_are_read_and_left_alone() -> None:
         assert [line.peek(place, 64, 1) for place in range(3)] == [0, 0, 0]  # nobody's torque was switched on
 
 
-def test_servos_at_a_device_are_told_to_hold_when_asked_so() -> None:
+def test_servos_at_a_device_are_commanded_to_hold_when_asked_so() -> None:
     with ServoLine((11, 12, 13)) as line:
         line.shaft(1, math.pi + 1.0)
         line.shaft(2, math.pi + 1.4)

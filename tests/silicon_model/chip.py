@@ -85,7 +85,7 @@ class Chip:
         self.time_us = 0.0
         self.models: dict[int, Model] = {}
         self.lines: dict[int, tuple[Callable[[], bool], str]] = {}  # interrupt -> is it asked for, handler
-        self.waiting: list[Callable[[float], None]] = []  # told how much time has passed
+        self.waiting: list[Callable[[float], None]] = []  # called with the time that has passed
         self.untouched: set[int] = set()
         self.in_handler = False
         self.interrupts_taken = 0
@@ -151,8 +151,8 @@ class Chip:
 
     def pass_us(self, microseconds: float) -> None:
         self.time_us += microseconds
-        for tell in self.waiting:
-            tell(microseconds)
+        for notify in self.waiting:
+            notify(microseconds)
 
     def wait_us(self, microseconds: float, step_us: float = 20.0) -> None:
         """Lets time pass with the processor idle, interrupts served."""

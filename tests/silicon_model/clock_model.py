@@ -39,7 +39,7 @@ class Rcc:
         return value
 
     def crystal_stops(self) -> bool:
-        """What the clock security system makes of it (7.2.7). returns whether the processor is told, by its NMI"""
+        """What the clock security system makes of it (7.2.7). returns whether the processor gets its NMI"""
         watched = bool(self.registers[0x00] >> 19 & 1)
         self.crystal_hz = None
         if watched:

@@ -329,7 +329,7 @@ def test_alone_on_the_bus_is_error_passive_and_never_bus_off(silicon: Maker) -> 
 
 
 @pytest.mark.parametrize("waiting", [1, 3])
-def test_what_nobody_took_is_not_told_later(silicon: Maker, waiting: int) -> None:
+def test_what_nobody_took_is_not_received_later(silicon: Maker, waiting: int) -> None:
     """A K that has waited for somebody to come onto the bus carries the age that it had when it was sent."""
     chip = joined(silicon)
     chip.bus.answers = False

@@ -1,4 +1,4 @@
-"""Clocks and time on the register model: what runs, what is told, and what happens when parts do not start."""
+"""Clocks and time on the register model: what runs, what is reported, and what happens when parts do not start."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ def test_crystal_gives_168_mhz(silicon: Maker, board: str, crystal_hz: int) -> N
     chip.start(board)
     real = chip.rcc.clocks()
     assert (real["core"], real["apb1"], real["apb2"], real["timer"]) == (168e6, 42e6, 84e6, 84e6)
-    assert chip.chip.words("clock_told", 4) == (168_000_000, 42_000_000, 84_000_000, 84_000_000)
-    assert chip.chip.get("clock_told", 18)[16:] == b"\x01\x01"
+    assert chip.chip.words("clock_reported", 4) == (168_000_000, 42_000_000, 84_000_000, 84_000_000)
+    assert chip.chip.get("clock_reported", 18)[16:] == b"\x01\x01"
 
 
 @pytest.mark.parametrize("board", ["board_8_mhz", "board_without_crystal"])
@@ -24,16 +24,16 @@ def test_without_crystal_the_inner_oscillator_feeds_the_pll(silicon: Maker, boar
     chip.start(board)
     real = chip.rcc.clocks()
     assert (real["core"], real["apb1"], real["apb2"]) == (168e6, 42e6, 84e6)
-    assert chip.chip.words("clock_told", 1) == (168_000_000,)
-    assert chip.chip.get("clock_told", 18)[16:] == b"\x00\x01"
+    assert chip.chip.words("clock_reported", 1) == (168_000_000,)
+    assert chip.chip.get("clock_reported", 18)[16:] == b"\x00\x01"
 
 
 def test_pll_that_never_locks_leaves_16_mhz(silicon: Maker) -> None:
     chip = silicon(pll_locks=False)
     chip.start()
     real = chip.rcc.clocks()
-    told = chip.chip.words("clock_told", 4)
-    assert told == (16_000_000,) * 4 == tuple(real[name] for name in ("core", "apb1", "apb2", "timer"))
+    reported = chip.chip.words("clock_reported", 4)
+    assert reported == (16_000_000,) * 4 == tuple(real[name] for name in ("core", "apb1", "apb2", "timer"))
     before = chip.now()
     chip.chip.wait_us(1000)
     assert abs(chip.now() - before - 1000) <= 3
@@ -47,10 +47,10 @@ def test_clocks_a_boot_loader_left_are_taken_over(silicon: Maker) -> None:
     assert chip.rcc.clocks()["core"] == 50e6
     chip.start()
     assert chip.rcc.clocks()["core"] == 168e6
-    assert chip.chip.words("clock_told", 1) == (168_000_000,)
+    assert chip.chip.words("clock_reported", 1) == (168_000_000,)
 
 
-def test_a_crystal_that_stops_is_told_and_time_goes_on(silicon: Maker) -> None:
+def test_a_crystal_that_stops_is_reported_and_time_goes_on(silicon: Maker) -> None:
     chip = silicon()
     chip.start()
     before = chip.now()
@@ -62,8 +62,8 @@ def test_a_crystal_that_stops_is_told_and_time_goes_on(silicon: Maker) -> None:
     again = chip.now()
     chip.chip.wait_us(1000)
     assert abs(chip.now() - again - 1000) <= 3
-    chip.tell_clock()
-    assert chip.chip.get("clock_told", 19)[16:] == b"\x00\x01\x01"
+    chip.report_clock()
+    assert chip.chip.get("clock_reported", 19)[16:] == b"\x00\x01\x01"
 
 
 def test_a_crystal_that_stops_when_the_pll_will_not_start_again_restarts_the_processor(silicon: Maker) -> None:

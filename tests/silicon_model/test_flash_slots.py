@@ -88,7 +88,7 @@ def test_whole_units_only(silicon: Maker) -> None:
 
 
 @pytest.mark.parametrize("bit", [1, 4, 5, 6, 7])  # OPERR, WRPERR, PGAERR, PGPERR, PGSERR
-def test_an_error_is_told_and_does_not_stop_the_next_operation(silicon: Maker, bit: int) -> None:
+def test_an_error_is_reported_and_does_not_stop_the_next_operation(silicon: Maker, bit: int) -> None:
     chip = started(silicon)
     chip.flash.fails_next = 1 << bit
     assert write(chip, 0, 0, b"lost") == DEVICE

@@ -103,7 +103,7 @@ def test_an_image_makes_a_key_of_its_own_where_nothing_is_locked() -> None:
     assert taken[:BLOCK] != WHOLE
 
 
-def test_a_key_that_was_never_locked_is_told_and_locked_by_the_next_start(silicon: Maker) -> None:
+def test_a_key_that_was_never_locked_is_reported_and_locked_by_the_next_start(silicon: Maker) -> None:
     chip = silicon()
     chip.start("board_with_key")
     chip.flash.otp[:BLOCK] = WHOLE
@@ -170,7 +170,7 @@ def test_what_others_keep_there_stays(chip: Silicon) -> None:
     assert bytes(chip.flash.otp[:BLOCK]) == theirs and chip.flash.otp[LOCKS] == 0xFF
 
 
-def test_a_lock_that_is_not_taken_is_told(chip: Silicon) -> None:
+def test_a_lock_that_is_not_taken_is_reported(chip: Silicon) -> None:
     """The supply falls behind the key's words."""
     whole = chip.flash._store_otp
 

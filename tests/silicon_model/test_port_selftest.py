@@ -53,7 +53,7 @@ def test_a_sound_chip_passes(silicon: Maker) -> None:
     assert chip.bus.seen == []  # loopback stays inside
 
 
-def test_a_chip_without_its_parts_is_told(silicon: Maker) -> None:
+def test_a_chip_without_its_parts_is_reported(silicon: Maker) -> None:
     chip = silicon()
     chip.can.obeys = False
     chip.flash.protected = {11}

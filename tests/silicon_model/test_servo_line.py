@@ -88,7 +88,7 @@ def test_bytes_come_in_order_whatever_the_room_and_the_ring(chip: Silicon, line:
 def test_a_full_turn_of_the_ring_is_lost_but_nothing_after(chip: Silicon, line: ServoUsart) -> None:
     for byte in range(RING):
         line.arrive(byte)
-    assert receive(chip) == b""  # the packet's CRC tells
+    assert receive(chip) == b""  # the packet's CRC shows it
     line.arrive(0x55)
     assert receive(chip) == b"\x55"
 

@@ -85,9 +85,9 @@ def test_k_as_candump_prints_it_is_the_limbs(seen: dict[str, Any]) -> None:
     xx, xz = (whole(a, start, 24, True) * K_STEP_N_PER_MM for start in (8, 32))
     true = expected(*STANDS_RAD)
     zz = whole(b, 8, 24, True) * K_STEP_N_PER_MM
-    for told, expect in ((xx, true.xx), (xz, true.xz), (zz, true.zz)):
+    for reported, expect in ((xx, true.xx), (xz, true.xz), (zz, true.zz)):
         # the simulated limb's encoders have steps: 5e-4 rad
-        assert told == pytest.approx(expect, abs=0.01)
+        assert reported == pytest.approx(expect, abs=0.01)
 
 
 def test_cansend_by_hand_is_answered(seen: dict[str, Any]) -> None:
@@ -98,8 +98,8 @@ def test_cansend_by_hand_is_answered(seen: dict[str, Any]) -> None:
 
 
 def test_python_can_and_cantools_read_the_same(seen: dict[str, Any]) -> None:
-    told = seen["python_can"]
-    messages = told["messages"]
+    reported = seen["python_can"]
+    messages = reported["messages"]
     messages.pop("emergency", None)  # candump's test says of what
     assert set(messages) == {"stiffness_a", "stiffness_b", "eigenvalues", "posture", "heartbeat", "details"}
     assert messages["heartbeat"] == {
@@ -110,7 +110,7 @@ def test_python_can_and_cantools_read_the_same(seen: dict[str, Any]) -> None:
     assert posture["theta2"] == pytest.approx(STANDS_RAD[1], abs=1e-3)
     assert messages["stiffness_a"]["k_xx"] == pytest.approx(true.xx, abs=0.01)
     assert messages["eigenvalues"]["lambda_min"] == pytest.approx(true.low, abs=0.01)
-    answer = told["answer"]
+    answer = reported["answer"]
     assert answer.pop("token") == 90
     assert answer.pop("k_at_posture_3_flags") == 0
     names = ("0_k_xx", "0_k_xz", "1_k_zz", "1_lambda_min", "2_lambda_max", "2_stiff_axis")
@@ -136,7 +136,7 @@ def test_the_board_is_not_the_simulation(tmp_path: Path) -> None:
     with emulated(tmp_path, changes={"controller.node_id": 5}) as places:
         run = in_guest(sys.executable, SCRIPT, "can0", "slcand", "ttyS0", *tools, serial=places["slcan"])
     assert run.returncode == 0, run.stdout + run.stderr
-    told = json.loads(run.stdout.splitlines()[-1])
-    assert told["cansend"] == []
-    identifiers = {identifier for _, identifier, _ in frames_of(told["candump"])}
+    reported = json.loads(run.stdout.splitlines()[-1])
+    assert reported["cansend"] == []
+    identifiers = {identifier for _, identifier, _ in frames_of(reported["candump"])}
     assert identifiers and all(identifier & 0x7F == 5 for identifier in identifiers)

@@ -253,7 +253,7 @@ def _check_stream(frames: np.ndarray) -> tuple[int, float, np.ndarray]:
         code = (word >> np.uint64(start) & np.uint64((1 << count) - 1)).astype(np.int64)
         return np.where(signed & (code >> (count - 1) == 1), code - (1 << count), code)
 
-    told = np.stack([field(a, 8, 24), field(a, 32, 24), field(b, 8, 24)], -1) * K_STEP_N_PER_MM
+    reported = np.stack([field(a, 8, 24), field(a, 32, 24), field(b, 8, 24)], -1) * K_STEP_N_PER_MM
     low = field(e, 8, 20, False) * 0.0005
     theta = np.stack([field(p, 8, 20), field(p, 28, 20)], -1) * 2e-5
     k = paper_k(theta[:, 0], theta[:, 1])
@@ -266,10 +266,10 @@ def _check_stream(frames: np.ndarray) -> tuple[int, float, np.ndarray]:
         other = paper_k(moved[:, 0], moved[:, 1])
         moved_k = np.stack([other[:, 0, 0], other[:, 0, 1], other[:, 1, 1]], -1)
         room = room + 1.1 * np.abs(moved_k - true)
-    wrong = np.abs(told - true) > room
-    assert not wrong.any(), f"K is not of its posture: {told[wrong.any(-1)][0]}, {true[wrong.any(-1)][0]}"
+    wrong = np.abs(reported - true) > room
+    assert not wrong.any(), f"K is not of its posture: {reported[wrong.any(-1)][0]}, {true[wrong.any(-1)][0]}"
     assert (np.abs(low - np.linalg.eigvalsh(k)[:, 0]) <= 0.00025 + room.sum(-1)).all()
-    seen = (np.abs(told[:-1] - true[1:]) > room[1:]).any(-1)
+    seen = (np.abs(reported[:-1] - true[1:]) > room[1:]).any(-1)
     return len(groups), float(seen.mean()) if seen.size else 1.0, left
 
 

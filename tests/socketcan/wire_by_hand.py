@@ -1,4 +1,4 @@
-"""The wire as docs and DBC tell it, written out by hand, and K by physics.md in double precision: shares no code with
+"""The wire as docs and DBC describe it, written out by hand, and K by physics.md in double precision: shares no code with
 what it judges."""
 
 from __future__ import annotations
@@ -108,11 +108,11 @@ def expected(theta1_rad: float, theta2_rad: float) -> K:
     return K(k[0, 0], k[0, 1], k[1, 1], values[0], values[1], axis)
 
 
-def check(told: K, theta1_rad: float, theta2_rad: float) -> None:
+def check(reported: K, theta1_rad: float, theta2_rad: float) -> None:
     """Within a step of the wire and the core's 2e-6 of the largest entry; an axis has no sense, so modulo pi."""
     true = expected(theta1_rad, theta2_rad)
     room = K_STEP_N_PER_MM / 2 + 2e-6 * true.high + 1e-9
     for name in ("xx", "xz", "zz", "low", "high"):
-        assert abs(getattr(told, name) - getattr(true, name)) <= room, (name, told, true)
-    turn = (told.axis - true.axis + math.pi / 2) % math.pi - math.pi / 2
-    assert abs(turn) <= AXIS_STEP_RAD / 2 + 4e-6 * true.high / (true.high - true.low), (told, true)
+        assert abs(getattr(reported, name) - getattr(true, name)) <= room, (name, reported, true)
+    turn = (reported.axis - true.axis + math.pi / 2) % math.pi - math.pi / 2
+    assert abs(turn) <= AXIS_STEP_RAD / 2 + 4e-6 * true.high / (true.high - true.low), (reported, true)

@@ -19,7 +19,7 @@ STYLE: dict[Any, Any] = {"svg.hashsalt": "brace", "svg.fonttype": "none", "font.
 
 
 def _wrong(axes: Any, n: Any) -> None:
-    rows = [("machine, told", n.wrong, MACHINE), ("machine, guessed\nat every tick", n.best_wrong, GUESS),
+    rows = [("machine, decided", n.wrong, MACHINE), ("machine, guessed\nat every tick", n.best_wrong, GUESS),
             ("by commanded\ndirection", n.cnc_command_wrong, COMMAND), ("by the encoder's\ndirection", n.cnc_encoder_wrong, ENCODER)]
     shares = [100.0 * value / n.judged for _, value, _ in rows]
     bars = axes.barh(range(len(rows)), shares, color=[colour for _, _, colour in rows])
@@ -32,7 +32,7 @@ def _wrong(axes: Any, n: Any) -> None:
 
 
 def _distribution(axes: Any, n: Any, oracle: Any) -> None:
-    rows = [("machine, told valid", n.valid_only, MACHINE, "-."), ("machine, outside the crossing", n.outside_crossing, MACHINE, "--"),
+    rows = [("machine, reported valid", n.valid_only, MACHINE, "-."), ("machine, outside the crossing", n.outside_crossing, MACHINE, "--"),
             ("machine, all ticks", n.all, MACHINE, "-"), ("oracle, all ticks", oracle.error, ORACLE, ":"),
             ("by commanded direction", n.cnc_command, COMMAND, "-"), ("by the encoder's direction", n.cnc_encoder, ENCODER, "-")]
     for name, bins, colour, line in rows:
@@ -50,7 +50,7 @@ def _history(axes: Any, trace: dict[str, np.ndarray]) -> None:
     axes.fill_between(t[every], 0, 1, where=trace["truth"][every] == 0, transform=axes.get_xaxis_transform(), color="#eeeeee",
                       step="mid", linewidth=0, label="gap open")
     axes.fill_between(t[every], 0, 0.03, where=trace["valid"][every] > 0, transform=axes.get_xaxis_transform(), color="#6aa84f",
-                      step="mid", linewidth=0, label="told valid")
+                      step="mid", linewidth=0, label="reported valid")
     for name, key, colour, width in (("by commanded direction", "cnc_command_rad", COMMAND, 0.9),
                                      ("machine", "corrected_rad", MACHINE, 1.5), ("truth", "offset_rad", "black", 0.8)):
         axes.plot(t[every], scale * trace[key][every], color=colour, linewidth=width, label=name)

@@ -32,12 +32,12 @@ machine tools do: half the gap against the last direction of motion, commanded o
 the ticks with the gap open, and 52 ms after each. With the gap believed 20 % wrong, the right side alone leaves up to
 0.1 gaps.
 
-At every tick at which the machine tells a side, 95 % of the errors are within a tenth of the gap. The same holds at
-every tick at which a side touches, told or not. Where the machine tells none, its guess is applied all the same: over
+At every tick at which the machine decides a side, 95 % of the errors are within a tenth of the gap. The same holds at
+every tick at which a side touches, decided or not. Where the machine decides none, its guess is applied all the same: over
 all ticks the errors are larger, and there is no limit on them, because nobody who only looks on can keep one. The oracle
 shows it: a particle filter that knows every parameter of joint and link exactly, the gap too, and the motor's motion
 without quantisation, but not what the world does. While the gap is open and the motor rests within its friction, nothing
-of the link reaches the motor's side. What a motor could tell that leaves its setpoint to feel for the side:
+of the link reaches the motor's side. What a motor could find that leaves its setpoint to feel for the side:
 [backlash.md](backlash.md).
 
 ![wrong sides, angle errors, one history](backlash.svg)"""
@@ -60,7 +60,7 @@ def compare() -> Comparison:
     lib, first = histories.library(), histories.REPORTED_SEED
     return Comparison(histories.histories(lib, first, HISTORIES, exact=False, expecting=False),
                       histories.histories(lib, first, HISTORIES, exact=True, expecting=False),
-                      floor.oracle(lib, first, ORACLE_HISTORIES, PARTICLES, exact=False, told=False),
+                      floor.oracle(lib, first, ORACLE_HISTORIES, PARTICLES, exact=False, known=False),
                       histories.takeups(lib, first, HISTORIES, held=True),
                       histories.takeups(lib, first, HISTORIES, held=False), histories.trace(lib, EXAMPLE_SEED))
 
@@ -72,7 +72,7 @@ def _percentiles(bins: "ctypes.Array[ctypes.c_double]") -> list[float]:
 def _errors(c: Comparison) -> dict[str, tuple["ctypes.Array[ctypes.c_double]", float]]:
     """Name -> errors, and of how many ticks they are."""
     out = {f"machine, {histories.ERROR_FIELDS[field]}": getattr(c.counts, field)
-           for field in ("valid_only", "told", "outside_crossing", "touching", "all")}
+           for field in ("valid_only", "decided", "outside_crossing", "touching", "all")}
     out["oracle, all ticks"] = c.oracle.error
     out["by direction, commanded, all ticks"] = c.counts.cnc_command
     out["by direction, encoder, all ticks"] = c.counts.cnc_encoder
@@ -82,9 +82,9 @@ def _errors(c: Comparison) -> dict[str, tuple["ctypes.Array[ctypes.c_double]", f
 def _checks(c: Comparison) -> list[Check]:
     n = c.counts
     wrong, cnc = 100.0 * n.wrong / n.judged, 100.0 * min(n.cnc_command_wrong, n.cnc_encoder_wrong) / n.judged
-    valid, told, touching, outside, off = (
+    valid, decided, touching, outside, off = (
         histories.percentile(bins, 0.95)
-        for bins in (n.valid_only, n.told, n.touching, n.outside_crossing, c.off.outside_crossing))
+        for bins in (n.valid_only, n.decided, n.touching, n.outside_crossing, c.off.outside_crossing))
     late = n.late_valid + c.off.late_valid
     done, count = c.held.really_done, float(HISTORIES)
     over = sum(getattr(t, name) for t in (c.held, c.free) for name in ("torque_over", "travel_over", "time_over", "not_idle"))
@@ -95,9 +95,9 @@ def _checks(c: Comparison) -> list[Check]:
               cnc >= 10.0 * wrong),
         Check(f"backlash: ticks valid with the gap open beyond {n.detection_us_max / 1000.0:.0f} ms", f"{late:.0f}", "none",
               late == 0.0),
-        Check("backlash: angle error told valid, 95th percentile", f"{valid:.3f} gaps", "at most 0.1 gaps", valid <= 0.1),
-        Check("backlash: angle error at every tick with a side told, 95th percentile", f"{told:.3f} gaps",
-              "at most 0.1 gaps", told <= 0.1),
+        Check("backlash: angle error reported valid, 95th percentile", f"{valid:.3f} gaps", "at most 0.1 gaps", valid <= 0.1),
+        Check("backlash: angle error at every tick with a side decided, 95th percentile", f"{decided:.3f} gaps",
+              "at most 0.1 gaps", decided <= 0.1),
         Check("backlash: angle error at every tick with a side touching, 95th percentile", f"{touching:.3f} gaps",
               "at most 0.1 gaps", touching <= 0.1),
         Check("backlash: angle error outside the crossing, 95th percentile", f"{outside:.3f} gaps", "at most 0.1 gaps",
@@ -113,14 +113,14 @@ def extra(folder: Path) -> Extra:
     c = compare()
     n = c.counts
     draw(n, c.oracle, c.example, folder / "backlash.svg")
-    flanks = [("machine, told", n.wrong), ("machine, told or guessed, at every tick", n.best_wrong),
+    flanks = [("machine, decided", n.wrong), ("machine, decided or guessed, at every tick", n.best_wrong),
               ("by direction, commanded", n.cnc_command_wrong), ("by direction, encoder", n.cnc_encoder_wrong)]
     errors = _errors(c)
     tables = [
         ("Which side is loaded: wrong, of the ticks outside the crossing", ["who says it", "wrong"],
          [[name, f"{100.0 * value / n.judged:.3f} %"] for name, value in flanks] +
          [["oracle, at every tick", f"{100.0 * c.oracle.flank_wrong / c.oracle.judged:.3f} %"],
-          ["machine, not told", f"{100.0 * n.withheld / n.judged:.1f} %"]]),
+          ["machine, not decided", f"{100.0 * n.withheld / n.judged:.1f} %"]]),
         ("Angle error from backlash, in gaps", ["who, where", *(f"{100 * s:.0f} % within" for s in SHARES), "beyond a tenth",
                                                "of the ticks"],
          [[name, *(f"{p:.3f}" for p in _percentiles(bins)), f"{100.0 * histories.beyond_a_tenth(bins):.1f} %",

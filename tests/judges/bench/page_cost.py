@@ -1,5 +1,5 @@
 """What `brace monitor --web` costs: processor time of its server, of the system too, over the wall clock. A bus with
-four moving limbs at the default rates, told in real time over TCP; browsers that read all that is sent.
+four moving limbs at the default rates, reported in real time over TCP; browsers that read all that is sent.
 
     .venv/bin/python tests/judges/bench/page_cost.py [--readers 1] [--seconds 30]
 

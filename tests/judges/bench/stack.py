@@ -1,7 +1,7 @@
 """Stack of a function and all it calls, from the compiler's own figures (-fcallgraph-info=su).
 
 A call that ends its function by a jump (a sibling call) finds the caller's frame taken down already, so the two do not
-add. The object file's relocations tell which calls are jumps; each function has a section of its own.
+add. The object file's relocations show which calls are jumps; each function has a section of its own.
 """
 
 import re

@@ -1,6 +1,6 @@
 """How much of the gap anybody could close: the truth's own parameters fitted to the noisy record, played elsewhere.
 
-Noise and the calibration's slack leave a gap on unseen configurations even to somebody who has been told what is
+Noise and the calibration's slack leave a gap on unseen configurations even to somebody who knows what is
 hidden. What a tool closes is shown beside that."""
 
 from __future__ import annotations

@@ -20,15 +20,15 @@ effect's class: those whose trace in this design has a cosine above 0.95 with th
 READING = f"""Intervals are Wilson's, 95 %. Whole gap closed: 1 - rms after / rms before on other
 poses, without noise, over single effects and pairs of every s whose gap there is above {VISIBLE_GAP_N} N and whose
 verdict exported a model: a class whose members give different K leaves limb.toml as it was. The record's
-noise leaves a part of it even to somebody who is told what is hidden and fits just that to the same record;
+noise leaves a part of it even to somebody who knows what is hidden and fits just that to the same record;
 removable is the rest, and its share that the tool closes is the line above. Calibration: the confidence of every
 effect named against whether it is one of the hidden. Coverage: the intervals of effects named right. After the next
 experiment: over all single effects of s >= 12; where the tool proposes none that a rig can play, its first word
-counts. Outside the catalogue: bursts of interference told as single readings that stand out, and clamping or a
-zero that wanders told as a force at rest that differs from run to run, count as called unknown; any other trouble
-of the instruments told in place of what is hidden counts as misnamed. The generator hides none of the
+counts. Outside the catalogue: bursts of interference reported as single readings that stand out, and clamping or a
+zero that wanders reported as a force at rest that differs from run to run, count as called unknown; any other trouble
+of the instruments reported in place of what is hidden counts as misnamed. The generator hides none of the
 instruments' effects that the catalogue has (a lag, a rig that turns or yields, steps of gain or zero). Where one of
-them explains a record as well as the hidden effect does, the tool tells both. The tool takes such a cause to be three
+them explains a record as well as the hidden effect does, the tool reports both. The tool takes such a cause to be three
 times rarer than an effect of the catalogue; only a rig that yields counts as common as an effect."""
 
 TITLES = {"simulator": "# Blind benchmark", "finite": "# Blind benchmark at finite displacements"}
@@ -216,7 +216,7 @@ def by_effect(judged: Sequence[Judged]) -> str:
 
 def promises(rows: Sequence[dict[str, Any]]) -> list[tuple[float, float, int]]:
     """Compares what next experiments promised with what they brought when they were played. Each entry: (mean promised
-    probability that the hidden effect is told from its rivals, share of cases in which it was named alone and right,
+    probability that the hidden effect is separated from its rivals, share of cases in which it was named alone and right,
     number of cases). The entries are of promises below 0.8, from 0.8 to 0.95, and above."""
     kept = [(r["promised"], r["right_after"]) for r in rows if r["played"] and r["promised"] is not None]
     bins = [[pair for pair in kept if low <= pair[0] < high] for low, high in ((0.0, 0.8), (0.8, 0.95), (0.95, 1.1))]
@@ -246,7 +246,7 @@ def closable(found: dict[str, Any]) -> str:
     """What was closed beside what could be."""
     known, of_that = found["closed_by_knowing"], found["closed_of_that"]
     return (
-        "To be told what is hidden and to fit just that to the same noisy record would close "
+        "To know what is hidden and to fit just that to the same noisy record would close "
         f"{percent(known['median'])} (median), {percent(known['p5'])} (5th percentile) of the same gaps; of what "
         f"that would close, the tool closes {percent(of_that['median'])} (median), {percent(of_that['p5'])} (5th "
         f"percentile) of {of_that['cases']} cases."

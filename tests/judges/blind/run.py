@@ -147,8 +147,8 @@ def judge_all(root: Path, results: Path, names: Iterable[str]) -> list[Judged]:
             if j.gap_before_n > report.VISIBLE_GAP_N:
                 after = folder / "holdout_after.csv"
                 j.closed = 1.0 - gap_n(unseen, after) / j.gap_before_n if after.exists() else -1.0
-                told = read(root / "best" / f"{name}.json")
-                j.closable = 1.0 - told["best"] / told["believed"] if told else None
+                best = read(root / "best" / f"{name}.json")
+                j.closable = 1.0 - best["best"] / best["believed"] if best else None
         out.append(j)
     return out
 
@@ -254,8 +254,8 @@ def main() -> int:
     begun = time.monotonic()
     jobs = [(str(root), str(results), n, k < world.reported_cases) for k, n in enumerate(names)]
     names = sorted(in_turn("diagnosing", _main_job, jobs, options.processes, begun + 60.0 * options.minutes))
-    told = names if world.follows_up else []
-    missing = [(str(root), n) for n in told if _gap_counts(root, n) and not (root / "best" / f"{n}.json").exists()]
+    followed_up = names if world.follows_up else []
+    missing = [(str(root), n) for n in followed_up if _gap_counts(root, n) and not (root / "best" / f"{n}.json").exists()]
     in_turn("what could be closed", _best_job, missing, options.processes)
     judged = judge_all(root, results, names)
     again, seeds_names = [], []

@@ -23,9 +23,9 @@ OWN_NAMES = {
     "bowed_tibia": "bowed_link",
     "off_centre_play": "off_centre_play",
 }
-# What a trouble of the instruments may be told as, in a data fault: words of its sentence. A tip that is clamped
+# What a trouble of the instruments may be reported as, in a data fault: words of its sentence. A tip that is clamped
 # elsewhere in each run and a zero that wanders both give forces at rest that differ from run to run.
-TOLD_AS_TROUBLE = {
+NAMED_AS_TROUBLE = {
     "glitch_bursts": r"single readings stand out|zero moved",
     "seating": r"force at rest differs|zero moved",
     "sensor_warmth": r"force at rest differs|zero moved",
@@ -86,13 +86,13 @@ def judge(truth: dict[str, Any], found: dict[str, Any]) -> Judged:
         j.flags["fault_any_field"] = verdict == "data_fault"
     elif kind in ("disguised", "outside"):
         j.left = float(truth.get("left_by_catalogue", math.inf))
-        told = _told_as_trouble(j.truth[0].split("@")[0], found)
+        is_named = _named_as_trouble(j.truth[0].split("@")[0], found)
         named = set(said) | group
         own = OWN_NAMES.get(j.truth[0].split("@")[0], "")
         seen = any(label.split("@")[0] == own for label in named)
-        j.flags["unknown"] = verdict == "unknown" or (verdict == "data_fault" and told)
+        j.flags["unknown"] = verdict == "unknown" or (verdict == "data_fault" and is_named)
         sure = verdict == "effect" and any(e.get("confidence", 1.0) > CONFIDENT for e in effects)
-        j.flags["misnamed"] = (sure and not seen) or (verdict == "data_fault" and not told)
+        j.flags["misnamed"] = (sure and not seen) or (verdict == "data_fault" and not is_named)
         j.flags["seen_through"] = j.flags["unknown"] or seen
         if kind == "disguised":
             alike = set(truth["alike"])
@@ -121,10 +121,10 @@ def judge(truth: dict[str, Any], found: dict[str, Any]) -> Judged:
     return j
 
 
-def _told_as_trouble(name: str, found: dict[str, Any]) -> bool:
-    """Whether every data fault tells the trouble of the instruments that was hidden; one that tells another is a wrong
+def _named_as_trouble(name: str, found: dict[str, Any]) -> bool:
+    """Whether every data fault names the trouble of the instruments that was hidden; one that names another is a wrong
     name."""
-    words = TOLD_AS_TROUBLE.get(name)
+    words = NAMED_AS_TROUBLE.get(name)
     reasons = [str(fault.get("why", "")) for fault in found.get("data_faults", [])]
     return words is not None and bool(reasons) and all(re.search(words, reason) for reason in reasons)
 
@@ -221,7 +221,7 @@ def weak(j: Judged) -> bool:
     return WEAK <= j.s < STRONG
 
 
-def told(j: Judged) -> bool:
+def must_be_named(j: Judged) -> bool:
     """s = 8 and more: what must be named."""
     return j.s >= WEAK
 

@@ -53,8 +53,8 @@ def test_none_outside_fault() -> None:
     assert not judge(out, said("effect", "creep@creep", confidence=0.7)).flags["misnamed"]
     glitches, why = truth("outside", "glitch_bursts@outside"), "single readings stand out (row 7)"
     assert judge(glitches, said("data_fault", data_faults=[{"field": "fx_n", "why": why}])).flags["unknown"]
-    for hidden, told in ((glitches, "the sensor reads +5 % from row 7 on"), (out, why)):
-        wrong = judge(hidden, said("data_fault", data_faults=[{"field": "fx_n", "why": told}])).flags
+    for hidden, sentence in ((glitches, "the sensor reads +5 % from row 7 on"), (out, why)):
+        wrong = judge(hidden, said("data_fault", data_faults=[{"field": "fx_n", "why": sentence}])).flags
         assert wrong["misnamed"] and not wrong["unknown"]
     bad = truth("data_fault", fields=["fx_n"])
     assert judge(bad, said("data_fault", data_faults=[{"field": "fx_n"}])).flags["fault"]

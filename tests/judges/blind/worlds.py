@@ -59,7 +59,7 @@ class World:
     lacking: Callable[[Array, Sequence[str]], Array] = _as_it_is  # a believed limb that has not what will be hidden
     besides: Callable[[Rng, Array, Sequence[str]], tuple[Array, dict[str, Any]]] = _nothing_besides
     """A true limb, perhaps with something more that goes with its hidden effects; what the answer says of that."""
-    disguised: tuple[tuple[str, tuple[str, ...]], ...] = ()  # outsiders, and the entries they cannot be told from
+    disguised: tuple[tuple[str, tuple[str, ...]], ...] = ()  # outsiders, and the entries they cannot be distinguished from
     whole_beams: float = 0.5  # share of strong moment transfers that are a beam's
     least_whole_beam_s: float = 0.0
     displacements: str = "finite"  # small: its limb does not turn as it is displaced

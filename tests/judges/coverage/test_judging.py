@@ -1,4 +1,4 @@
-"""The judge of coverage: what no suite runs is told, and an exception needs its reason."""
+"""The judge of coverage: what no suite runs is reported, and an exception needs its reason."""
 
 from __future__ import annotations
 

@@ -2,8 +2,8 @@
 
 usage: against_records.py FOLDER...     each with data.csv and truth.json: `true` has the limb, `spec` what was done
 
-Their links are ten equal segments. The sensor's gain within its trust is not told: it is fitted. What is left must be
-the record's own noise, as repeats of the same run tell it."""
+Their links are ten equal segments. The sensor's gain within its trust is not given: it is fitted. What is left must be
+the record's own noise, as repeats of the same run show it."""
 
 from __future__ import annotations
 

@@ -94,13 +94,13 @@ def within_promise(case: Case, found: LoadedLimbs) -> bool:
 
 
 def random_cases(
-    seed: int, count: int, *, in_space: bool, told: Callable[[Case], LoadedLimbs] = reference
+    seed: int, count: int, *, in_space: bool, answer: Callable[[Case], LoadedLimbs] = reference
 ) -> Iterator[Case]:
     """So many cases within the promise. The reference chooses; what it chooses is judged by the engine."""
     draw = np.random.default_rng(seed)
     while count:
         case = _draw(draw, in_space)
-        if within_promise(case, told(case)):
+        if within_promise(case, answer(case)):
             count -= 1
             yield case
 

@@ -66,7 +66,7 @@ def judge(root: Path, name: str, out: Path) -> None:
     said = out / "diagnosis.json"
     if truth["kind"] not in ("single", "pair") or not said.exists():
         return
-    told = json.loads(said.read_text())
-    if told["verdict"] in ("effect", "ambiguous") and told["exported"]:
+    diagnosis = json.loads(said.read_text())
+    if diagnosis["verdict"] in ("effect", "ambiguous") and diagnosis["exported"]:
         found = errors(truth, root / "cases" / name / "limb.toml", out / "limb.toml")
         (out / "k_under_load.json").write_text(json.dumps(found))

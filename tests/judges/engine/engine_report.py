@@ -23,7 +23,7 @@ READING = """Intervals are Wilson's, 95 %. Gap closed: 1 - rms after / rms befor
 single effects whose gap there is above 0.05 N. K: at 15 random postures under 4 to 20 N, the median distance from the
 engine's K. Some outsiders are equal, or nearly, to entries of the catalogue in every reading of such a record (a rig
 turned or yielding, a bowed tibia, a knee beside the femur's line): what is fitted of those entries leaves less than 8
-sigmas, and no diagnosis of it could tell. They count among all outsiders, and the lines below those say what is told of
+sigmas, and no diagnosis of it could show them. They count among all outsiders, and the lines below those say what is said of
 the others. Five of the kinds have names of their own, which the tool asks about where what they look like was chosen: a
 class that holds this name names them."""
 

@@ -2,7 +2,7 @@
 
 Every link is a beam. Strokes go up to 2.54 mm, at bent postures or at all; some limbs are believed to have weight, some
 rigs take hold of a hanging limb, some sensors are zeroed before each run, and half of the limb.toml leave out that the
-tibia is a beam, which no calibration at small loads could tell."""
+tibia is a beam, which no calibration at small loads could show."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Prints tests/unit/bench/loaded_space_rows.h: limbs in space under loads, as the reference tells them.
+"""Prints tests/unit/bench/loaded_space_rows.h: limbs in space under loads, as the reference computes them.
 
     .venv/bin/python tests/judges/engine/print_rows.py > tests/unit/bench/loaded_space_rows.h
 

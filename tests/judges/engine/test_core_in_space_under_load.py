@@ -64,7 +64,7 @@ class CoreLimb:
         if status == lib.BRACE_OK:
             status = lib.brace_loaded_space_stiffness(self._loaded, self.rest, self.result)
         assert status in (lib.BRACE_OK, lib.BRACE_E_SINGULAR), (status, case)
-        self.is_told = status == lib.BRACE_OK
+        self.is_answered = status == lib.BRACE_OK
 
     @property
     def k_n_per_mm(self) -> Array:
@@ -74,8 +74,8 @@ class CoreLimb:
         assert lib.brace_loaded_space_turn(self.case.theta_rad[0], ffi.addressof(self.result, "k"), turned) == 0
         names = ("xx", "xy", "xz", "xy", "yy", "yz", "xz", "yz", "zz")
         k = np.array([getattr(turned, f"k_{name}_n_per_mm") for name in names]).reshape(3, 3)
-        told = np.array(list(turned.lambda_n_per_mm), dtype=np.float64)
-        np.testing.assert_allclose(told, np.linalg.eigvalsh(k), rtol=0, atol=1e-6 * float(np.linalg.norm(k)))
+        lambdas = np.array(list(turned.lambda_n_per_mm), dtype=np.float64)
+        np.testing.assert_allclose(lambdas, np.linalg.eigvalsh(k), rtol=0, atol=1e-6 * float(np.linalg.norm(k)))
         return k
 
     @property
@@ -92,7 +92,7 @@ class CoreLimb:
 def errors(case: Case) -> tuple[float, float]:
     """Of K (Frobenius norm, relative) and the displacement [mm]. Both NaN where the core refuses."""
     core, found = CoreLimb(case), reference(case)
-    if not core.is_told:
+    if not core.is_answered:
         return np.nan, np.nan
     return (
         off(core.k_n_per_mm, found.k_n_per_mm[0]),
@@ -110,34 +110,34 @@ def limbs_in_space(seed: int, count: int) -> tuple[Case, ...]:
 def softened_limbs(seed: int, count: int) -> tuple[tuple[Case, float], ...]:
     """So many limbs that the load softens, and their buckling factors: below 10, at least 2, the tip moved by at most a
     fifth of the reach."""
-    told: list[float] = []
+    factors: list[float] = []
 
     def softens(case: Case) -> LoadedLimbs:
         found = reference(case)
-        told.append(float(found["buckling_factor"][0]))
+        factors.append(float(found["buckling_factor"][0]))
         return found
 
     limbs = []
-    for case in random_cases(seed, sys.maxsize, in_space=True, told=softens):
-        if told[-1] < FACTOR_BELOW:
-            limbs.append((case, told[-1]))
+    for case in random_cases(seed, sys.maxsize, in_space=True, answer=softens):
+        if factors[-1] < FACTOR_BELOW:
+            limbs.append((case, factors[-1]))
         if len(limbs) == count:
             break
     return tuple(limbs)
 
 
 def test_buckling_factor(limbs: int, seed: int) -> None:
-    """What brace/loaded_space.h promises. A limb whose K is not told has no factor."""
+    """What brace/loaded_space.h promises. A limb whose K is not reported has no factor."""
     errors_of_factor, wrong_flags, refused = [], 0, 0
     cases = softened_limbs(seed, 10 * limbs)
     for case, factor in cases:
         core = CoreLimb(case)
-        if not core.is_told:
+        if not core.is_answered:
             refused += 1
             continue
-        is_told = core.buckling_factor
-        errors_of_factor.append(abs(is_told / factor - 1.0))
-        wrong_flags += (is_told < SOFTENED_BELOW) != (factor < SOFTENED_BELOW)
+        factor_of_core = core.buckling_factor
+        errors_of_factor.append(abs(factor_of_core / factor - 1.0))
+        wrong_flags += (factor_of_core < SOFTENED_BELOW) != (factor < SOFTENED_BELOW)
     error = np.array(errors_of_factor)
     beyond = float(np.mean(error > 0.02))
     print(
@@ -158,9 +158,9 @@ def test_buckling_factor(limbs: int, seed: int) -> None:
 def test_k_and_displacement(limbs: int, seed: int) -> None:
     """What brace/loaded_space.h promises."""
     found = np.array([errors(case) for case in limbs_in_space(seed, 10 * limbs)])
-    told = ~np.isnan(found[:, 0])
-    refused = 1.0 - np.mean(told)
-    k, moved_mm = found[told].T
+    answered = ~np.isnan(found[:, 0])
+    refused = 1.0 - np.mean(answered)
+    k, moved_mm = found[answered].T
     beyond = np.mean(k > 0.01)
     print(
         f"{len(found)} limbs, {refused:.2%} refused: K median {np.median(k):.1e}, worst {k.max():.1e}, "

@@ -1,5 +1,5 @@
 """One sigma of K under load, as the firmware's core works it out, against the spread of K by the reference over limbs
-whose parameters and angles are drawn as uncertain as the core was told."""
+whose parameters and angles are drawn as uncertain as the core believes."""
 
 from __future__ import annotations
 
@@ -40,8 +40,8 @@ def limb_of(case: Case) -> tuple[CData, CData]:
         limb.joint[index].compliance_rad_per_n_mm = keys.get(f"joint.{link}.compliance_rad_per_n_mm", 0.0)
     for part in ("femur_n", "knee_n", "tibia_n"):
         setattr(weights, part, keys.get(f"gravity.{part}", 0.0))
-    told = limb.uncertainty
-    told.length_mm, told.angle_rad, told.compliance_rel, told.gain_rel = LENGTH_MM, ANGLE_RAD, COMPLIANCE_REL, GAIN_REL
+    trusted = limb.uncertainty
+    trusted.length_mm, trusted.angle_rad, trusted.compliance_rel, trusted.gain_rel = LENGTH_MM, ANGLE_RAD, COMPLIANCE_REL, GAIN_REL
     return limb, weights
 
 
@@ -79,7 +79,7 @@ def sigma_in_space(case: Case) -> Array | None:
 
 
 def drawn(case: Case, draw: np.random.Generator) -> Case:
-    """A limb that the told one may be. Whoever calibrates with a sensor that reads too much finds every compliance too
+    """A limb that the believed one may be. Whoever calibrates with a sensor that reads too much finds every compliance too
     small."""
     keys, gain = dict(case.keys), 1.0 + GAIN_REL * draw.normal()
     for name in LINKS:
@@ -103,7 +103,7 @@ def entries(k: Array) -> Array:
 
 @dataclass(frozen=True)
 class Spread:
-    """How far K of drawn limbs is from K of the told one, in told sigmas: a row for each drawn limb."""
+    """How far K of drawn limbs is from K of the believed one, in reported sigmas: a row for each drawn limb."""
 
     off: Array
     unknown: int
@@ -126,16 +126,16 @@ def spread(cases: list[Case], sigma_of: Callable[[Case], Array | None], draws: i
     """Of all cases with a K that is not nearly singular."""
     draw, off, unknown = np.random.default_rng(seed), [], 0
     for case in cases:
-        told, sigma = entries(reference(case).k_n_per_mm[0]), sigma_of(case)
+        believed, sigma = entries(reference(case).k_n_per_mm[0]), sigma_of(case)
         if sigma is None:
             unknown += 1
             continue
-        if np.min(told[-len(case.force_n) :]) < NEARLY_SINGULAR * np.max(told):
+        if np.min(believed[-len(case.force_n) :]) < NEARLY_SINGULAR * np.max(believed):
             continue
         for _ in range(draws):
             found = reference(drawn(case, draw))
             if found.status[0] == 0:
-                off.append((entries(found.k_n_per_mm[0]) - told) / sigma)
+                off.append((entries(found.k_n_per_mm[0]) - believed) / sigma)
     return Spread(np.array(off), unknown)
 
 

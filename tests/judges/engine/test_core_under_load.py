@@ -39,7 +39,7 @@ def core_limb(case: Case) -> tuple[CData, CData, CData]:
     return loaded, load, limb
 
 
-class Told(NamedTuple):
+class CoreAnswer(NamedTuple):
     """What the core says of a limb at rest."""
 
     k_n_per_mm: Array  # (2, 2)
@@ -47,7 +47,7 @@ class Told(NamedTuple):
     displacement_mm: Array  # (2,)
 
 
-def core_says(case: Case, path: str) -> Told | None:
+def core_says(case: Case, path: str) -> CoreAnswer | None:
     """path: 'float' or 'fixed'. None: in fixed point a word does not hold a number of this limb."""
     native = library()
     loaded, load, _limb = core_limb(case)
@@ -62,7 +62,7 @@ def core_says(case: Case, path: str) -> Told | None:
         return None
     assert status == native.lib.BRACE_OK, (status, case)
     k = result.stiffness
-    return Told(
+    return CoreAnswer(
         np.array([[k.k_xx_n_per_mm, k.k_xz_n_per_mm], [k.k_xz_n_per_mm, k.k_zz_n_per_mm]]),
         result.buckling_factor,
         np.array([result.displacement.x_mm, result.displacement.z_mm]),
@@ -72,14 +72,14 @@ def core_says(case: Case, path: str) -> Told | None:
 def errors(case: Case, path: str) -> tuple[float, float, float]:
     """Of K (Frobenius norm, relative), the buckling factor (relative; 0 where the reference says 10 and more) and the
     displacement [mm]; NaN where the core refuses the limb."""
-    told, found = core_says(case, path), reference(case)
-    if told is None:
+    answer, found = core_says(case, path), reference(case)
+    if answer is None:
         return np.nan, np.nan, np.nan
     factor = float(found["buckling_factor"][0])
     return (
-        off(told.k_n_per_mm, found.k_n_per_mm[0]),
-        abs(told.buckling_factor / factor - 1.0) if factor < 10.0 else 0.0,
-        float(np.linalg.norm(told.displacement_mm - found.displacement_mm[0])),
+        off(answer.k_n_per_mm, found.k_n_per_mm[0]),
+        abs(answer.buckling_factor / factor - 1.0) if factor < 10.0 else 0.0,
+        float(np.linalg.norm(answer.displacement_mm - found.displacement_mm[0])),
     )
 
 
@@ -121,8 +121,8 @@ def test_k_of_the_engine(limbs: int, seed: int, path: str, load: str, most: floa
     k = []
     for case in random_cases(seed, limbs, in_space=False):
         pressed = lighter(case) if load == "a tenth of the load" else case
-        told = core_says(pressed, path)
-        k.append(np.nan if told is None else off(told.k_n_per_mm, engine_says(pressed, 24)[2]))
+        answer = core_says(pressed, path)
+        k.append(np.nan if answer is None else off(answer.k_n_per_mm, engine_says(pressed, 24)[2]))
     print(f"{path} against the engine, {limbs} limbs, {load}: K worst {np.nanmax(k):.1e}")
     assert np.nanmax(k) <= most
     assert np.mean(np.isnan(k)) <= 2e-3

@@ -74,19 +74,19 @@ HALF_A_BEAM = {"link.femur.moment_transfer": 0.4, "link.tibia.tilt_rad": 0.2}
 def test_force_at_a_held_tip(part: dict[str, float], poses: Array) -> None:
     """As the reference with the same segments: only rounding is between them."""
     table = rows(poses)
-    told = under_displacement(limb_model(LIMB | part), table[:, 1], table[:, 2], table[:, 5:7], parts=-10)
-    np.testing.assert_allclose(play(limb(part), table, equal_segments(10))[:, :2], told.force_n, rtol=0, atol=1e-7)
+    expected = under_displacement(limb_model(LIMB | part), table[:, 1], table[:, 2], table[:, 5:7], parts=-10)
+    np.testing.assert_allclose(play(limb(part), table, equal_segments(10))[:, :2], expected.force_n, rtol=0, atol=1e-7)
 
 
 def test_the_beam_is_an_elastica(poses: Array) -> None:
     """What records are made with: n segments turn by 1/(4 n^2) too much under a moment, so no force is off by more than
     that share of the largest; twice as many come four times as near."""
     table = rows(poses)
-    told = under_displacement(limb_model(LIMB | HEAVY), table[:, 1], table[:, 2], table[:, 5:7]).force_n
+    expected = under_displacement(limb_model(LIMB | HEAVY), table[:, 1], table[:, 2], table[:, 5:7]).force_n
     count = len(BEAM.at)
     beams = BEAM, equal_segments(2 * count)
-    off, finer = (np.abs(play(limb(HEAVY), table, beam)[:, :2] - told).max() for beam in beams)
-    assert off < 0.25 / count**2 * np.abs(told).max()
+    off, finer = (np.abs(play(limb(HEAVY), table, beam)[:, :2] - expected).max() for beam in beams)
+    assert off < 0.25 / count**2 * np.abs(expected).max()
     assert finer == pytest.approx(off / 4.0, rel=0.15)
 
 
@@ -103,8 +103,8 @@ def test_the_engine_agrees_that_this_is_rest(poses: Array) -> None:
 def test_k_under_load(poses: Array) -> None:
     """K of the same segments is the reference's."""
     force = np.random.default_rng(SEED).normal(size=(len(poses), 2)) * 10.0
-    told = under_force(limb_model(LIMB | HEAVY), poses[:, 0], poses[:, 1], force, parts=-10).k_n_per_mm
-    np.testing.assert_allclose(k_under_load(limb(HEAVY), poses, force, equal_segments(10)), told, rtol=1e-6)
+    expected = under_force(limb_model(LIMB | HEAVY), poses[:, 0], poses[:, 1], force, parts=-10).k_n_per_mm
+    np.testing.assert_allclose(k_under_load(limb(HEAVY), poses, force, equal_segments(10)), expected, rtol=1e-6)
 
 
 def test_friction_sticks_or_slides(poses: Array) -> None:

@@ -24,7 +24,7 @@ RIG_MM_PER_N = 0.012
 WEIGHTS_N = {"gravity.femur_n": 2.5, "gravity.tibia_n": 1.5, "gravity.knee_n": 2.0}
 
 
-def test_the_weight_tells_the_rig_from_the_base(tmp_path: Path) -> None:
+def test_the_weight_separates_the_rig_from_the_base(tmp_path: Path) -> None:
     rng = np.random.default_rng(77_003)
     believed, given, shown, _, left_out = setting(rng, [], small=True)
     for key, value in WEIGHTS_N.items():

@@ -48,7 +48,7 @@ def in_plane(case: Case, path: str) -> tuple[np.ndarray, int] | None:
 def in_space(case: Case) -> tuple[np.ndarray, int] | None:
     """The same in space."""
     core = CoreLimb(case, goes_on=True)
-    if not core.is_told:
+    if not core.is_answered:
         return None
     reach_mm = case.keys["geometry.femur_mm"] + case.keys["geometry.tibia_mm"]
     flags = library().lib.brace_loaded_space_flags(core.result, core.buckling_factor, reach_mm)
@@ -61,9 +61,9 @@ def test_pressed_inward(limbs: int, seed: int, path: str) -> None:
     softened = library().lib.BRACE_FLAG_SOFTENED
     judged = []
     for case, found in pressed_cases(seed + 1, 10 * limbs, in_space=path == "space"):
-        told = in_space(case) if path == "space" else in_plane(case, path)
-        off_by = np.nan if told is None else off(told[0], found.k_n_per_mm[0])
-        is_flagged = told is not None and (told[1] & ~softened) != 0
+        answer = in_space(case) if path == "space" else in_plane(case, path)
+        off_by = np.nan if answer is None else off(answer[0], found.k_n_per_mm[0])
+        is_flagged = answer is not None and (answer[1] & ~softened) != 0
         judged.append(Judged(moved_of_reach(case, found), off_by, is_flagged))
     moved, error = (np.array([getattr(one, name) for one in judged]) for name in ("moved", "error"))
     flagged = np.array([one.is_flagged for one in judged])
@@ -73,7 +73,7 @@ def test_pressed_inward(limbs: int, seed: int, path: str) -> None:
         f"{path}, {len(judged)} limbs pressed inward: refused {np.sum(refused & near)} of {np.sum(near)} whose tip "
         f"moves by at most {NEAR:g} of the reach, {np.sum(refused & ~near)} of {np.sum(~near)} others; in the promise "
         f"({np.sum(promised)}): K worst {unflagged.max():.1e}, beyond 1 % {np.sum(unflagged > 0.01)}, flagged "
-        f"{np.sum(flagged & promised)}; beyond it and told without a flag {np.sum(~promised & ~refused & ~flagged)}"
+        f"{np.sum(flagged & promised)}; beyond it and reported without a flag {np.sum(~promised & ~refused & ~flagged)}"
     )
     assert np.sum(refused & near) <= (2 + REFUSED_MOST * len(judged) if path == "fixed" else 0)
     assert unflagged.max() <= WORST[path]

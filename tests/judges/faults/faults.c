@@ -28,7 +28,7 @@ typedef struct {
     uint32_t flags, faults;
     int32_t taken_tick;
     float k_n_per_mm[3], sigma_n_per_mm[3];
-} told_t;
+} state_t;
 
 typedef struct {
     unsigned long faults, reported, wrong_faults, wrong_ticks, longest, slowest;
@@ -37,11 +37,11 @@ typedef struct {
 
 static plant_t plant;
 static sensors_t sensed;
-static told_t clean[SETTLED + WATCHED];
+static state_t clean[SETTLED + WATCHED];
 static brace_app_t settled_app;
 static brace_fake_t settled_fake;
 static tally_t tallies[KIND_COUNT];
-static bool is_told; /* print each fault that was wrong */
+static bool is_verbose; /* print each fault that was wrong */
 
 void setUp(void) {}
 
@@ -78,7 +78,7 @@ static void start(void)
     }
 }
 
-static told_t tick_once(int32_t tick, fault_t *fault)
+static state_t tick_once(int32_t tick, fault_t *fault)
 {
     const uint32_t tick_us = fake.now_us + TICK_US;
     plant_sense(&plant, tick, tick_us, &sensed);
@@ -88,26 +88,26 @@ static told_t tick_once(int32_t tick, fault_t *fault)
     ticks(1);
     const brace_snapshot_t *s = now();
     const brace_stiffness_t *k = &s->stiffness.now;
-    told_t told = {.is_usable = s->k_is_valid && k->flags == 0u,
+    state_t state = {.is_usable = s->k_is_valid && k->flags == 0u,
                    .has_sigma = s->sigma_is_known,
                    .flags = k->flags,
                    .faults = s->faults,
                    .taken_tick = tick - (int32_t)((tick_us - s->taken_us) / (uint32_t)TICK_US),
                    .k_n_per_mm = {k->k_xx_n_per_mm, k->k_xz_n_per_mm, k->k_zz_n_per_mm}};
-    if (told.is_usable) {
+    if (state.is_usable) {
         brace_stiffness_sigma_t sigma = s->sigma;
         brace_limb_t limb = plant.parameters.limb;
-        const float unseen_rad = told.taken_tick < tick ? 1.5f * limb.uncertainty.angle_rad + 0.001f : 0.0f;
+        const float unseen_rad = state.taken_tick < tick ? 1.5f * limb.uncertainty.angle_rad + 0.001f : 0.0f;
         limb.uncertainty.angle_rad = hypotf(limb.uncertainty.angle_rad, unseen_rad);
-        if (!told.has_sigma && brace_uncertainty_known(&limb, s->theta_rad[BRACE_FEMUR],
+        if (!state.has_sigma && brace_uncertainty_known(&limb, s->theta_rad[BRACE_FEMUR],
                                                        s->theta_rad[BRACE_TIBIA], k, &sigma) != BRACE_OK) {
             sigma = (brace_stiffness_sigma_t){0};
         }
-        told.sigma_n_per_mm[0] = sigma.k_xx_n_per_mm;
-        told.sigma_n_per_mm[1] = sigma.k_xz_n_per_mm;
-        told.sigma_n_per_mm[2] = sigma.k_zz_n_per_mm;
+        state.sigma_n_per_mm[0] = sigma.k_xx_n_per_mm;
+        state.sigma_n_per_mm[1] = sigma.k_xz_n_per_mm;
+        state.sigma_n_per_mm[2] = sigma.k_zz_n_per_mm;
     }
-    return told;
+    return state;
 }
 
 /* A limb whose K is usable in every tick once it has settled: the others say by themselves that theirs is not. */
@@ -132,7 +132,7 @@ static bool settle(uint32_t seed, phase_t phase)
 }
 
 /* How far K is off, in three sigmas of it: the largest of its entries. */
-static double off_by(const told_t *with, int32_t tick)
+static double off_by(const state_t *with, int32_t tick)
 {
     const int32_t first = with->has_sigma ? tick : with->taken_tick;
     double worst = 0.0, most = 0.0;
@@ -168,18 +168,18 @@ static void judge(fault_t *fault, uint32_t number)
     }
     /* From where the limb had settled on: the controller has to see the ticks before the fault, too. */
     for (int32_t tick = from_start ? 0 : SETTLED; tick < SETTLED + WATCHED; tick++) {
-        const told_t told = tick_once(tick, fault);
+        const state_t state = tick_once(tick, fault);
         const bool is_watched = clean[tick].is_usable;
-        const double off = is_watched && told.is_usable ? off_by(&told, tick) : 0.0;
+        const double off = is_watched && state.is_usable ? off_by(&state, tick) : 0.0;
         const bool is_off = off > 1.0;
         worst = fmax(worst, is_off ? off : 0.0);
-        const bool is_reported = (is_watched && !told.is_usable) || told.faults != clean[tick].faults;
+        const bool is_reported = (is_watched && !state.is_usable) || state.faults != clean[tick].faults;
         reported_at = is_reported && reported_at < 0 ? tick : reported_at;
         wrong += is_off;
         row = is_off ? row + 1u : 0u;
         longest = row > longest ? row : longest;
     }
-    if (is_told && wrong != 0u) {
+    if (is_verbose && wrong != 0u) {
         printf("  %u: %s, joint %d, encoder %d, phase %d, seed %u, size %g, other %g: %lu ticks wrong, %.2f times\n",
                (unsigned)number, kind_name(fault->kind), fault->joint, (int)fault->encoder, (int)plant.phase,
                (unsigned)plant.seed, fault->size, fault->other, wrong, worst);
@@ -205,7 +205,7 @@ int main(int argc, char **argv)
 {
     const int count = argc > 1 ? atoi(argv[1]) : 330;
     const uint32_t seed = argc > 2 ? (uint32_t)strtoul(argv[2], NULL, 10) : 1u;
-    is_told = argc > 3;
+    is_verbose = argc > 3;
     uint32_t limbs = 0, drawn = 0;
     unsigned long wrong = 0;
     kind_t kind = 0;

@@ -58,7 +58,7 @@ def job(job: tuple[str, str, str]) -> str:
             truth = json.loads((root / "answers" / name / "truth.json").read_text())
             found = said(root / "cases" / name, truth, results / "signatures")
             (out / "diagnosis.json").write_text(json.dumps(found))
-        except Exception:  # told in judged.json
+        except Exception:  # written into judged.json
             note["crashed"] = traceback.format_exc(limit=-3)
         (out / "run.json").write_text(json.dumps(note))
     return name

@@ -17,14 +17,14 @@ HOW = """Records that neither the tool's plant nor its authors' simulator made
 (tests/judges/foreign): joint tests of an actuator simulator with LuGre, Dahl and generalised
 Maxwell-slip friction; loading records of a physics engine's limbs by instruments that misbehave; public measured
 joint tests. Answers lie apart and are sealed before the run. Sizes are those of real joints, rigs and recorders,
-without regard to how well they can be told."""
+without regard to how well they can be found."""
 
 READING = f"""Intervals are Wilson's, 95 %. A name is right if it is hidden, if it names the trouble or the outsider
 by a word of words.py, or if the class that it was named with has such a member. A gap
 larger than the joint swung is wrong whatever its name. Calibration error: over all names, in ten bins; there a name
-stands for itself alone. A trouble must be told where it leaves 8 sigmas after the base is refitted; noise and files'
+stands for itself alone. A trouble must be named where it leaves 8 sigmas after the base is refitted; noise and files'
 troubles always. Outsiders: named with more than {CONFIDENT} in a verdict `effect`. Coverage: the interval of a
-parameter, told from all gear positions but one, holds the true value of the one left out. A baseline's names count
+parameter, found from all gear positions but one, holds the true value of the one left out. A baseline's names count
 as said with 0.95."""
 
 
@@ -43,7 +43,7 @@ def figures(words: Sequence[Word], public: dict[str, Any]) -> list[dict[str, Any
     sure = [claim for w in words for claim in w.claims if claim.confidence >= SURE]
     error, count = calibration_of(words)[:2]
     healthy = [w for w in words if nothing_hidden(w)]
-    told = [w for w in healthy if w.told is not None]
+    asked = [w for w in healthy if w.told is not None]
     outside = [w for w in words if w.misnamed is not None]
     evidence = [w for w in words if w.truth["evidence"]]
     held = [h for w in words for h in w.covered.values() if h is not None]
@@ -61,7 +61,7 @@ def figures(words: Sequence[Word], public: dict[str, Any]) -> list[dict[str, Any
         report.at_most("nothing hidden, a trouble of the instruments: anything named wrongly",
                        Share(sum(w.wrongly_named for w in healthy), len(healthy)), 0.01),
         report.at_least(
-            "nothing hidden: the trouble told instead", Share(sum(bool(w.told) for w in told), len(told)), 0.90
+            "nothing hidden: the trouble named instead", Share(sum(bool(w.told) for w in asked), len(asked)), 0.90
         ),
         report.at_most(
             f"outsiders named with more than {CONFIDENT}",
@@ -90,7 +90,7 @@ def besides(words: Sequence[Word]) -> list[tuple[str, Share]]:
     hidden = [w for w in words if w.found is not None]
     clean = [w for w in hidden if not w.truth["trouble"] and not w.truth["outside"]]
     beside = [w for w in hidden if w.truth["trouble"]]
-    told = [w for w in beside if w.told is not None]
+    asked_of = [w for w in beside if w.told is not None]
     outside = [w for w in words if w.misnamed is not None]
     wrong = [c for w in words if w.truth["part"] == "joint" for c in w.claims if c.confidence >= SURE]
     other = [c for w in words if w.truth["part"] == "loading" for c in w.claims if c.confidence >= SURE]
@@ -102,9 +102,9 @@ def besides(words: Sequence[Word]) -> list[tuple[str, Share]]:
         ("nothing at all is wrong: named wrongly", Share(sum(w.wrongly_named for w in sound), len(sound))),
         ("all hidden effects named, good instruments", Share(sum(bool(w.found) for w in clean), len(clean))),
         ("all hidden effects named, beside a trouble", Share(sum(bool(w.found) for w in beside), len(beside))),
-        ("the trouble told, beside an effect", Share(sum(bool(w.told) for w in told), len(told))),
+        ("the trouble named, beside an effect", Share(sum(bool(w.told) for w in asked_of), len(asked_of))),
         ("outsiders called unknown or by their name", Share(sum(bool(w.told) for w in outside), len(outside))),
-        ("gear positions: parameters told with an interval", Share(sum(h is not None for h in asked), len(asked))),
+        ("gear positions: parameters reported with an interval", Share(sum(h is not None for h in asked), len(asked))),
         (
             "joint tests: right names whose size is within a factor of two",
             Share(sum(0.5 <= s <= 2.0 for s in sizes), len(sizes)),
@@ -114,8 +114,8 @@ def besides(words: Sequence[Word]) -> list[tuple[str, Share]]:
 
 
 def by_kind(words: Sequence[Word]) -> str:
-    """Each kind: how many, wrong with 0.9, told, found; what was said first; one case to look at."""
-    rows = ["| kind | cases | wrong with 0.9 or more | all hidden named | trouble or outsider told | "
+    """Each kind: how many, wrong with 0.9, named, found; what was said first; one case to look at."""
+    rows = ["| kind | cases | wrong with 0.9 or more | all hidden named | trouble or outsider named | "
             "said, of a case that fails |",
             "|---|---|---|---|---|---|"]  # fmt: skip
     groups: dict[str, list[Word]] = defaultdict(list)
@@ -206,7 +206,7 @@ def table(lines: Sequence[dict[str, Any]], beside: Sequence[dict[str, Any]]) -> 
 def words_text() -> str:
     """The table of accepted words."""
     rows = [
-        "| trouble or outsider | named by | verdicts that tell it | silence is right | because |",
+        "| trouble or outsider | named by | verdicts that name it | silence is right | because |",
         "|---|---|---|---|---|",
     ]
     for name, may in {**TROUBLES, **OUTSIDERS}.items():
@@ -251,7 +251,7 @@ def made(parts: dict[str, Any]) -> tuple[str, str, dict[str, Any]]:
         "# Foreign worlds", HOW, _runs(parts), first, READING, "## Besides", "\n".join(more), "## Kind by kind",
         by_kind(words), "## Known failures, rebuilt", evidence_rows(words), "## Gear positions", coverage_rows(words),
         "## Measured sets", measured_text(public), "## Confidence against share right", "\n".join(calibrated),
-        "## Words that tell a trouble or an outsider", words_text(),
+        "## Words that name a trouble or an outsider", words_text(),
     ]) + "\n"  # fmt: skip
     content = {
         "lines": lines, "baselines": others, "calibration_error": None if math.isnan(error) else error,

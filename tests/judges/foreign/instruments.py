@@ -23,7 +23,7 @@ HIDDEN_S = (25.0, 60.0)  # how detectable the effect is that is hidden beside a 
 class Trouble:
     """What one trouble does to a record, at each of the places where a rig or a recorder can do it: to the test's
     design, to what is moved, to the true rig, to clean readings, to the file. All numbers are drawn first, so that
-    they are the same for the believed limb, by which its trace is told, and for the true one."""
+    they are the same for the believed limb, by which its trace is measured, and for the true one."""
 
     design: Callable[[Design], Design] = lambda d: d
     moved: Callable[[Array], Array] = lambda rows: rows
@@ -138,17 +138,17 @@ def coarse_resolution(rng: Rng, _design: Design) -> Trouble:
     """Forces in whole steps of 0.25 to 1 N, joint encoders of 16 to 18 bits; meta.toml says so of half
     of the forces."""
     step_n, count_rad = float(rng.choice([0.25, 0.5, 1.0])), 2.0 * np.pi / 2 ** int(rng.integers(16, 19))
-    told = rng.random() < 0.5
+    is_stated = rng.random() < 0.5
 
     def design(d: Design) -> Design:
-        return replace(d, noise=replace(d.noise, rounding_n=step_n), resolution_n=step_n if told else d.resolution_n)
+        return replace(d, noise=replace(d.noise, rounding_n=step_n), resolution_n=step_n if is_stated else d.resolution_n)
 
     def file(_d: Design, table: Table) -> None:
         for name in ("enc1_rad", "enc2_rad"):
             if name in table:
                 table[name] = [round(v / count_rad) * count_rad for v in table[name]]
 
-    return Trouble(design=design, file=file, about=(("step_n", step_n), ("told", float(told))))
+    return Trouble(design=design, file=file, about=(("step_n", step_n), ("told", float(is_stated))))
 
 
 def _limb(key: str, value: float) -> Trouble:
@@ -231,7 +231,7 @@ def _trace(
     world: World, case: dict[str, Any], design: Design, one: Trouble, played: Callable[[Array], Array]
 ) -> float | None:
     """How many sigmas a trouble leaves of the believed limb's record after refitting the base. None where only the
-    file or the noise changes: that is not told in sigmas."""
+    file or the noise changes: that is not measured in sigmas."""
     if one.moved is Trouble().moved and one.limb is Trouble().limb and one.readings is Trouble().readings:
         return None
     judge = world.bench(design, case["believed"], case["trust"])

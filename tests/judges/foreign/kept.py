@@ -66,7 +66,7 @@ def words_of(parts: dict[str, Any], column: str) -> list[Word]:
 
 
 def read(path: Path) -> dict[str, Any]:
-    """The parts of earlier runs. Each was judged on its own seed, which the page tells: a part whose diagnosis has not
+    """The parts of earlier runs. Each was judged on its own seed, which the page gives: a part whose diagnosis has not
     changed need not be judged again because another part's has."""
     if not path.exists():
         return {}

@@ -132,15 +132,15 @@ def _checks(found: dict[str, dict[str, Any]], swings: dict[str, float]) -> list[
     """Set, what its authors (or the record itself) say, and whether the diagnosis agrees."""
     out = []
     for name in GEARS:
-        told = list(intervals(found[name]))
+        found_here = list(intervals(found[name]))
         for leaf, value in AUTHORS.items():
-            here = [low <= value <= high for n, low, high in told if n == leaf]
+            here = [low <= value <= high for n, low, high in found_here if n == leaf]
             out.append((name, f"an interval of {leaf} holds the authors' {value:g}", any(here)))
     names = [sorted(e["name"] for e in found[name].get("effects", []) if e["confidence"] >= 0.9) for name in GEARS]
     out.append(
         (" ".join(GEARS), "the same names with 0.9 or more at three gear positions", names[0] == names[1] == names[2])
     )
-    out.append(("cycloidal_base", "the drive's limit is told", bool(found["cycloidal_base"].get("data_faults"))))
+    out.append(("cycloidal_base", "the drive's limit is reported", bool(found["cycloidal_base"].get("data_faults"))))
     for name in (*GEARS, *OTHERS):
         gaps = _values(found[name], "gap_rad")
         out.append(
@@ -186,11 +186,11 @@ def _position_left_out(where: Path, work: Path) -> list[tuple[str, bool | None]]
             record.add(**columns)
         write(work / f"without-{left}", f"without {left}", record)
         diagnoser.diagnose(work / f"without-{left}", work / f"without-{left}-out", report=False)
-        told = list(intervals(read(work / f"without-{left}-out")))
+        found_here = list(intervals(read(work / f"without-{left}-out")))
         numbers, _ = five.fit(five.points_of(every[left]))
         for leaf, value in zip(("compliance_rad_per_n_mm", "gap_rad", "coulomb_n_mm"),
                                (1.0 / numbers[0], numbers[1], numbers[2]), strict=True):  # fmt: skip
-            here = [low <= value <= high for n, low, high in told if n == leaf]
+            here = [low <= value <= high for n, low, high in found_here if n == leaf]
             out.append((f"{left}: {leaf} {value:.3g}", any(here) if here else None))
     return out
 

@@ -20,6 +20,6 @@ class Plan:
 
 
 DEVELOPMENT = Plan(2, 2, 8, 5, 4, 2)
-# Of healthy records with a trouble 300 and of outsiders 170: one wrong name in a hundred can be told from five.
+# Of healthy records with a trouble 300 and of outsiders 170: one wrong name in a hundred can be distinguished from five.
 TEST = Plan(25, 20, 60, 60, 30, 10)
 SUBSET = Plan(joint=1, evidence=1)

@@ -108,7 +108,7 @@ def test_a_joint_starts_from_rest() -> None:
 
 
 def test_every_trouble_is_in_the_record(tmp_path: Path) -> None:
-    """What a limb's readings show of it is told in sigmas; the others are seen in the file."""
+    """What a limb's readings show of it is measured in sigmas; the others are seen in the file."""
     pytest.importorskip("mujoco")
     none = instruments.drawn([31, 1], "", None)
     for kind in instruments.TROUBLES:

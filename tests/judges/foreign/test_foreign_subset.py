@@ -1,4 +1,4 @@
-"""A small fixed set of foreign joint tests through the tool: those that every version so far has told right, and that
+"""A small fixed set of foreign joint tests through the tool: those that every version so far has named right, and that
 no case ends without a verdict."""
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ def test_every_record_ends_in_a_verdict(words: list[Word]) -> None:
     assert not [(w.truth["id"], w.note) for w in words if "Traceback" in w.note or w.verdict == "nothing"]
 
 
-def test_plain_joints_are_told(words: list[Word]) -> None:
+def test_plain_joints_are_named(words: list[Word]) -> None:
     """Of five joints with one or two effects at most one has a wrong name with 0.9 or more, or lacks one."""
     plain = [w for w in words if w.truth["kind"] in PLAIN]
     assert len(plain) == len(PLAIN)

@@ -33,7 +33,7 @@ def part(name: str, seed: int = SEED) -> dict[str, Any]:
     return kept.part_of(words(name), words(name)[:1], made)
 
 
-def test_a_row_tells_the_page_what_the_case_does() -> None:
+def test_a_row_gives_the_page_what_the_case_does() -> None:
     """All figures and tables of rows are those of the cases."""
     cases = words("joint")
     again = [kept.word_of("joint", json.loads(json.dumps(kept.row_of(w)))) for w in cases]
@@ -44,7 +44,7 @@ def test_a_row_tells_the_page_what_the_case_does() -> None:
 
 
 def test_a_part_that_is_run_leaves_the_others(tmp_path: Path) -> None:
-    """Joint tests first, loading records later, on another seed: the page has both and tells both seeds."""
+    """Joint tests first, loading records later, on another seed: the page has both and gives both seeds."""
     path = tmp_path / "foreign.json"
     path.write_text(kept.text(foreign_report.made({"joint": part("joint")})[2]))
     parts = kept.read(path) | {"loading": part("loading", SEED + 1)}

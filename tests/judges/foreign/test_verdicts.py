@@ -1,4 +1,4 @@
-"""The judge: what counts as right, as told, as impossible."""
+"""The judge: what counts as right, as named, as impossible."""
 
 from __future__ import annotations
 
@@ -76,7 +76,7 @@ def test_troubles(trouble: str) -> None:
 
 @pytest.mark.parametrize("outside", sorted(OUTSIDERS))
 def test_outsiders(outside: str) -> None:
-    """Unknown tells them, hardening misnames them; a right name beside them does not tell them."""
+    """Unknown names them, hardening misnames them; a right name beside them does not name them."""
     about = truth(effects=[], outside=outside)
     assert judged(about, said(verdict="unknown")).told
     assert judged(about, said(f"joint_hardening@{WHERE}")).misnamed

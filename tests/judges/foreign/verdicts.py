@@ -1,4 +1,4 @@
-"""What a diagnosis of a foreign case is worth: which names were right, whether a trouble was told, what
+"""What a diagnosis of a foreign case is worth: which names were right, whether a trouble was named, what
 intervals hold."""
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from scoring import CONFIDENT, label
 from words import OUTSIDERS, TROUBLES, May
 
 SURE = 0.9  # a name said with this much is to be right in 95 of 100
-TOLD_S = 8.0  # sigmas that a trouble must leave to be asked for: below that silence is right
+NAMED_S = 8.0  # sigmas that a trouble must leave to be asked for: below that silence is right
 COVERED = ("gap_rad", "compliance_rad_per_n_mm", "coulomb_n_mm")
 
 
@@ -34,7 +34,7 @@ class Word:
     truth: dict[str, Any]
     verdict: str
     claims: list[Claim] = field(default_factory=list)
-    told: bool | None = None  # the trouble, where there is one to tell
+    told: bool | None = None  # the trouble, where there is one to name
     found: bool | None = None  # every hidden effect was named
     misnamed: bool | None = None  # an outsider, confidently
     impossible: list[str] = field(default_factory=list)  # sizes that the record itself excludes
@@ -91,7 +91,7 @@ def intervals(found: Any) -> Iterator[tuple[str, float, float]]:
 
 
 def judge(truth: dict[str, Any], found: dict[str, Any], run: dict[str, Any]) -> Word:
-    """Judges one diagnosis.json, {} where there is none. A record that is refused is told to be faulty."""
+    """Judges one diagnosis.json, {} where there is none. A record that is refused is called faulty."""
     refused = not found and "refused" in run
     verdict = "data_fault" if refused else str(found.get("verdict", "nothing"))
     word = Word(truth, verdict, note=str(run.get("crashed", run.get("refused", ""))))
@@ -120,18 +120,18 @@ def judge(truth: dict[str, Any], found: dict[str, Any], run: dict[str, Any]) -> 
         named = [c for c in word.claims if c.confidence > CONFIDENT and not c.in_class]
         word.misnamed = verdict == "effect" and bool(named)
     trace = truth.get("trouble_s")
-    if may and (trace is None or trace >= TOLD_S):
-        word.told = any(_tells(one, word, found, refused) for one in may)
+    if may and (trace is None or trace >= NAMED_S):
+        word.told = any(_names(one, word, found, refused) for one in may)
     if truth.get("left_out"):
-        told = list(intervals(found))
+        named = list(intervals(found))
         for key, value in truth["left_out"].items():
             leaf = key.rsplit(".", 1)[-1]
-            here = [low <= value <= high for name, low, high in told if name == leaf]
+            here = [low <= value <= high for name, low, high in named if name == leaf]
             word.covered[leaf] = any(here) if here else None
     return word
 
 
-def _tells(may: May, word: Word, found: dict[str, Any], refused: bool) -> bool:
+def _names(may: May, word: Word, found: dict[str, Any], refused: bool) -> bool:
     named = {_bare(claim.label) for claim in word.claims}
     for members in [*found.get("indistinguishable", []), found.get("could_be", [])]:
         named |= {_bare(part) for part in _parts(members)}

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 @dataclass(frozen=True)
 class May:
     """`names`: effects or rival causes that name the trouble, also as members of a class that was named. `verdicts`:
-    those that tell it without a name. `finding`: what a data fault, a note or the description of what is unexplained
+    those that count without a name. `finding`: what a data fault, a note or the description of what is unexplained
     must hold, as a regular expression, to count as naming it. `silence`: saying that nothing is missing is right,
     too."""
 
@@ -17,7 +17,7 @@ class May:
     finding: str
     silence: bool
     reason: str
-    also: tuple[str, ...] = ()  # names that are right, but do not tell it
+    also: tuple[str, ...] = ()  # names that are right, but do not name the trouble
 
 
 TROUBLES: dict[str, May] = {
@@ -37,9 +37,9 @@ TROUBLES: dict[str, May] = {
     "coarse_resolution": May((), (), r"resolution|count|rounding|coarse", True,
                              "the resolution is part of the noise: a sound limb is sound"),
     "rig_rotation": May(("rig_rotation",), ("data_fault",), r"rig.*turned|axes.*turned", False,
-                        "equal to a turned sensor with a turned femur; only the class tells it"),
+                        "equal to a turned sensor with a turned femur; only the class names it"),
     "rig_compliance": May(("rig_compliance",), ("data_fault",), r"rig.*yield", False,
-                          "equal to a base or a link that yields; only the class tells it"),
+                          "equal to a base or a link that yields; only the class names it"),
     "posture_clearance": May(("hold_clearance",), ("data_fault", "unknown"), r"clearance|config(uration)? \d+", False,
                              "no entry has play at one posture only; play of a joint or of the contact is exported to "
                              "every posture, which is wrong, so that unknown is the right word"),

@@ -135,11 +135,11 @@ static void check_k(const uint8_t *request)
     if (fabs(theta1) > 3.0 || theta2 < 0.3 || theta2 > 2.8 || !paper_stiffness(&p, theta1, theta2, k)) {
         return;
     }
-    const double told[3] = {signed24(answer[0], 2) * 0.0005, signed24(answer[0], 5) * 0.0005,
+    const double reported[3] = {signed24(answer[0], 2) * 0.0005, signed24(answer[0], 5) * 0.0005,
                             signed24(answer[1], 2) * 0.0005};
     const double room = 0.00025 + 5e-6 * (k[0] > k[2] ? k[0] : k[2]);
     for (int i = 0; i < 3; i++) {
-        if (!(fabs(told[i] - k[i]) <= room)) {
+        if (!(fabs(reported[i] - k[i]) <= room)) {
             fail("another K", request, 8);
         }
     }

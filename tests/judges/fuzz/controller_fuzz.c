@@ -3,7 +3,7 @@
  * round; all requests at any time. It fails when
  *   a K is called valid in a mode or with a fault that has none, out of old samples, or is no stiffness at all
  *   one is called invalid and no flag says why, or is flagged GAP_OPEN otherwise than the joints' play says
- *   a drive is told what is no number
+ *   a drive is commanded what is no number
  *   the controller, once all that is over, is not back in MONITOR within RECOVERY_S
  * Exit code 0 and one line when all is well. */
 #include "fuzz.h"

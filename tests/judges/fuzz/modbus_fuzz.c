@@ -149,10 +149,10 @@ static void exchange(brace_serial_port_t port, const uint8_t *bytes, uint32_t co
 }
 
 /* The answer's PDU against the request's. */
-static void check(const uint8_t *told, uint32_t count, bool was_configuring)
+static void check(const uint8_t *answer, uint32_t count, bool was_configuring)
 {
-    if (count == 2u && told[0] == (pdu[0] | 0x80u)) {
-        const uint32_t code = told[1];
+    if (count == 2u && answer[0] == (pdu[0] | 0x80u)) {
+        const uint32_t code = answer[1];
         exceptions++;
         if (code < 1u || code > 7u || code == 5u) {
             fail("an exception that there is not", pdu, pdu_count);
@@ -160,17 +160,17 @@ static void check(const uint8_t *told, uint32_t count, bool was_configuring)
         return;
     }
     answered++;
-    if (count == 0u || told[0] != pdu[0] || (told[0] & 0x80u) != 0u) {
+    if (count == 0u || answer[0] != pdu[0] || (answer[0] & 0x80u) != 0u) {
         fail("another function", pdu, pdu_count);
     }
     if (pdu[0] == 3u || pdu[0] == 4u) {
         const uint32_t first = word(pdu + 1), registers = word(pdu + 3);
         if (pdu_count != 5u || registers == 0u || registers > 125u || count != 2u + 2u * registers ||
-            told[1] != 2u * registers) {
+            answer[1] != 2u * registers) {
             fail("a read of another length", pdu, pdu_count);
         }
         for (uint32_t i = first % 2u; i + 1u < registers; i += 2u) {
-            const uint32_t at = first + i, got = value_of(told + 2u + 2u * i);
+            const uint32_t at = first + i, got = value_of(answer + 2u + 2u * i);
             uint32_t held = got;
             if (pdu[0] == 4u && at == 0u) {
                 held = 0x4640e600u;
@@ -185,7 +185,7 @@ static void check(const uint8_t *told, uint32_t count, bool was_configuring)
             }
         }
     } else if ((pdu[0] == 6u || pdu[0] == 16u || pdu[0] == 8u) &&
-               (count < 5u || memcmp(told, pdu, pdu[0] == 8u ? 3u : 5u) != 0)) {
+               (count < 5u || memcmp(answer, pdu, pdu[0] == 8u ? 3u : 5u) != 0)) {
         fail("no echo", pdu, pdu_count);
     } else if (pdu[0] != 6u && pdu[0] != 16u && pdu[0] != 8u && pdu[0] != 17u && pdu[0] != 0x2bu) {
         fail("an answer to a function that there is not", pdu, pdu_count);

@@ -242,7 +242,7 @@ typedef struct {
 } before_t;
 
 /* Are these the registers of that set, as far as they are parameters? */
-static bool tells(const uint8_t *answer, uint32_t start, uint32_t count, const brace_parameters_t *set)
+static bool are_of(const uint8_t *answer, uint32_t start, uint32_t count, const brace_parameters_t *set)
 {
     bool same = true;
     for (uint32_t i = 0; i < count && start + i < 2u * WORDS; i++) {
@@ -252,7 +252,7 @@ static bool tells(const uint8_t *answer, uint32_t start, uint32_t count, const b
     return same;
 }
 
-/* What a read must tell, where the oracle knows it: probes, and parameters: of one set, the one from before the
+/* What a read must return, where the oracle knows it: probes, and parameters: of one set, the one from before the
  * request, or the one from after it, when a commit has ended meanwhile. */
 static void judge_read(const bytes_t *sent, const uint8_t *pdu, const bytes_t *got, const uint8_t *answer,
                        uint32_t length, const before_t *before)
@@ -264,13 +264,13 @@ static void judge_read(const bytes_t *sent, const uint8_t *pdu, const bytes_t *g
     for (uint32_t i = 0; pdu[0] == 4u && i < count && start + i < 4u; i++) {
         static const uint16_t probe[] = {0x4640, 0xe600, 0x0102, 0x0304};
         if (at16(answer + 2u + 2u * i) != probe[start + i]) {
-            wrong("a probe told wrong", sent, got);
+            wrong("a probe read wrong", sent, got);
         }
     }
     const brace_parameters_t *old = before->begun ? &before->staged : &in_force;
     const brace_parameters_t *new = brace_app_parameters_staged(&app);
-    if (pdu[0] == 3u && !tells(answer, start, count, old) && !tells(answer, start, count, new)) {
-        wrong("a parameter told wrong", sent, got);
+    if (pdu[0] == 3u && !are_of(answer, start, count, old) && !are_of(answer, start, count, new)) {
+        wrong("a parameter read wrong", sent, got);
     }
 }
 

@@ -174,7 +174,7 @@ static void judge_word(const uint8_t *data, bool may)
         model.word[word] = field(data, 4, 4), model.next = word + 1u;
         words++;
         if (memcmp(got[0] + 2, data + 2, 6) != 0) {
-            fail("a word was told back otherwise", data, 8);
+            fail("a word was read back otherwise", data, 8);
         }
     }
 }
@@ -200,7 +200,7 @@ static void judge_commit(const uint8_t *data, bool may)
         fail("another set is in force", data, 8);
     }
     if (got_count != 2u || field(got[1], 2, 4) != app.controller.parameters.crc) {
-        fail("another CRC was told", data, 8);
+        fail("another CRC was reported", data, 8);
     }
     in_force = app.controller.parameters.in_force;
     taken++;

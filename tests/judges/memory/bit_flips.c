@@ -4,9 +4,9 @@
  *
  *   bit_flips [EVERY]    each EVERY-th bit (default 1: all)
  *
- * Prints, for each part of the memory: bits, seen (by MEMORY), the longest time until then, without effect on K, told
+ * Prints, for each part of the memory: bits, seen (by MEMORY), the longest time until then, without effect on K, reported
  * otherwise (K invalid or flagged), and wrong. Exit code 1: a flip in parameters or in constants made from them was
- * wrong. What was wrong elsewhere is told, and not judged: it is the state of the tick, which each tick makes anew.
+ * wrong. What was wrong elsewhere is counted, and not judged: it is the state of the tick, which each tick makes anew.
  *
  * Tables of the firmware are const. They lie in flash, where no bit of RAM can flip them. */
 #include <math.h>
@@ -51,7 +51,7 @@ static const part_t parts[] = {
 enum { PARTS = sizeof parts / sizeof *parts };
 
 typedef struct {
-    uint32_t bits, seen, slowest_ticks, harmless, told, wrong;
+    uint32_t bits, seen, slowest_ticks, harmless, reported, wrong;
 } outcome_t;
 
 static brace_app_t whole_app;
@@ -115,7 +115,7 @@ static void flip(const part_t *part, uint32_t bit, outcome_t *outcome)
     }
     ticks(SETTLED_TICKS);
     if (!now()->k_is_valid || (now()->stiffness.now.flags & ~flags) != 0u) {
-        outcome->told++;
+        outcome->reported++;
     } else if (k_is_as_before()) {
         outcome->harmless++;
     } else {
@@ -126,7 +126,7 @@ static void flip(const part_t *part, uint32_t bit, outcome_t *outcome)
 static bool flip_all(uint32_t every)
 {
     bool good = true;
-    printf("%-42s %7s %7s %8s %9s %6s %6s\n", "part", "bits", "seen", "slowest", "harmless", "told", "wrong");
+    printf("%-42s %7s %7s %8s %9s %8s %6s\n", "part", "bits", "seen", "slowest", "harmless", "reported", "wrong");
     for (int i = 0; i < PARTS; i++) {
         const part_t *part = &parts[i];
         outcome_t outcome = {0};
@@ -134,7 +134,7 @@ static bool flip_all(uint32_t every)
             flip(part, bit, &outcome);
         }
         printf("%-42s %7u %7u %5u ms %9u %6u %6u%s\n", part->name, (unsigned)outcome.bits, (unsigned)outcome.seen,
-               (unsigned)outcome.slowest_ticks, (unsigned)outcome.harmless, (unsigned)outcome.told,
+               (unsigned)outcome.slowest_ticks, (unsigned)outcome.harmless, (unsigned)outcome.reported,
                (unsigned)outcome.wrong, part->is_judged ? "" : "  (not judged)");
         good = good && (outcome.wrong == 0u || !part->is_judged);
     }

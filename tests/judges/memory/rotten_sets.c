@@ -8,7 +8,7 @@
  *   rotten_sets [EVERY]    each EVERY-th bit (default 1: all)
  *
  * Also: after a roll-back, no flip in the marks of the set that was left brings it back, and none is called rot.
- * Exit code 1: a set of before was in force and nobody was told. */
+ * Exit code 1: a set of before was in force and nothing reported it. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

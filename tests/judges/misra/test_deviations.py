@@ -1,4 +1,4 @@
-"""The judge of MISRA's findings: a finding without an entry is told, and an entry without a finding."""
+"""The judge of MISRA's findings: a finding without an entry is reported, and an entry without a finding."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def test_the_list_is_in_order() -> None:
         "return *pointer_to_a_dead_local;",  # 18.6
     ],
 )
-def test_what_nobody_argued_for_is_told(text: str) -> None:
+def test_what_nobody_argued_for_is_reported(text: str) -> None:
     rules = ("9.1", "10.3", "13.6", "14.1", "15.1", "17.3", "17.4", "18.6", "21.3", "22.2")
     planted = [finding(rule, "firmware/core/src/planar/planar.c", text) for rule in rules]
     assert misra.uncovered(planted, misra.read_deviations()) == planted

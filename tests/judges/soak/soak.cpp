@@ -1,20 +1,20 @@
 // soak [TICKS [SEED [alone|blind]]]: four limbs and their controllers on one CAN bus, for TICKS of a millisecond of
 // simulated time; 10,000,000 is ./dev soak's. Masters ask, send nonsense, hang up and come back; faults, postures,
 // contacts, power cuts come at random. Each minute has 40 s of that and 20 s of calm. It fails when
-//   a valid K is wrong by more than its uncertainty, or an open gap is not told in the time that brace/app.h promises
+//   a valid K is wrong by more than its uncertainty, or an open gap is not reported in the time that brace/app.h promises
 //   a request is not answered within 100 ticks in the calm, an answer is none, or its K is not the snapshot's
 //   a controller is not back in MONITOR with a valid K and no fault 10 s after the trouble, or counts trouble then
 //   the process keeps more memory or files in the last tenth than in the third
 // "alone": no master asks, and there is no bus. K is judged in a sixth of the time, under other random events.
-// "blind": the same without sensors at the tips, so that the joints tell every load.
+// "blind": the same without sensors at the tips, so that the joints measure every load.
 //
 // The simulation samples the motors first, and then lets the limb settle under what happens in the tick. So K may be
-// right when the motors are sampled, and wrong a tick later, when the controller tells K. No motor's sensor could know
-// that. Such K are counted separately. So are those of the tick after it, where only the motors tell the load: in one
+// right when the motors are sampled, and wrong a tick later, when the controller reports K. No motor's sensor could know
+// that. Such K are counted separately. So are those of the tick after it, where only the motors measure the load: in one
 // millisecond their inertia lets them move by next to nothing, so that their first sample is as before.
 // While a sensor is stuck or off by a constant, wrong K are counted apart and do not fail the run: before the
 // controller has detected the fault, it cannot know that the sensor is wrong.
-// Stopped by SIGINT or SIGTERM, it tells of what it has run. Exit code 0 when all is well.
+// Stopped by SIGINT or SIGTERM, it reports what it has run. Exit code 0 when all is well.
 #include <unistd.h>
 
 #include <algorithm>
@@ -47,7 +47,7 @@ constexpr std::uint64_t kTick_us = 1000;
 constexpr int kJudgedOnceIn = 149;  // ticks of a limb whose K is judged; just after something has happened all are
 constexpr double kMemoryGrows_kb = 1024.0;
 constexpr int kFilesOfMasters = 2 * (kLimbs * kModbusMastersOfALimb + kCanMasters); // both ends of every connection
-constexpr std::uint32_t kGapSpare_ticks = 4; // brace/app.h: how long after its gap has opened a flank may be told
+constexpr std::uint32_t kGapSpare_ticks = 4; // brace/app.h: how long after its gap has opened a flank may be reported
 
 struct Tenth {
     double memory_kb = 0.0, cpu_us = 0.0; // cpu_us: for one tick of four limbs, what judges and masters take included
@@ -90,20 +90,20 @@ private:
     std::uint64_t count_ = 0;
 };
 
-struct Told { // one sigma of the K that were judged
-    Shares told, by_parameters;
+struct Reported { // one sigma of the K that were judged
+    Shares reported, by_parameters;
     std::uint64_t endless = 0; // the newest load is not known yet, or has no equilibrium
     void take(const Agreement &agreed)
     {
-        told.take(agreed.told);
+        reported.take(agreed.reported);
         by_parameters.take(agreed.by_parameters);
-        endless += std::isinf(agreed.told) ? 1u : 0u;
+        endless += std::isinf(agreed.reported) ? 1u : 0u;
     }
     void report(const char *what) const
     {
         std::printf("sigma of K / its norm, %s: median %.3f %%, 99th percentile %.3f %%, endless %llu; by the "
                     "parameters alone %.3f %%, %.3f %%\n",
-                    what, 100.0 * told.percentile(50.0), 100.0 * told.percentile(99.0),
+                    what, 100.0 * reported.percentile(50.0), 100.0 * reported.percentile(99.0),
                     static_cast<unsigned long long>(endless), 100.0 * by_parameters.percentile(50.0),
                     100.0 * by_parameters.percentile(99.0));
     }
@@ -211,9 +211,9 @@ public:
 private:
     void step(Tenth &tenth, double t_s);
     void judge(Tenth &tenth, std::size_t limb, double t_s);
-    void judge_gaps(std::size_t limb, const brace_node_truth_t &truth, const brace_snapshot_t &told, double t_s);
-    void judge_calm(std::size_t limb, const brace_snapshot_t &told, double t_s);
-    void say(const char *what, std::size_t limb, double t_s, double share, const brace_snapshot_t &told) const;
+    void judge_gaps(std::size_t limb, const brace_node_truth_t &truth, const brace_snapshot_t &reported, double t_s);
+    void judge_calm(std::size_t limb, const brace_snapshot_t &reported, double t_s);
+    void say(const char *what, std::size_t limb, double t_s, double share, const brace_snapshot_t &reported) const;
     void finish(Tenth &tenth, std::uint64_t ticks);
 
     Chance chance_;
@@ -228,12 +228,12 @@ private:
     std::array<bool, kLimbs> has_counters_{};
     std::array<brace_node_truth_t, kLimbs> truth_before_{};      // of the tick before
     std::array<brace_node_truth_t, kLimbs> truth_two_before_{};  // of the one before that
-    Told sensed_, unsensed_;
+    Reported sensed_, unsensed_;
     std::uint64_t saved_ = 0;         // K that would be wrong were no more allowed than the parameters leave open
     std::uint64_t since_sampled_ = 0; // K that are wrong by what has happened since the motors were sampled
     std::uint64_t not_moved_ = 0;     // and by what has happened a tick before, of which the motors have not yet moved
-    std::array<std::uint32_t, kLimbs> denied_ticks_{}; // an open gap is not told for so long
-    std::uint32_t gap_told_ticks_ = 0;                  // the longest
+    std::array<std::uint32_t, kLimbs> denied_ticks_{}; // an open gap is not reported for so long
+    std::uint32_t gap_reported_ticks_ = 0;                  // the longest
     std::clock_t since_ = std::clock();
     Found found_;
     Lies lies_;
@@ -279,25 +279,25 @@ void Soak::step(Tenth &tenth, double t_s)
     }
 }
 
-void Soak::say(const char *what, std::size_t limb, double t_s, double share, const brace_snapshot_t &told) const
+void Soak::say(const char *what, std::size_t limb, double t_s, double share, const brace_snapshot_t &reported) const
 {
     constexpr int kMostSaid = 40;
     if (said_++ < kMostSaid) {
         std::printf("%9.3f s, limb %s: %s; %.2f of what is allowed; mode %d, faults %x, flags %x\n", t_s,
-                    limbs_[limb].name, what, share, static_cast<int>(told.mode), told.faults, told.stiffness.now.flags);
+                    limbs_[limb].name, what, share, static_cast<int>(reported.mode), reported.faults, reported.stiffness.now.flags);
     }
 }
 
 void Soak::judge(Tenth &tenth, std::size_t limb, double t_s)
 {
-    brace_snapshot_t told;
+    brace_snapshot_t reported;
     brace_node_truth_t truth;
-    (void)brace_node_snapshot(node_.get(), static_cast<int>(limb), &told);
+    (void)brace_node_snapshot(node_.get(), static_cast<int>(limb), &reported);
     (void)brace_node_truth(node_.get(), static_cast<int>(limb), &truth);
     ++ticks_seen_;
-    valid_ += told.k_is_valid ? 1u : 0u;
-    judge_calm(limb, told, t_s);
-    judge_gaps(limb, truth, told, t_s);
+    valid_ += reported.k_is_valid ? 1u : 0u;
+    judge_calm(limb, reported, t_s);
+    judge_gaps(limb, truth, reported, t_s);
     const bool is_near = trouble_[limb].is_near(t_s);
     if (!is_near && whole(chance_, kJudgedOnceIn) != 0) {
         return;
@@ -326,20 +326,20 @@ void Soak::judge(Tenth &tenth, std::size_t limb, double t_s)
         ++not_moved_;
         return;
     }
-    const bool is_open = (told.stiffness.now.flags & BRACE_FLAG_GAP_OPEN) != 0u;
+    const bool is_open = (reported.stiffness.now.flags & BRACE_FLAG_GAP_OPEN) != 0u;
     saved_ += agreed.share_by_parameters > 1.0 && agreed.share <= 1.0 && !is_open ? 1u : 0u;
     ++tenth.judged;
     tenth.worst = std::max(tenth.worst, agreed.share);
     if (agreed.share > 1.0) {
         ++found_.wrong;
-        say("a valid K is wrong", limb, t_s, agreed.share, told);
+        say("a valid K is wrong", limb, t_s, agreed.share, reported);
     }
 }
 
 // A gap that is open, and a valid K that does not say so, for longer than the controller promises.
-void Soak::judge_gaps(std::size_t limb, const brace_node_truth_t &truth, const brace_snapshot_t &told, double t_s)
+void Soak::judge_gaps(std::size_t limb, const brace_node_truth_t &truth, const brace_snapshot_t &reported, double t_s)
 {
-    const bool denies = told.k_is_valid && !trouble_[limb].lies(t_s) && denies_gap(limbs_[limb], truth, told);
+    const bool denies = reported.k_is_valid && !trouble_[limb].lies(t_s) && denies_gap(limbs_[limb], truth, reported);
     denied_ticks_[limb] = denies ? denied_ticks_[limb] + 1u : 0u;
     if (!denies) {
         return;
@@ -349,30 +349,30 @@ void Soak::judge_gaps(std::size_t limb, const brace_node_truth_t &truth, const b
         const brace_app_t *app = brace_node_app(node_.get(), static_cast<int>(limb));
         most_us = std::max(most_us, brace_backlash_detection_us(&app->controller.flank.joint[joint].machine));
     }
-    gap_told_ticks_ = std::max(gap_told_ticks_, denied_ticks_[limb]);
+    gap_reported_ticks_ = std::max(gap_reported_ticks_, denied_ticks_[limb]);
     if (denied_ticks_[limb] > most_us / kTick_us + kGapSpare_ticks) {
         ++found_.gaps_denied;
-        say("an open gap is not told", limb, t_s, 1e3 * denied_ticks_[limb] / most_us, told);
+        say("an open gap is not reported", limb, t_s, 1e3 * denied_ticks_[limb] / most_us, reported);
     }
 }
 
 // 10 s after the last trouble everything is as it was, and nothing more is counted.
-void Soak::judge_calm(std::size_t limb, const brace_snapshot_t &told, double t_s)
+void Soak::judge_calm(std::size_t limb, const brace_snapshot_t &reported, double t_s)
 {
     if (!trouble_[limb].is_settled(t_s)) {
         has_counters_[limb] = false;
         return;
     }
-    const bool is_back = told.mode == BRACE_MODE_MONITOR && told.k_is_valid && told.faults == 0u;
+    const bool is_back = reported.mode == BRACE_MODE_MONITOR && reported.k_is_valid && reported.faults == 0u;
     brace_app_counters_t now;
     brace_app_counters(brace_node_app(node_.get(), static_cast<int>(limb)), &now);
     if (!is_back) {
         ++found_.not_back;
-        say("it is not back", limb, t_s, 0.0, told);
+        say("it is not back", limb, t_s, 0.0, reported);
     }
     if (has_counters_[limb] && std::memcmp(&now, &counters_[limb], sizeof now) != 0) {
         ++found_.counted_in_calm;
-        say("it counts trouble in the calm", limb, t_s, 0.0, told);
+        say("it counts trouble in the calm", limb, t_s, 0.0, reported);
     }
     counters_[limb] = now;
     has_counters_[limb] = true;
@@ -422,11 +422,11 @@ int Soak::report(std::uint64_t ticks, std::uint64_t seed) const
                 number(lies_.judged), number(lies_.wrong), lies_.worst);
     sensed_.report("load sensed at the tip");
     unsensed_.report("load by the joints");
-    std::printf("K right only because the load's lag is told: %llu\n", number(saved_));
+    std::printf("K right only because the load's lag is reported: %llu\n", number(saved_));
     std::printf("K wrong only by what has happened since their motors were sampled: %llu; or a tick before, when the "
                 "motors had not yet moved: %llu\n",
                 number(since_sampled_), number(not_moved_));
-    std::printf("an open gap was told after %u ticks at most\n", gap_told_ticks_);
+    std::printf("an open gap was reported after %u ticks at most\n", gap_reported_ticks_);
     std::printf("wrong K %llu, gaps denied %llu, wrong answers %llu, late in the calm %llu, not back %llu, "
                 "counted in the calm %llu, watchdog resets %u\n",
                 number(found_.wrong), number(found_.gaps_denied),

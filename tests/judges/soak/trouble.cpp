@@ -10,7 +10,7 @@ namespace
 
 constexpr double kMeanPause_s = 1.5;  // between two events of a limb
 constexpr double kLongestFault_s = 2.0;
-constexpr double kLieLasts_s = 0.5;   // filters forget it, and what was told wrong is seen
+constexpr double kLieLasts_s = 0.5;   // filters forget it, and what was reported wrong is seen
 constexpr double kNear_s = 0.05;
 
 bool is_lie(int fault)

@@ -20,7 +20,7 @@ public:
 
     bool is_calm(double t_s) const;    // nothing new happens
     bool is_settled(double t_s) const; // and nothing has for kSettle_s
-    bool lies(double t_s) const { return t_s < lies_until_s_; }   // a sensor tells what is not so, or did just now
+    bool lies(double t_s) const { return t_s < lies_until_s_; }   // a sensor reports what is not so, or did just now
     bool is_near(double t_s) const { return t_s < near_until_s_; } // something has just happened
     std::uint64_t events = 0, faults[BRACE_NODE_FAULT_COUNT] = {};
 

@@ -49,42 +49,42 @@ bool true_k(const Limb &limb, const brace_node_truth_t &truth, bool is_loaded, E
 
 } // namespace
 
-bool denies_gap(const Limb &limb, const brace_node_truth_t &truth, const brace_snapshot_t &told)
+bool denies_gap(const Limb &limb, const brace_node_truth_t &truth, const brace_snapshot_t &reported)
 {
     bool is_open = false;
     for (const int joint : {kFemur, kTibia}) {
         is_open = is_open || (limb.there.plant.joint[joint].gap_rad > 0.0 && truth.flank[joint] == 0);
     }
-    return is_open && (told.stiffness.now.flags & BRACE_FLAG_GAP_OPEN) == 0u;
+    return is_open && (reported.stiffness.now.flags & BRACE_FLAG_GAP_OPEN) == 0u;
 }
 
 Agreement agreement(const Limb &limb, const brace_node_truth_t &truth, brace_app_t *app)
 {
     Agreement found;
-    const brace_snapshot_t &told = *brace_app_snapshot(app);
-    found.is_told = told.k_is_valid;
+    const brace_snapshot_t &reported = *brace_app_snapshot(app);
+    found.is_reported = reported.k_is_valid;
     Entries true_n_per_mm;
     brace_stiffness_sigma_t by_parameters;
-    const brace_stiffness_sigma_t &sigma = told.sigma;
+    const brace_stiffness_sigma_t &sigma = reported.sigma;
     const auto largest = [](const brace_stiffness_sigma_t &of) {
         return static_cast<double>(std::max({of.k_xx_n_per_mm, of.k_xz_n_per_mm, of.k_zz_n_per_mm}));
     };
-    if (!found.is_told || !true_k(limb, truth, told.load.is_counted, true_n_per_mm) ||
-        !told.sigma_is_known ||
-        brace_uncertainty_stiffness(&brace_app_parameters(app)->limb, told.theta_rad[kFemur], told.theta_rad[kTibia],
-                                    &told.stiffness.engaged, &by_parameters) != BRACE_OK) {
+    if (!found.is_reported || !true_k(limb, truth, reported.load.is_counted, true_n_per_mm) ||
+        !reported.sigma_is_known ||
+        brace_uncertainty_stiffness(&brace_app_parameters(app)->limb, reported.theta_rad[kFemur], reported.theta_rad[kTibia],
+                                    &reported.stiffness.engaged, &by_parameters) != BRACE_OK) {
         return found;
     }
-    const brace_stiffness_t &k = told.stiffness.engaged;
+    const brace_stiffness_t &k = reported.stiffness.engaged;
     found.is_judged = true;
     const Entries entries = {k.k_xx_n_per_mm, k.k_xz_n_per_mm, k.k_zz_n_per_mm};
     const auto sigmas = [](const brace_stiffness_sigma_t &of) {
         return Entries{of.k_xx_n_per_mm, of.k_xz_n_per_mm, of.k_zz_n_per_mm};
     };
     const double norm = std::sqrt(entries[0] * entries[0] + 2.0 * entries[1] * entries[1] + entries[2] * entries[2]);
-    found.told = largest(sigma) / norm;
+    found.reported = largest(sigma) / norm;
     found.by_parameters = largest(by_parameters) / norm;
-    found.is_sensed = told.force_is_sensed;
+    found.is_sensed = reported.force_is_sensed;
     for (std::size_t i = 0; i < entries.size(); ++i) {
         const double error = std::fabs(entries[i] - true_n_per_mm[i]), loaded = kLoadedShare * norm;
         found.share = std::max(found.share, error / (kSigmas * sigmas(sigma)[i] + loaded));

@@ -16,10 +16,10 @@ namespace soak
 
 // How a K that is called valid agrees with the limb.
 struct Agreement {
-    bool is_told = false;         // there was a valid K to judge
+    bool is_reported = false;         // there was a valid K to judge
     bool is_judged = false;       // and the reference has an answer
-    double told = 0.0, by_parameters = 0.0; // K's largest sigma / its norm; and what the parameters alone make of it
-    bool is_sensed = false;       // a sensor at the tip tells the load
+    double reported = 0.0, by_parameters = 0.0; // K's largest sigma / its norm; and what the parameters alone make of it
+    bool is_sensed = false;       // a sensor at the tip measures the load
     double share = 0.0;           // error of the worst entry / allowed error; K is wrong above 1
     double share_by_parameters = 0.0; // the same, were no more allowed than for what the parameters leave open
 };
@@ -29,6 +29,6 @@ struct Agreement {
 Agreement agreement(const Limb &limb, const brace_node_truth_t &truth, brace_app_t *app);
 
 // Is a gap open, and no flag says so?
-bool denies_gap(const Limb &limb, const brace_node_truth_t &truth, const brace_snapshot_t &told);
+bool denies_gap(const Limb &limb, const brace_node_truth_t &truth, const brace_snapshot_t &reported);
 
 } // namespace soak

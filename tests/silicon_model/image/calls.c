@@ -16,20 +16,20 @@ const stm32f405_board_t board_with_key = {PINS_AND_SLOTS, .hse_hz = 8000000, .ke
 
 static const brace_hal_t *door;
 uint32_t random_word;
-stm32f405_clock_report_t clock_told;
+stm32f405_clock_report_t clock_reported;
 uint8_t buffer[1024];
 brace_can_frame_t frame;
 brace_can_health_t health;
 
-void tell_clock(void)
+void report_clock(void)
 {
-    clock_told = stm32f405_clock_report();
+    clock_reported = stm32f405_clock_report();
 }
 
 void start(const stm32f405_board_t *board)
 {
     door = brace_hal_stm32f405(board);
-    clock_told = stm32f405_clock_report();
+    clock_reported = stm32f405_clock_report();
 }
 
 uint32_t now(void)

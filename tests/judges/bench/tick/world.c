@@ -50,11 +50,11 @@ static int32_t door_joint_read(void *context, int32_t joint, brace_hal_joint_t *
     return answer[joint];
 }
 
-static int32_t door_joint_command(void *context, int32_t joint, const brace_hal_joint_command_t *told)
+static int32_t door_joint_command(void *context, int32_t joint, const brace_hal_joint_command_t *wanted)
 {
     (void)context;
-    command[joint].offset_rad = told->offset_rad;
-    command[joint].torque_limit_n_mm = told->torque_limit_n_mm;
+    command[joint].offset_rad = wanted->offset_rad;
+    command[joint].torque_limit_n_mm = wanted->torque_limit_n_mm;
     return command_answer;
 }
 

@@ -12,7 +12,7 @@ from typing import Any
 
 from baselines.methods import NAMING, PROCESS, tuned
 from baselines.run_case import folder_of
-from scoring import VISIBLE_GAP_N, Judged, closed, judge, share, strong, told, weak
+from scoring import VISIBLE_GAP_N, Judged, closed, judge, must_be_named, share, strong, weak
 
 SIGNIFICANT = 0.01
 US = "brace diagnose"
@@ -44,12 +44,12 @@ def _pair(j: Judged) -> bool | None:
 
 
 def _together(j: Judged) -> bool | None:
-    exact = _single("exact", told)
+    exact = _single("exact", must_be_named)
     return next((value for one in (exact, _quiet, _pair) if (value := one(j)) is not None), None)
 
 
 LINES = (
-    Line("right effect first, s >= 8", _single("exact", told), "naming"),
+    Line("right effect first, s >= 8", _single("exact", must_be_named), "naming"),
     Line("no alarm when nothing is hidden", _quiet, "false alarms"),
     Line("both of two hidden effects and nothing else", _pair, "pairs"),
     Line("these three together", _together, "these three together"),

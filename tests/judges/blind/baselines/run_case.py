@@ -40,7 +40,7 @@ def job(job: tuple[str, str, str]) -> str:
         path.parent.mkdir(exist_ok=True)
         try:
             found = answers(root, results / "signatures", name)
-        except Exception:  # told in the report: a case that a baseline lost by our fault is no case won
+        except Exception:  # counted in the report: a case that a baseline lost by our fault is no case won
             found = {"naming": {}, "after_n": {}, "seconds": 0.0, "crashed": traceback.format_exc(limit=-3)}
         part = path.with_suffix(".part")
         part.write_text(json.dumps(found))

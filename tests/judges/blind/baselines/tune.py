@@ -31,7 +31,7 @@ from baselines.signatures import Signatures, cached, prepared  # noqa: E402
 import diagnoser  # noqa: E402
 from generate import default_folder, generator_hash  # noqa: E402
 from plant import BUILD  # noqa: E402
-from scoring import VISIBLE_GAP_N, Judged, judge, share, told  # noqa: E402
+from scoring import VISIBLE_GAP_N, Judged, judge, must_be_named, share  # noqa: E402
 from seeds import DEVELOPMENT_SEED, TUNING_CASES  # noqa: E402
 
 TRIALS = 24
@@ -43,7 +43,7 @@ def worth(judged: list[Judged]) -> float:
     """Of a trial of a naming baseline."""
     pairs = [j for j in judged if j.kind == "pair"]
     shares = [
-        share(judged, "exact", told).value or 0.0,
+        share(judged, "exact", must_be_named).value or 0.0,
         share(pairs, "set").value or 0.0,
         1.0 - (share(judged, "false_alarm").value or 0.0),
     ]
@@ -53,7 +53,7 @@ def worth(judged: list[Judged]) -> float:
 def _counts(truth: dict[str, Any]) -> bool:
     """Whether a case is of a kind that a trial's worth looks at."""
     return truth["kind"] in ("none", "pair", "outside") or (
-        truth["kind"] == "single" and told(judge(truth, {}))
+        truth["kind"] == "single" and must_be_named(judge(truth, {}))
     )
 
 
