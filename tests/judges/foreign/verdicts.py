@@ -123,10 +123,10 @@ def judge(truth: dict[str, Any], found: dict[str, Any], run: dict[str, Any]) -> 
     if may and (trace is None or trace >= NAMED_S):
         word.told = any(_names(one, word, found, refused) for one in may)
     if truth.get("left_out"):
-        named = list(intervals(found))
+        found_intervals = list(intervals(found))
         for key, value in truth["left_out"].items():
             leaf = key.rsplit(".", 1)[-1]
-            here = [low <= value <= high for name, low, high in named if name == leaf]
+            here = [low <= value <= high for name, low, high in found_intervals if name == leaf]
             word.covered[leaf] = any(here) if here else None
     return word
 

@@ -10,8 +10,6 @@ from typing import Any, cast
 
 import numpy as np
 import pytest
-from scipy.optimize import least_squares
-
 from brace.dataset import load_dataset
 from brace.dataset.write import write_dataset
 from brace.diagnose.diagnosis import NextExperiment
@@ -19,7 +17,12 @@ from brace.diagnose.loading.choose import LabelSet
 from brace.diagnose.loading.fit import fit
 from brace.diagnose.loading.next_experiment.confusability import confusability, in_words
 from brace.diagnose.loading.next_experiment.experiment import next_experiment
-from brace.diagnose.loading.next_experiment.menu import CHANNELS, GROUPS, as_record, conditions
+from brace.diagnose.loading.next_experiment.menu import (
+    CHANNELS,
+    GROUPS,
+    as_record,
+    conditions,
+)
 from brace.diagnose.loading.next_experiment.separation import (
     Contender,
     chance_to_win,
@@ -27,7 +30,7 @@ from brace.diagnose.loading.next_experiment.separation import (
     lambda_squared,
     no_rivals,
     play,
-    told,
+    separated,
 )
 from brace.diagnose.loading.search import Hypothesis
 from brace.diagnose.loading.space import space_of, trust_of
@@ -38,6 +41,7 @@ from brace.model import LimbModel, load_limb
 from brace.native.plant import LoadingPlayer
 from brace.rig.rig import load_rig
 from brace.rig.simulate import simulate
+from scipy.optimize import least_squares
 
 POSTURES = ((0.2, 0.7), (0.6, 1.2), (1.0, 1.6), (0.4, 2.0), (0.8, 0.9), (1.2, 1.4))
 KNEE, TIBIA = "joint.tibia.compliance_rad_per_n_mm", "link.tibia.bending_mm_per_n"
@@ -247,7 +251,7 @@ def test_a_larger_set_is_no_rival_of_its_part(believed: LimbModel, soft_knee: tu
         sets.append(LabelSet(one.labels, one, 0.5))
     hypotheses = contenders(sets)
     assert no_rivals(hypotheses).tolist() == [[True, True], [False, True]]
-    assert told(np.zeros((1, 2, 2)), hypotheses)[0].round(3).tolist() == [[1.0, 1.0], [0.0, 1.0]]
+    assert separated(np.zeros((1, 2, 2)), hypotheses)[0].round(3).tolist() == [[1.0, 1.0], [0.0, 1.0]]
 
 
 def test_look_alikes_of_the_knee(soft_knee: tuple[Record, Any]) -> None:
