@@ -16,6 +16,7 @@ from typing import Any
 import pytest
 from command_bench import FREE, LIMB, Outcome, running, spawn
 
+from brace.bus.load import LOAD_ENTRIES, Load
 from brace.bus.sigma import sigma_of
 from brace.bus.snapshot import Heartbeat, Snapshot
 from brace.bus.url import parse
@@ -90,6 +91,17 @@ def test_the_controller_s_own_uncertainty_is_what_the_page_shows(limb_file: Path
         is_new = age_s < 1.0
         assert view["sigma_k_n_per_mm"] == ([0.1, 0.05, 0.02] if is_new else None)
         assert view["relative_sigma"] == ([0.1, 0.05] if is_new else by_file["relative_sigma"])
+
+
+def test_what_the_limb_s_file_gives_holds_without_load_only(limb_file: Path) -> None:
+    counted = dict.fromkeys(
+        (*LOAD_ENTRIES, "gravity_lean", "counted_force_x", "counted_force_z", "moved_x", "moved_z"), 0.5
+    )
+    newest, card = snapshot(), card_of(load_limb(limb_file))
+    for force, is_known in ((0.5, False), (None, True)):  # no force: K counts no load
+        pressed = snapshot(load=Load({**counted, "counted_force_x": force}))
+        view = limb_numbers(3, NodeState(snapshot=newest, posture=newest, load=pressed, last_s=100.0), card, 100.5)
+        assert (view["load"] is None) == is_known and (view["relative_sigma"] is not None) == is_known
 
 
 def test_heartbeats_alone_make_a_limb() -> None:
@@ -202,9 +214,14 @@ def test_the_page_in_a_browser(limb_file: Path, tmp_path: Path) -> None:
             assert len(updates) > 2
             drawn = page.eval_on_selector(".links", "line => line.getAttribute('points')")
             angles = next(json.loads(text)["numbers"][0]["theta_rad"] for text in updates[::-1] if "numbers" in text)
-            (knee_x, knee_z), (tip_x, tip_z) = planar_limb(load_limb(limb_file)).pose(*angles[1:])
+            limb = load_limb(limb_file)
+            (knee_x, knee_z), (tip_x, tip_z) = planar_limb(limb).pose(*angles[1:])
             corners = [float(number) for number in re.split("[ ,]", drawn)]
-            assert corners == pytest.approx([0.0, 0.0, knee_x, -knee_z, tip_x, -tip_z], abs=1.0)  # y points down
+            coxa = [-limb.number("geometry.coxa_mm"), 0.0]
+            assert corners == pytest.approx([*coxa, 0.0, 0.0, knee_x, -knee_z, tip_x, -tip_z], abs=1.0)  # y points down
+            assert page.eval_on_selector_all(".name", "names => names.map(name => name.textContent)")[:3] == [
+                "coxa", "femur", "tibia"
+            ]  # fmt: skip
             paints_ms = [first_paint_ms(page) for _ in range(3)]
             assert min(paints_ms) < FIRST_PAINT_MS, paints_ms
             browser.close()

@@ -85,10 +85,11 @@ class LimbNumbers(TypedDict):
     sigma_k_n_per_mm: list[Value] | None  # one sigma of each, as the controller says
     lambda_n_per_mm: list[Value]  # least, greatest
     stiff_axis_rad: Value
-    relative_sigma: list[float] | None  # of the two eigenvalues: the controller's, else the limb's model's
+    relative_sigma: list[float] | None  # of the two eigenvalues: the controller's, else, without load, the model's
     theta_rad: list[Value]  # coxa, femur, tibia
     k_space_n_per_mm: list[Value] | None  # xx xy xz yy yz zz, in the robot's frame
     lambda_space_n_per_mm: list[Value] | None
+    sigma_lambda_space_n_per_mm: list[Value] | None  # one sigma of each, as the controller says
     load: LoadView | None
 
 
@@ -113,7 +114,8 @@ def limb_numbers(node: int, state: NodeState, card: Card, now_s: float) -> LimbN
     theta1, theta2 = (k.theta1, k.theta2) if k is not None else (None, None)
     reported = _recent_sigma(state)
     sigmas = _relative(reported, k)
-    if sigmas is None and theta1 is not None and theta2 is not None:
+    load = _load_view(_recent_load(state))
+    if sigmas is None and load is None and theta1 is not None and theta2 is not None:  # the model's is of K without load
         sigmas = card.relative_sigmas(theta1, theta2)
     space = state.space.space if state.space is not None else None
     silent_s = now_s - state.last_s
@@ -131,7 +133,8 @@ def limb_numbers(node: int, state: NodeState, card: Card, now_s: float) -> LimbN
         "theta_rad": [space.theta0 if space is not None else None, theta1, theta2],
         "k_space_n_per_mm": None if space is None else list(space.k),
         "lambda_space_n_per_mm": None if space is None else list(space.eigenvalues),
-        "load": _load_view(_recent_load(state)),
+        "sigma_lambda_space_n_per_mm": _space_sigmas(reported),
+        "load": load,
     }
 
 
@@ -149,6 +152,12 @@ def _recent_sigma(state: NodeState) -> Sigma | None:
     reported, newest = state.sigma, state.snapshot
     is_recent = reported is not None and newest is not None and newest.time_s - reported.time_s <= LOAD_LATE_S
     return reported.sigma if reported is not None and is_recent else None
+
+
+def _space_sigmas(reported: Sigma | None) -> list[Value] | None:
+    if reported is None or reported.space is None:
+        return None
+    return [reported.space[f"space_lambda_{number}"] for number in (1, 2, 3)]
 
 
 def _relative(sigma: Sigma | None, k: Snapshot | None) -> tuple[float, float] | None:

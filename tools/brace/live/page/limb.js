@@ -2,8 +2,10 @@
 const HISTORY_MS = 60_000;
 const HISTORY_STEP_MS = 100;
 const ELLIPSE_SHARE = 0.3; // of the reach: the longer half axis
+const SCALE_SHARE = 0.1; // of the reach: room for the scale's bar below
 const SMALL_N = 0.05; // no arrow below
 const ROUND = [1, 2, 5];
+const JOINTS = ["coxa", "femur", "tibia"];
 
 function text(element, words) {
   if (element.textContent !== words) {
@@ -23,6 +25,16 @@ function number(value, digits = 3) {
 
 function numbers(values, unit, digits = 3) {
   return values.every((value) => value === null) ? "-" : `${values.map((v) => number(v, digits)).join("  ")} ${unit}`;
+}
+
+// Values with one sigma of each behind them, where it is known.
+function trusted(values, sigmas, unit) {
+  const one = (value, i) => number(value) + trust(value, sigmas?.[i] ?? null);
+  return values.every((value) => value === null) ? "-" : `${values.map(one).join(",  ")} ${unit}`;
+}
+
+function trust(value, sigma) {
+  return value === null || sigma === null ? "" : ` \u00b1 ${number(sigma, 2)}`;
 }
 
 function degrees(rad) {
@@ -98,27 +110,37 @@ export class Limb {
   }
 
   tell(view) {
-    const [least, most] = view.lambda_n_per_mm;
-    const [ofLeast, ofMost] = view.relative_sigma ?? [null, null];
-    const trust = (value, sigma) =>
-      value === null || sigma === null ? "" : ` \u00b1 ${number(sigma * value, 2)}`;
-    this.row("softest", view.is_valid ? `${number(least)}${trust(least, ofLeast)} N/mm` : "K is not valid");
-    this.row("stiffest", view.is_valid ? `${number(most)}${trust(most, ofMost)} N/mm` : null);
-    this.row("K xx xz zz", view.is_valid ? numbers(view.k_n_per_mm, "N/mm") : null);
-    const sigma = view.sigma_k_n_per_mm;
-    this.row("one sigma of K", view.is_valid && sigma !== null ? numbers(sigma, "N/mm") : null);
+    const { is_valid: valid, lambda_n_per_mm: lambdas } = view;
+    const sigmas = view.relative_sigma?.map((share, i) => (lambdas[i] === null ? null : share * lambdas[i]));
+    const [least, most] = lambdas.map((one, i) => trusted([one], [sigmas?.[i] ?? null], "N/mm"));
+    this.row("softest", valid ? least : "K is not valid");
+    this.row("stiffest", valid ? most : null);
+    this.row("K xx, xz, zz", valid ? trusted(view.k_n_per_mm, view.sigma_k_n_per_mm, "N/mm") : null);
     const space = view.lambda_space_n_per_mm;
-    this.row("eigenvalues in space", space === null ? null : numbers(space, "N/mm"));
+    const inSpace = view.sigma_lambda_space_n_per_mm;
+    this.row("eigenvalues in space", space === null ? null : trusted(space, inSpace, "N/mm"));
+    const unsure = valid && view.relative_sigma === null && view.sigma_k_n_per_mm === null;
+    this.row("\u00b1 one sigma", unsure ? "not known: neither sent nor in a model" : null);
     const load = view.load;
     this.row("force x z", load === null ? view.load_why : numbers(load.force_n, "N"));
     this.row("moved x z", load === null ? null : numbers(load.moved_mm, "mm"));
     this.row("without load", load === null ? null : numbers(load.unloaded_k_n_per_mm, "N/mm"));
     const factor = load === null ? null : load.buckling_factor;
     this.row("buckling factor", load === null ? null : factor === null ? "none" : number(factor));
-    const [coxa, femur, tibia] = view.theta_rad;
-    this.row("joints", `${coxa === null ? "" : `${degrees(coxa)}  `}${degrees(femur)}  ${degrees(tibia)}`);
+    JOINTS.forEach((name, i) => {
+      const angle = view.theta_rad[i];
+      this.row(`theta${i}, ${name}`, i === 0 && angle === null ? null : degrees(angle));
+    });
     const age = view.age_ms === null ? "over 127" : view.age_ms;
-    this.row("age, rate", `${age} ms, ${view.rate_hz.toFixed(0)} Hz`);
+    const heard = `${age} ms, ${view.rate_hz.toFixed(0)} Hz`;
+    this.row("age, rate", view.silent_s === null ? heard : `over ${view.silent_s.toFixed(0)} s, nothing comes`);
+  }
+
+  // Nobody says any more how old the numbers are.
+  lose() {
+    this.element.classList.add("silent");
+    text(this.find(".mode"), "brace monitor does not answer: what follows is old");
+    this.row("age, rate", "not known");
   }
 
   draw(view) {
@@ -129,7 +151,7 @@ export class Limb {
     const known = joined !== null;
     picture.style.display = this.find(".scale").style.display = known ? "" : "none";
     const reach = known ? view.lengths_mm[1] + view.lengths_mm[2] : 100;
-    const box = this.frame(reach, joined ?? []);
+    const box = this.frame(reach, joined ?? [], known ? view.lengths_mm[0] : 0);
     set(svg, { viewBox: `${box.left} ${box.top} ${box.right - box.left} ${box.bottom - box.top}` });
     text(note, known ? "" : view.lengths_mm === null ? view.lengths_why || "asking for lengths" : "posture not sent");
     set(note, { x: box.left, y: 0, "font-size": 0.05 * reach });
@@ -140,8 +162,17 @@ export class Limb {
     const [knee, tip] = joined.map(([x, z]) => [x, -z]);
     const joints = this.element.querySelectorAll(".joint");
     set(this.find(".horizon"), { x1: box.left, x2: box.right, y1: 0, y2: 0, "stroke-width": width / 3 });
-    set(this.find(".links"), { points: `0,0 ${knee} ${tip}`, "stroke-width": 2 * width });
-    [[0, 0], knee].forEach(([x, y], i) => set(joints[i], { cx: x, cy: y, r: 2.2 * width, "stroke-width": width }));
+    const coxa = [-view.lengths_mm[0], 0];
+    set(this.find(".links"), { points: `${coxa} 0,0 ${knee} ${tip}`, "stroke-width": 2 * width });
+    const names = this.element.querySelectorAll(".name");
+    const below = Math.sign(knee[1]) || -1; // a name stands where no link leaves its joint
+    [coxa, [0, 0], knee].forEach(([x, y], i) => {
+      set(joints[i], { cx: x, cy: y, r: 2.2 * width, "stroke-width": width });
+      const side = i === 2 ? below : -below;
+      const anchor = ["end", "start", "middle"][i]; // a coxa may be shorter than the names
+      set(names[i], { x, y: y + side * 5 * width + 1.5 * width, "font-size": 0.045 * reach, "text-anchor": anchor });
+      text(names[i], JOINTS[i]);
+    });
     set(this.find(".tip"), { cx: tip[0], cy: tip[1], r: 1.2 * width, "stroke-width": width / 2 });
     this.drawEllipse(view, reach, tip, width, box);
     this.drawForce(view, reach, tip, width);
@@ -150,14 +181,14 @@ export class Limb {
 
   // What the picture shows: the joints and room for an ellipse about the tip. It grows with the places that the limb has
   // been to, and never shrinks, so that the picture does not shake.
-  frame(reach, places) {
+  frame(reach, places, coxa) {
     const room = (ELLIPSE_SHARE + 0.06) * reach;
-    this.box ??= { left: -0.1 * reach, top: -0.3 * reach, right: 0.8 * reach, bottom: 0.3 * reach };
+    this.box ??= { left: -0.1 * reach - coxa, top: -0.3 * reach, right: 0.8 * reach, bottom: 0.3 * reach };
     for (const [x, z] of places) {
       this.box.left = Math.min(this.box.left, x - room);
       this.box.right = Math.max(this.box.right, x + room);
       this.box.top = Math.min(this.box.top, -z - room);
-      this.box.bottom = Math.max(this.box.bottom, -z + room);
+      this.box.bottom = Math.max(this.box.bottom, -z + room + SCALE_SHARE * reach);
     }
     return this.box;
   }
@@ -167,12 +198,13 @@ export class Limb {
     if (!view.is_valid || least === null || most === null || view.stiff_axis_rad === null) {
       return;
     }
-    const scale = (ELLIPSE_SHARE * reach) / most; // mm of the picture for 1 N/mm
+    const [ofLeast, ofMost] = view.relative_sigma ?? [0, 0];
+    const outer = Math.max(most * (1 + ofMost), least * (1 + ofLeast)); // of the band, so that the picture never cuts it
+    const scale = (ELLIPSE_SHARE * reach) / outer; // mm of the picture for 1 N/mm
     const place = `translate(${tip}) rotate(${(-view.stiff_axis_rad * 180) / Math.PI})`;
     set(this.find(".ellipse"), {
       d: ellipsePath(most * scale, least * scale), transform: place, "stroke-width": width / 4,
     });
-    const [ofLeast, ofMost] = view.relative_sigma ?? [0, 0];
     const band = [1, -1].map((side) =>
       ellipsePath(Math.max(0, 1 + side * ofMost) * most * scale, Math.max(0, 1 + side * ofLeast) * least * scale));
     set(this.find(".band"), { d: band.join(""), transform: place });

@@ -51,7 +51,7 @@ function listen() {
   stream.onclose = () => {
     bus.textContent = "brace monitor has ended, or does not answer; this page tries again";
     for (const limb of limbs.values()) {
-      limb.element.classList.add("silent");
+      limb.lose();
     }
     setTimeout(listen, AGAIN_MS);
   };
