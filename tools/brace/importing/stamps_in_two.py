@@ -17,12 +17,14 @@ def joined(part: Part) -> Part:
     rows share one for a second."""
     for at, name in enumerate(part.names):
         found = _SECONDS.fullmatch(name)
+        if not found:
+            continue
         below = [
             other
             for other, each in enumerate(part.names)
-            if found and each.lower() in {f"{found[1]}{mark}{word}".lower() for word in _BELOW for mark in "._/ "}
+            if each.lower() in {f"{found[1]}{mark}{word}".lower() for word in _BELOW for mark in "._/ "}
         ]
-        if not found or len(below) != 1:
+        if len(below) != 1:
             continue
         drop = below[0]
         rows = []
