@@ -25,12 +25,13 @@ PROBE = BUILD / "tests" / "client" / "client_probe"
 PRINT_K = BUILD / "tools" / "client" / "print_k"
 LIMB = PROJECT / "tools" / "brace" / "data" / "paper-limb.toml"
 sys.path.insert(0, str(Path(__file__).parent))
-REPORTING_S = 3.0
 PROMISED_MS = 2500  # given this time-out, the client reports every failure within REPORTING_S
 # The guest kernel stands still for seconds when the machine is busy, and so does an emulated board, whose serial frames
 # are torn by that, too. What is tested there is not their speed.
 PATIENT_MS = 20000
-ANSWER_MS = PATIENT_MS if os.environ.get("BRACE_TEST_CAN") else PROMISED_MS
+IS_GUEST = "BRACE_TEST_CAN" in os.environ
+ANSWER_MS = PATIENT_MS if IS_GUEST else PROMISED_MS
+REPORTING_S = 3.0 if not IS_GUEST else PATIENT_MS / 1000.0
 
 
 @dataclass
@@ -44,7 +45,7 @@ class Answer:
 
     @property
     def reported_in_time(self) -> bool:
-        """Within the 3 s that are promised for every failure."""
+        """Within the 3 s that are promised for every failure; in the guest, before its caller gives up."""
         return self.own_s < REPORTING_S
 
     @property
