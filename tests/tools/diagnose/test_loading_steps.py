@@ -440,18 +440,18 @@ def test_a_name_that_is_not_found_twice_is_less_sure(twin: str | None, left: dic
 
 
 @pytest.mark.parametrize(
-    ("lead", "told", "verdict"), [(20.0, False, "unknown"), (2.0, False, "effect"), (2.0, True, "effect")]
+    ("lead", "is_named", "verdict"), [(20.0, False, "unknown"), (2.0, False, "effect"), (2.0, True, "effect")]
 )
 def test_what_has_no_name_and_does_better_leaves_the_verdict_open(
-    believed: LimbModel, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, lead: float, told: bool, verdict: str
+    believed: LimbModel, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, lead: float, is_named: bool, verdict: str
 ) -> None:
     """Forces that follow the posture are no trouble of the instruments, and no effect's, either."""
     data = recorded(tmp_path, believed.with_values({"joint.tibia.gap_rad": 2e-3}), 7)
     record, trust = load_record(data), trust_of(believed, turns=True)
-    better: Any = SimpleNamespace(lead=lead, far_ahead=lead > 4.6, told=told, meaning="the force at rest differed")
+    better: Any = SimpleNamespace(lead=lead, far_ahead=lead > 4.6, is_named=is_named, meaning="the force at rest differed")
     monkeypatch.setattr(loading_run, "likeliest", lambda record, sets: better)
     found = search_pass(record, trust, all_variants(setting_of(record, believed)), lambda share, doing: None)
     assert found.decision.verdict == verdict
-    assert (found.rival is better) == told
+    assert (found.rival is better) == is_named
     if verdict == "unknown":
         assert found.decision.outside.words == "the force at rest differed" and found.decision.outside.lead == lead
