@@ -160,6 +160,7 @@ int main(int argc, char **argv)
     bool good = count.silent == 0u && count.misnamed == 0u;
     try_all("without PAST, as an earlier firmware left it", (uint32_t)every, false);
     good = good && count.silent == 0u;
+    /* Without the mark the number that is wanted stands in the damaged block alone, so a flip of it is misnamed. */
     good = roll_back_stands((uint32_t)every) && good;
     return good ? 0 : 1;
 }
