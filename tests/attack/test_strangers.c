@@ -30,7 +30,7 @@ static void begin(situation_t situation)
     drain();
 }
 
-/* Nothing of the operator's has changed; the stranger has been refused, reported and counted. */
+/* What the operator set is unchanged. The controller has refused the stranger, reported this and counted it. */
 static void nothing_came_of_it(const state_t *before, situation_t situation, const char *attack, uint32_t reported)
 {
     char where[160];

@@ -190,7 +190,7 @@ def _off(limb: LimbModel, truth: LimbModel, theta: np.ndarray) -> float:
 
 
 def judge(labels: list[str], each: int, seed: int) -> list[Judged]:
-    """All cases, told as they come."""
+    """Plays all cases and prints a line for each as soon as it ends."""
     judged = []
     for label in labels:
         for number in range(each):

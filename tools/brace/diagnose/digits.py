@@ -25,7 +25,7 @@ def number(value: float) -> str:
 
 
 def percent(share: float) -> str:
-    """`97 %`; never 100 % of what is not certain."""
+    """The share in percent, as `97 %`. A share below 1 is at most `over 99 %`: only 1 gives `100 %`."""
     if not math.isfinite(share):
         return "unknown"
     if 0.995 <= share < 1.0:

@@ -205,13 +205,13 @@ class _Staged:
             self._handle = -1
 
 
-_MARK = re.compile(rb"\n# brace wrote this file; sha256 of what is above: ([0-9a-f]{64})\n$")
+_MARK = re.compile(rb"\n# brace wrote this file; sha256 of the lines above: ([0-9a-f]{64})\n$")
 
 
 def marked(text: str) -> str:
     """The text of a TOML file with a last line by which `refuse_written` knows it again."""
     body = "\n".join(line for line in text.splitlines() if not line.startswith("# brace wrote this file;"))
-    return f"{body}\n# brace wrote this file; sha256 of what is above: {hashlib.sha256(body.encode()).hexdigest()}\n"
+    return f"{body}\n# brace wrote this file; sha256 of the lines above: {hashlib.sha256(body.encode()).hexdigest()}\n"
 
 
 def is_unchanged(data: bytes) -> bool:

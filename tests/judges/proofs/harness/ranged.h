@@ -434,7 +434,7 @@ public:
     {
         if (!is_sure && !in_ways) {
             complain("a comparison that is open");
-            first_of_way = numbers.size(); /* what follows shows nothing of what is before: it is one way of two */
+            first_of_way = numbers.size(); /* numbers from here on belong to one of two ways only */
         } else if (!is_sure) {
             const std::size_t at = decided.size();
             answer = at < to_decide.size() ? to_decide[at] : false;

@@ -89,7 +89,7 @@ class Tried:
 
 @dataclass(frozen=True)
 class Facts:
-    """The record of one page, from top to bottom. Empty texts and lists say that there is nothing of the kind."""
+    """What one report page shows, in the order of the page. An empty text or list: the page has no such part."""
 
     record: str
     limb: str

@@ -68,8 +68,8 @@ static void asks_who(uint32_t token)
     say(line);
 }
 
-/* Who closes the channel and opens it again finds nothing of before: no answer, no news of a fault that was sent to
- * nobody; and whoever moved the limb by it is its owner no longer. */
+/* A client that closes the channel and opens it again gets no answer and no news of a fault from the time before. If it
+ * moved the limb over this channel, it is no longer the owner. */
 static void test_a_channel_that_is_opened_again_begins_anew(void)
 {
     say("O\r");
