@@ -17,7 +17,7 @@ from adding_page import PROJECT, Step, steps
 EXAMPLES = ("Adding a parameter", "Adding a message", "Adding a fault", "Adding a request")
 STEPS = [step for example in EXAMPLES for step in steps(example)]
 SUITES = ("test_app_warmth", "test_generated", "test_can_process_data", "test_can_data", "test_can_codecs",
-          "test_parameters")  # fmt: skip
+          "test_parameters", "test_code_names")  # fmt: skip
 LEFT_BEHIND = ("build", ".git", ".venv", ".cache", "__pycache__", ".pytest_cache", ".mypy_cache", "*.egg-info")
 NEEDED = ("firmware", "hal/include", "hal/fake", "tools/interface", "tools/brace", "tests/unit", "docs", "host_sim/api")
 INCLUDES = ("firmware/core/include", "firmware/interface/include", "firmware/interface/generated",
@@ -99,6 +99,11 @@ def test_with_all_steps_nothing_is_missing(tmp_path: Path, unity: str) -> None:
     for step in STEPS:
         step.do(project)
     assert faults_without(project, unity) == ""
+
+
+def test_the_examples_satisfy_the_check_of_columns() -> None:
+    lines = [(step.file, line) for step in STEPS for line in step.text.splitlines()]
+    assert not [at for at in lines if at[0].endswith((".c", ".h", ".cpp")) and len(at[1]) > 120]
 
 
 @pytest.mark.parametrize("left_out", STEPS, ids=lambda step: f"{Path(step.file).name}-{step.line[:12].strip()}")

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "brace/code_names.h"
+#include "brace/codes.h"
 #include "unity.h"
 
 typedef const char *(*lookup_t)(int32_t number);
@@ -23,7 +24,7 @@ static const struct {
     {brace_heartbeat_state_name, brace_heartbeat_state_text, NULL, 0, 127},
     {brace_parameter_origin_name, brace_parameter_origin_text, NULL, 0, 2},
     {brace_contact_name, brace_contact_text, NULL, 0, 2},
-    {brace_fault_name, brace_fault_text, "SENSOR_FEMUR", 0, 15},
+    {brace_fault_name, brace_fault_text, "SENSOR_FEMUR", 0, BRACE_FAULT_COUNT - 1},
     {brace_flag_name, brace_flag_text, NULL, 0, 9},
     {brace_drift_could_be_name, brace_drift_could_be_text, NULL, 0, 3},
     {brace_setting_name, brace_setting_text, NULL, 1, 3},
