@@ -82,7 +82,8 @@ def _member(frame: Frame, signal: Signal, measured: Mapping[str, Measured]) -> s
         raise DictionaryError(f"{where}: no measured value is named {signal.source!r}; name one with `from`, or give "
                               "the message `by_hand`")
     if source.unit != signal.unit or (source.type == "f32") != (signal.kind != "number"):
-        raise DictionaryError(f"{where}: {source.name} is {source.type} in {source.unit!r}")
+        raise DictionaryError(f"{where}: {source.name} is {source.type} in {source.unit!r}; write that unit here, and for "
+                              "u32 no kind, as nothing converts it")
     return f"measured->{source.member}"
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import tomllib
 import zlib
 from collections.abc import Mapping, Sequence
@@ -30,10 +31,19 @@ _KEYS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
     "request": (("code", "name", "description"), ("field", "answer", "answers_as", "answer_numbers")),
     "answer": (("number", "field"), ()),
 }  # fmt: skip
+_TYPES = {  # of the values of these keys, in any table
+    "a text": ("name", "description", "rate", "kind", "unit", "names", "bit_names", "from"),
+    "a whole number": ("bits", "id", "bytes", "number", "code"),
+    "a number": ("step",),
+    "true or false": ("signed", "wraps", "unknown_beyond", "by_hand", "coxa"),
+}
+_TYPE_OF = {key: word for word, keys in _TYPES.items() for key in keys}
+_NAME = re.compile(r"[a-z][a-z0-9_]*")  # of C, of Python and of the databases
 NODES = 0x80  # identifiers of one message: one for each node, and 0
 BASIC_IDS = 0x800  # of 11 bits
 _SATURATED = "SATURATED"  # the bit of flags: a value was limited
 SEQUENCE = "sequence"  # the signal of a frame of measured values that is the same in all frames of one snapshot
+SEQUENCE_BITS, WORD_BITS = 8, 32  # at least, where it wraps; as the controller counts
 PART = "part"  # the common signal of a multiplexed message that says which part a frame carries
 
 
@@ -300,6 +310,8 @@ def _check_tables(content: Mapping[str, Any]) -> None:
     """No table lacks a key, and none has one that nobody reads."""
     def check(kind: str, raw: Mapping[str, Any], where: str) -> None:
         check_keys(raw, *_KEYS[kind], where)
+        _refuse_wrong_types(raw, where)
+        _refuse_name(raw.get("name"), where)
 
     for kind in ("message", "fd_message", "multiplexed", "request"):
         for raw in content.get(kind, []):
@@ -313,13 +325,35 @@ def _check_tables(content: Mapping[str, Any]) -> None:
                 check("answer", answer, f"{where}, answer {answer.get('number')}")
 
 
+def _refuse_wrong_types(raw: Mapping[str, Any], where: str) -> None:
+    """A text where a number belongs, or a number where true or false does."""
+    words = {str: ("a text",), bool: ("true or false",), int: ("a whole number", "a number"), float: ("a number",)}
+    for key, value in raw.items():
+        if key in _TYPE_OF and _TYPE_OF[key] not in words.get(type(value), ()):
+            raise DictionaryError(f"{where}: {key} = {value!r} is not {_TYPE_OF[key]}")
+
+
+def _refuse_name(name: str | None, where: str) -> None:
+    """A name that is none in C."""
+    if name is not None and not _NAME.fullmatch(name):
+        raise DictionaryError(f"{where}: a name begins with a small letter, and has small letters, digits and _ only")
+
+
 def _refuse_process(frame: Frame) -> None:
     """What goes out at a rate: the rate is the controller's, and receivers put frames of one snapshot together."""
     if frame.rate and not frame.rate.startswith("controller."):
         raise DictionaryError(f"{frame.name}: its rate is a key of limb.toml's table [controller], not {frame.rate!r}")
-    if frame.is_measured and not any(signal.name == SEQUENCE for signal in frame.signals):
+    sequences = [signal for signal in frame.signals if signal.name == SEQUENCE]
+    if frame.is_measured and not sequences:
         raise DictionaryError(f"{frame.name}: what goes out at a rate has the signal {SEQUENCE!r}, by which receivers "
                               "put the frames of one snapshot together")
+    for signal in sequences:
+        is_whole = signal.bits == WORD_BITS or (signal.bits >= SEQUENCE_BITS and signal.wraps)
+        if signal.kind != "number" or signal.signed or (frame.is_measured and not is_whole):
+            raise DictionaryError(f"{frame.name}.{SEQUENCE}: it is an unsigned number, of {WORD_BITS} bits or of at "
+                                  f"least {SEQUENCE_BITS} with wraps = true: else it would stand still at its greatest")
+    if frame.part is not None and not frame.rate and not frame.by_hand:
+        raise DictionaryError(f"{frame.name}: it has neither a rate nor by_hand = true, so nobody would send it")
 
 
 def check_rates(wire: Wire, keys: Mapping[str, str]) -> None:
@@ -365,6 +399,8 @@ def _refuse_identifiers(wire: Wire) -> None:
         where = f"{message.name}: its identifier 0x{message.identifier:03x}"
         if message.identifier % NODES:
             raise DictionaryError(f"{where} is no multiple of 0x80, to which a controller adds its node number")
+        if not 0 <= message.identifier < BASIC_IDS:
+            raise DictionaryError(f"{where} is more than the 11 bits of a frame; free identifiers: {free or 'none'}")
         if message.identifier in used:
             raise DictionaryError(f"{where} is that of {used[message.identifier]}; free identifiers: {free or 'none'}")
         used[message.identifier] = message.name
@@ -431,6 +467,8 @@ def _signals(
     for raw in raws:
         at = f"{where}.{raw.get('name')}"
         check_keys(raw, *_KEYS["signal"], at)
+        _refuse_wrong_types(raw, at)
+        _refuse_name(raw["name"], at)
         kind = raw.get("kind", "number")
         table = (
             codes.enum(raw["names"], at) if "names" in raw
@@ -447,6 +485,10 @@ def _signals(
             raise DictionaryError(f"{at}: kind {kind} of {signal.bits} bits")
         if (kind == "value") != ("step" in raw):
             raise DictionaryError(f"{at}: a value has a step, and nothing else has one")
+        if signal.bits < 1 or not 0.0 < signal.step < float("inf"):
+            raise DictionaryError(f"{at}: bits and step are above 0")
+        if any(signal.name == other.name for other in signals):
+            raise DictionaryError(f"{at} stands there twice")
         if fault := unit_fault(signal.unit):
             raise DictionaryError(f"{at}: {fault}")
         if table is not None and max(signal.names, default=len(signal.bit_names) - 1) > (
