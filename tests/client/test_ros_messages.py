@@ -95,6 +95,7 @@ def stand_in(folder: Path, name: str, message: str, text: str, *needs: str) -> N
     build(folder, source)
 
 
+@pytest.mark.minutes
 @pytest.mark.skipif(not GENERATORS.is_dir(), reason="no ROS 2 generators here (Debian: rosidl-generator-c-cpp)")
 def test_the_messages_are_built_and_read(tmp_path: Path) -> None:
     (tmp_path / "generators").mkdir()

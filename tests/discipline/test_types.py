@@ -9,8 +9,8 @@ from sources import ROOT
 from typed_folders import TYPED, mypy_command, mypy_environment
 
 
-# ./dev check looks at the types of what differs from main, so that those of the judges can wait for ./dev judges.
-FOLDERS = [pytest.param(one, marks=pytest.mark.minutes if one.startswith("tests/judges/") else ()) for one in TYPED]
+# ./dev check looks at the types of what differs from main, so that those of the tests can wait for ./dev judges.
+FOLDERS = [pytest.param(one, marks=pytest.mark.minutes if one.startswith("tests/") else ()) for one in TYPED]
 
 
 @pytest.mark.parametrize("folders", FOLDERS)

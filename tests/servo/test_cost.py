@@ -6,6 +6,7 @@ import subprocess
 from pathlib import Path
 from typing import Any
 
+import pytest
 import unicorn
 from brace.native import servos_library
 from unicorn import arm_const as arm
@@ -69,6 +70,7 @@ class Controller:
         self.cpu.mem_write(self.symbols[name], value.to_bytes(4, "little"))
 
 
+@pytest.mark.minutes
 def test_what_the_driver_costs(tmp_path: Path) -> None:
     controller, native = Controller(tmp_path), servos_library()
     lib, spoken = native.lib, native.ffi.new("uint8_t[]", 256)

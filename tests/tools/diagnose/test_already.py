@@ -85,6 +85,7 @@ def test_one_of_several_is_said_only_where_the_name_is_not_sure(made: Made) -> N
     assert "  one of     a@b, backlash@joint.tibia" in list(summary.lines(shared))
 
 
+@pytest.mark.minutes
 def test_a_record_of_more_play_than_the_model_has(made: Made) -> None:
     dataset, believed, _ = made
     found = diagnose(dataset, believed.with_values({GAP_KEY: 0.003}), Options())

@@ -85,6 +85,7 @@ def test_one_process_and_two_write_the_same_bytes(
         assert (tmp_path / "1" / leaf).read_bytes() == (tmp_path / "2" / leaf).read_bytes()
 
 
+@pytest.mark.minutes
 def test_the_second_process_plans_and_draws_while_the_first_loads_and_draws(
     monkeypatch: pytest.MonkeyPatch, paper_limb: Path, record: Path
 ) -> None:

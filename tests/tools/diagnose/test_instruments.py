@@ -156,6 +156,7 @@ def displace(columns: Columns, limb: Path, x_mm: np.ndarray, z_mm: np.ndarray) -
         columns[name] += there[name] - believed[name]
 
 
+@pytest.mark.minutes
 def test_a_clamp_that_slips_is_told_with_its_way(tmp_path: Path, limb: Path) -> None:
     """The plant plays the tip where it stands; the record says where the rig believes it to be."""
 

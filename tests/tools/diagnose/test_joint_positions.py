@@ -32,6 +32,7 @@ def bench(folder: Path, zeros_rad: tuple[float, ...], gaps_rad: tuple[float, ...
     return found_in(folder, tests)
 
 
+@pytest.mark.minutes
 def test_zeros_of_positions_are_the_record_s_own(tmp_path: Path) -> None:
     """Angles that differ by ten times the play say nothing about the joint."""
     found = bench(tmp_path, (0.1, -0.15, 0.22, 0.0), (GAP_RAD,) * 4)

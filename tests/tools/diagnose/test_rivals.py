@@ -63,6 +63,7 @@ def yields(tmp_path_factory: pytest.TempPathFactory, limb: Path) -> Diagnosis:
     return told(tmp_path_factory.mktemp("yields") / "record", limb, YIELDS)
 
 
+@pytest.mark.minutes
 def test_a_base_without_a_gauge_may_be_the_rig(yields: Diagnosis, limb: Path) -> None:
     """Base and rig are one spring after the other: nobody can say which; the limb stays as it was given."""
     assert yields.verdict == "ambiguous"
