@@ -168,12 +168,12 @@ typedef struct {
     int32_t (*nvm_write)(void *context, uint32_t slot, uint32_t offset, const uint8_t *bytes, uint32_t count);
     int32_t (*nvm_erase)(void *context, uint32_t slot);
 
-    /* Optional: all five, or all null where there is no CAN. can_setup starts the controller anew: OK, E_UNSUPPORTED (no
-     * such controller), E_RANGE, E_DEVICE (not now; the tick tries again every 2 s). It may block for 1 ms, and does not
-     * wait until the bus is quiet; can_health reports bus_off until then. can_send queues one frame: OK, AGAIN,
-     * E_BUS_OFF, E_UNSUPPORTED, E_RANGE. Queued frames of one identifier leave in order. can_receive returns 1 and a
-     * frame, or 0. can_recover starts the standard's way back to the bus (128 x 11 recessive bits) and does not wait
-     * for its end. Only can_setup blocks. */
+    /* Optional: all five, or all null where there is no CAN. can_setup starts the controller anew: OK, E_UNSUPPORTED
+     * (no such controller), E_RANGE, E_DEVICE (not now; the tick tries again every 2 s). It may block for 1 ms, and
+     * does not wait until the bus is quiet; can_health reports bus_off until then. can_send queues one frame: OK,
+     * AGAIN, E_BUS_OFF, E_UNSUPPORTED, E_RANGE. Queued frames of one identifier leave in order. can_receive returns 1
+     * and a frame, or 0. can_recover starts the standard's way back to the bus (128 x 11 recessive bits) and does not
+     * wait for its end. Only can_setup blocks. */
     int32_t (*can_setup)(void *context, const brace_can_setup_t *setup);
     int32_t (*can_send)(void *context, const brace_can_frame_t *frame);
     int32_t (*can_receive)(void *context, brace_can_frame_t *frame);
@@ -187,8 +187,8 @@ typedef struct {
     int32_t (*serial_write)(void *context, brace_serial_port_t port, const uint8_t *bytes, uint32_t count);
     int32_t (*serial_read)(void *context, brace_serial_port_t port, uint8_t *bytes, uint32_t room);
 
-    /* Optional: null where every port has one other end. Number of the connection that the bytes read last came from; no
-     * two connections have the same number. Does not block. */
+    /* Optional: null where every port has one other end. Number of the connection that the bytes read last came from;
+     * no two connections have the same number. Does not block. */
     uint32_t (*serial_peer)(void *context, brace_serial_port_t port);
 
     /* Optional, with serial_peer: bytes for that connection. Takes all of them, or none where they find no room; for a
@@ -201,9 +201,9 @@ typedef struct {
 
     /* Optional: null where everybody on the board's buses may move the limb, on a bench. The key of this board, from
      * memory of its own: KEY_LOCKED or KEY_OPEN and its bytes, KEY_NONE, E_DAMAGED (a piece of a key, a key that has
-     * lost bits, or memory that was locked without one), E_DEVICE (it does not answer). key_write keeps a key, once, and
-     * locks it: OK, AGAIN (kept, but not locked; the next start tries again), E_RANGE (there is one already), E_DEVICE;
-     * it may block for 2 ms, and is called by the console alone. random_read gives a word
+     * lost bits, or memory that was locked without one), E_DEVICE (it does not answer). key_write keeps a key, once,
+     * and locks it: OK, AGAIN (kept, but not locked; the next start tries again), E_RANGE (there is one already),
+     * E_DEVICE; it may block for 2 ms, and is called by the console alone. random_read gives a word
      * that nobody can predict: OK, AGAIN, E_DEVICE; without it a board with a key refuses motion. */
     int32_t (*key_read)(void *context, uint8_t key[BRACE_HAL_KEY_BYTES]);
     int32_t (*key_write)(void *context, const uint8_t key[BRACE_HAL_KEY_BYTES]);

@@ -207,9 +207,10 @@ typedef struct {
     const double *dx_mm;     /* imposed displacement of the tip */
     const double *dz_mm;
     const int32_t *free_axis; /* may be null; 0: both axes imposed, 1: x is free, 2: z is free, its force 0 */
-    const double *preload_x_n; /* may be null, then preload_z_n is, too. Else the force on the limb's tip at each run's */
-    const double *preload_z_n; /* first row: the tip rests in its place under that force, and displacements count from
-                                * the first row */
+    /* may be null, then preload_z_n is, too. Else the force on the limb's tip at each run's first row: the tip rests in
+     * its place under that force, and displacements count from the first row */
+    const double *preload_x_n;
+    const double *preload_z_n;
 } brace_loading_rows_t;
 
 /* The rig's readings. Every pointer is optional, and has room for one entry per row. */

@@ -68,7 +68,8 @@ typedef struct {
     uint8_t servo_id[3];             /* of coxa, femur, tibia */
     int32_t servos_hold;             /* real servos without torque are commanded to hold where they stand */
     const uint8_t *key;              /* 16 bytes: the controller is guarded; null: it is a bench (docs/security.md) */
-    double owner_silence_s;          /* how long whoever moves the limb may be silent, in the simulation's time; 0: 0.13 */
+    /* how long whoever moves the limb may be silent, in the simulation's time; 0: 0.13 */
+    double owner_silence_s;
 } brace_node_limb_t;
 
 /* The paper's limb, an MX-106 per joint, planted and unloaded at theta 0, 1.0, 1.4; 22 degC. Null is ignored. */

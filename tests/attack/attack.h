@@ -82,7 +82,8 @@ static inline void start_limb(bool is_guarded, const uint8_t *key)
 
 /* --------------------------------------------------------------------------------------- the operator -- */
 
-static inline uint32_t check_of(const uint8_t *key, uint32_t number, uint32_t kind, const uint8_t *bytes, uint32_t count)
+static inline uint32_t check_of(const uint8_t *key, uint32_t number, uint32_t kind, const uint8_t *bytes,
+                                uint32_t count)
 {
     siphash_t hash;
     siphash_start(&hash, key);

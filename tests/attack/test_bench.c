@@ -52,7 +52,8 @@ static void test_a_stray_command_moves_nothing(void)
     for (int which = 0; which < 2; which++) {
         make_take_up(BRACE_FEMUR, data);
         if (which == 1) {
-            brace_can_pack_loading_test_start_request(&(brace_can_loading_test_start_request_t){0, 0, 2, 0.5f, 20}, data);
+            const brace_can_loading_test_start_request_t asked = {0, 0, 2, 0.5f, 20};
+            brace_can_pack_loading_test_start_request(&asked, data);
         }
         const uint32_t before = silences();
         const answer_t answer = command(data);
@@ -78,7 +79,8 @@ static void hold_the_femur(void)
     drain();
 }
 
-/* What was taken up stays so without its master; a late let_go, or a late take-up of the other joint, changes nothing. */
+/* What was taken up stays so without its master; a late let_go, or a late take-up of the other joint, changes
+ * nothing. */
 static void test_late_commands_move_nothing(void)
 {
     uint8_t data[8];
@@ -92,7 +94,8 @@ static void test_late_commands_move_nothing(void)
         if (which == 1) {
             make_take_up(BRACE_TIBIA, data);
         } else if (which == 2) {
-            brace_can_pack_loading_test_start_request(&(brace_can_loading_test_start_request_t){0, 0, 2, 0.5f, 20}, data);
+            const brace_can_loading_test_start_request_t asked = {0, 0, 2, 0.5f, 20};
+            brace_can_pack_loading_test_start_request(&asked, data);
         }
         says_as(OPERATOR_TOKEN, data);
         ticks(500);
@@ -133,7 +136,8 @@ static void test_a_second_master_is_refused_while_the_first_moves_the_limb(void)
         if (which == 1) {
             make_take_up(BRACE_TIBIA, data);
         } else if (which == 2) {
-            brace_can_pack_loading_test_start_request(&(brace_can_loading_test_start_request_t){0, 0, 2, 0.5f, 20}, data);
+            const brace_can_loading_test_start_request_t asked = {0, 0, 2, 0.5f, 20};
+            brace_can_pack_loading_test_start_request(&asked, data);
         } else if (which == 3) {
             make_sign(NULL, number_now(), 0, data);
         }
@@ -213,7 +217,8 @@ static void stands_within_150_ms(void)
             TEST_ASSERT_TRUE(fake.joint[i].sample.taken_us == fake.now_us || i == BRACE_COXA);
         }
         stood_ms = moves ? ms : stood_ms;
-        TEST_ASSERT_TRUE(fake.now_us - fake.joint[BRACE_FEMUR].commanded_us < 100000u); /* and commanded again and again */
+        /* and commanded again and again */
+        TEST_ASSERT_TRUE(fake.now_us - fake.joint[BRACE_FEMUR].commanded_us < 100000u);
     }
     TEST_ASSERT_TRUE(stood_ms <= 150);
     TEST_ASSERT_TRUE(offset_rad(BRACE_FEMUR) != 0.0f);
@@ -309,7 +314,8 @@ static void test_a_closed_connection_is_nothing_to_a_master_on_can(void)
     TEST_ASSERT_EQUAL(BRACE_OWNER_CAN, report.owner);
 }
 
-/* By hand each write has a connection of its own: the next one goes on for the one that has closed, and for no other. */
+/* By hand each write has a connection of its own: the next one goes on for the one that has closed, and for no
+ * other. */
 static void test_connections_by_hand_follow_one_another(void)
 {
     const uint8_t asks[10] = {16, 0x40, 0x08, 0, 2, 4, 0, 0, 1, 1};
@@ -351,7 +357,8 @@ static void configure(void)
     accepted_command(data);
 }
 
-/* A second master's value is refused by another port, and does not go in by the same one where the commit names its set. */
+/* A second master's value is refused by another port, and does not go in by the same one where the commit names its
+ * set. */
 static void test_a_stranger_s_value_does_not_go_in_with_the_operator_s_commit(void)
 {
     uint8_t data[8];
@@ -451,7 +458,8 @@ static void test_no_parameter_passes_the_board_s_ceilings(void)
     fake.hal.ceiling = ceiling;
     refused_at_commit(brace_parameter_number(BRACE_PARAMETER_CONTROLLER_NODE_ID), 0);
     for (uint32_t i = 0; i < 3u; i++) {
-        const uint32_t first = (uint32_t)offsetof(brace_parameters_t, drive) / 4u + i * (uint32_t)sizeof(brace_drive_t) / 4u;
+        const uint32_t words_each = (uint32_t)sizeof(brace_drive_t) / 4u;
+        const uint32_t first = (uint32_t)offsetof(brace_parameters_t, drive) / 4u + i * words_each;
         refused_at_commit(brace_parameter_number(first + offsetof(brace_drive_t, torque_range_n_mm) / 4u), bits(1e6f));
         refused_at_commit(brace_parameter_number(first + offsetof(brace_drive_t, angle_max_rad) / 4u), bits(3.3f));
         refused_at_commit(brace_parameter_number(first + offsetof(brace_drive_t, angle_min_rad) / 4u), bits(-2.6f));

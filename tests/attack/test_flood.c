@@ -1,5 +1,5 @@
-/* A stop is heard whatever else comes, and nobody's questions starve another's: judged by what the drives are commanded and
- * by counting frames.
+/* A stop is heard whatever else comes, and nobody's questions starve another's: judged by what the drives are commanded
+ * and by counting frames.
  *
  *     build/host/tests/test_flood [TRIALS]     default 400; trust.md has the figure of 10,000
  *

@@ -2,9 +2,9 @@
  * stalled connection, a radio link, a gateway. No set-point may move by them, on a guarded board or on a bench.
  *
  * The enemy is stronger than a link can be. Each session is recorded from a controller that it does move, and the
- * controller is set back to where the session began, so that every number and every check in it would have been right. The
- * link may break off anywhere in it: what came before has come in time. Everything behind comes later, twice in places,
- * and perhaps into the session of somebody else or of the same master.
+ * controller is set back to where the session began, so that every number and every check in it would have been right.
+ * The link may break off anywhere in it: what came before has come in time. Everything behind comes later, twice in
+ * places, and perhaps into the session of somebody else or of the same master.
  *
  *   test_late        a few hundred bursts
  *   test_late 1000   so many for a bench and as many for a guarded board */
@@ -216,8 +216,8 @@ static void send_frame(const uint8_t data[8])
     memcpy(m.byte, data, 8);
     if (way == BY_TEXT) {
         char text[MESSAGE_BYTES];
-        m.count = (uint32_t)snprintf(text, sizeof text, "t%03X8%02X%02X%02X%02X%02X%02X%02X%02X\r", 0x600u + NODE, data[0],
-                                     data[1], data[2], data[3], data[4], data[5], data[6], data[7]);
+        m.count = (uint32_t)snprintf(text, sizeof text, "t%03X8%02X%02X%02X%02X%02X%02X%02X%02X\r", 0x600u + NODE,
+                                     data[0], data[1], data[2], data[3], data[4], data[5], data[6], data[7]);
         memcpy(m.byte, text, m.count);
     }
     send(&m);
@@ -241,7 +241,8 @@ static void send_pdu(const uint8_t *pdu, uint32_t count)
 
 static uint32_t make_values(uint32_t start, const uint32_t *values, uint32_t count, uint8_t *pdu)
 {
-    const uint8_t head[6] = {16, (uint8_t)(start >> 8), (uint8_t)start, 0, (uint8_t)(2u * count), (uint8_t)(4u * count)};
+    const uint8_t head[6] = {16, (uint8_t)(start >> 8), (uint8_t)start,
+                             0, (uint8_t)(2u * count), (uint8_t)(4u * count)};
     memcpy(pdu, head, sizeof head);
     for (uint32_t i = 0; i < 4u * count; i++) {
         pdu[6u + i] = (uint8_t)(values[i / 4u] >> (24u - 8u * (i % 4u)));
@@ -358,8 +359,8 @@ static bool record(const script_t *script)
 
 /* ------------------------------------------------------------------------------------- held back -- */
 
-/* Time passes in which nothing comes. Of a long time only the session's part is played: the rest of an idle controller is
- * the same afterwards. */
+/* Time passes in which nothing comes. Of a long time only the session's part is played: the rest of an idle controller
+ * is the same afterwards. */
 static void hold_back(uint64_t us)
 {
     enum { PLAYED_MS = 1500, STEP_US = 20000 };
@@ -460,8 +461,8 @@ static void burst(const script_t *script, bool guarded)
     bursts++;
     if (moved != moved_before) {
         (void)printf("moved: %s, %s, script %u, held back %.3f s from message %u of %u on, situation %u\n",
-                     guarded ? "guarded" : "bench", way_name[way], (unsigned)(script - scripts), (double)delay_us * 1e-6,
-                     (unsigned)from, (unsigned)messages, (unsigned)situation);
+                     guarded ? "guarded" : "bench", way_name[way], (unsigned)(script - scripts),
+                     (double)delay_us * 1e-6, (unsigned)from, (unsigned)messages, (unsigned)situation);
     }
 }
 

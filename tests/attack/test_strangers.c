@@ -241,7 +241,8 @@ static reply_t lives_by_tcp(void)
     return tcp_asks(UNIT, pdu, count);
 }
 
-/* The owner's own way over Modbus TCP: its challenge, a sign of life in one block, then each command behind its seal. */
+/* The owner's own way over Modbus TCP: its challenge, a sign of life in one block, then each command behind its
+ * seal. */
 static void test_the_owner_goes_by_modbus_too(void)
 {
     uint8_t pdu[14], sealing[14];
@@ -251,9 +252,11 @@ static void test_the_owner_goes_by_modbus_too(void)
     drain();
     TEST_ASSERT_EQUAL(5, lives_by_tcp().count);
     TEST_ASSERT_EQUAL(BRACE_OWNER_MODBUS_TCP, read_entry(ENTRY(owner)));
-    uint32_t count = make_block(COMMAND_REGISTER(take_up), 0x101, 0, 1, pdu); /* the femur's play, towards its positive flank */
+    /* the femur's play, towards its positive flank */
+    uint32_t count = make_block(COMMAND_REGISTER(take_up), 0x101, 0, 1, pdu);
     TEST_ASSERT_EQUAL_HEX8(0x90, tcp_asks(UNIT, pdu, count).byte[0]); /* not without its seal */
-    const uint32_t sealed = make_block(COMMAND_REGISTER(seal_counter), 5, check_of(the_key, 5, 2, pdu, count), 2, sealing);
+    const uint32_t check = check_of(the_key, 5, 2, pdu, count);
+    const uint32_t sealed = make_block(COMMAND_REGISTER(seal_counter), 5, check, 2, sealing);
     TEST_ASSERT_EQUAL(5, tcp_asks(UNIT, sealing, sealed).count);
     TEST_ASSERT_EQUAL(5, tcp_asks(UNIT, pdu, count).count);
     TEST_ASSERT_EQUAL(5, lives_by_tcp().count);
@@ -406,8 +409,8 @@ static bool is_heard_between(uint32_t before, uint32_t between)
 }
 
 /* A stranger who knows the next token repeats it before and between the operator's frames, and sends a command of its
- * own under it. The operator is let in each time. Eight seals between the two push its own out: then it is let in when it
- * tries again. */
+ * own under it. The operator is let in each time. Eight seals between the two push its own out: then it is let in when
+ * it tries again. */
 static void test_who_repeats_the_owner_s_token_does_not_shut_it_out(void)
 {
     begin(WITH_SESSION);
@@ -458,8 +461,8 @@ static void test_a_dead_operator_is_not_kept_alive(void)
         sign_of_life(); /* so that this number has counted */
         for (uint32_t i = 0; i < 150u; i++) {
             if (way == FLOODED || i % 20u == 0u) {
-                make_sign(way == REPLAYED ? the_key : another_key, way == REPLAYED ? last : number_now(), OPERATOR_TOKEN,
-                          data);
+                make_sign(way == REPLAYED ? the_key : another_key, way == REPLAYED ? last : number_now(),
+                          OPERATOR_TOKEN, data);
                 says(data);
             }
             ticks(1);

@@ -1,7 +1,7 @@
-/* How long the program that links this has waited and computed, on stderr when it ends: "own time N ms". A wait counts up to
- * the time-out that was given to it. So a machine that lets the program stand does not count, and a program that waits
- * on, or again with each byte that comes, does. poll and select stand here in place of libc's: the client and libmodbus
- * wait by nothing else. */
+/* How long the program that links this has waited and computed, on stderr when it ends: "own time N ms". A wait counts
+ * up to the time-out that was given to it. So a machine that lets the program stand does not count, and a program that
+ * waits on, or again with each byte that comes, does. poll and select stand here in place of libc's: the client and
+ * libmodbus wait by nothing else. */
 #include <poll.h>
 #include <stdio.h>
 #include <stdlib.h>

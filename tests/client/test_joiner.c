@@ -604,7 +604,8 @@ static void test_faults_are_those_last_heard(void)
     (void)brace_can_pack_emergency(&(brace_can_emergency_t){.faults = 4u}, frame.data);
     TEST_ASSERT_NULL(brace_joiner_add(&joiner, NODE, &frame, 0u));
     TEST_ASSERT_EQUAL_HEX32(4u, faults_now(&joiner, 0u));
-    TEST_ASSERT_EQUAL_HEX32(UINT32_MAX, faults_now(&joiner, 1u)); /* the frame that was lost may have reported another */
+    /* the frame that was lost may have reported another */
+    TEST_ASSERT_EQUAL_HEX32(UINT32_MAX, faults_now(&joiner, 1u));
     frame.id = BRACE_CAN_ID_EMERGENCY + NODE + 1;
     (void)brace_joiner_add(&joiner, NODE, &frame, 1u);
     TEST_ASSERT_EQUAL_HEX32(UINT32_MAX, faults_now(&joiner, 1u)); /* a neighbour's */

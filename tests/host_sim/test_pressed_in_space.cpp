@@ -114,7 +114,8 @@ brace_loaded_space_result_t reference(const brace_plant_model_t &limb, const Vec
                                              std::sin(limb.gravity.lean_rad),
                                              within * std::sin(limb.gravity.direction_rad)};
     brace_loaded_space_result_t expected;
-    TEST_ASSERT_EQUAL_INT(BRACE_HOST_OK, brace_reference_space_under_force(&limb, 1, &asked, parts, &expected, nullptr));
+    TEST_ASSERT_EQUAL_INT(BRACE_HOST_OK,
+                          brace_reference_space_under_force(&limb, 1, &asked, parts, &expected, nullptr));
     return expected;
 }
 

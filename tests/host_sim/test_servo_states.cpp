@@ -1,5 +1,5 @@
-// Servos that are silent, that start anew or that the driver does not know: what the driver reports of them, and what it
-// sends them. No servo moves unless somebody commands it.
+// Servos that are silent, that start anew or that the driver does not know: what the driver reports of them, and what
+// it sends them. No servo moves unless somebody commands it.
 #include "servo_bench.h"
 
 void setUp(void) {}
@@ -312,7 +312,8 @@ void test_a_goal_that_the_line_did_not_take_is_sent_again_at_once()
     }
 }
 
-// The driver asks a servo where it stands, and then commands it to stay there. A damaged answer must not move the servo.
+// The driver asks a servo where it stands, and then commands it to stay there. A damaged answer must not move the
+// servo.
 void test_no_burst_that_the_crc_misses_sends_a_servo_elsewhere()
 {
     constexpr std::size_t kPlace = 9 + 4 + 2;

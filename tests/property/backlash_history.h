@@ -1,5 +1,5 @@
-/* Random load and motion histories of one joint, a millisecond at a time: what the limb does, what the world does to it,
- * and what the instruments read. The same for whoever estimates the flank from it. */
+/* Random load and motion histories of one joint, a millisecond at a time: what the limb does, what the world does to
+ * it, and what the instruments read. The same for whoever estimates the flank from it. */
 #ifndef BACKLASH_HISTORY_H
 #define BACKLASH_HISTORY_H
 
@@ -44,8 +44,9 @@ brace_backlash_params_t joint_as_believed(const plant_t *plant, double gap_off, 
 
 history_t history_begin(uint64_t seed, gap_belief_t belief, bool expecting, breakaway_t breakaway);
 
-/* Before a tick: the motor may leave its setpoint, by reach_gaps of the gap as believed at most, to touch what cannot be
- * found from where it stands. While no flank is decided (0) it goes to the one that the offset lies nearer to; else back. */
+/* Before a tick: the motor may leave its setpoint, by reach_gaps of the gap as believed at most, to touch what cannot
+ * be found from where it stands. While no flank is decided (0) it goes to the one that the offset lies nearer to; else
+ * back. */
 void history_feel_for_flank(history_t *history, int flank, double offset_rad, double reach_gaps);
 
 /* Goes on by a millisecond and reads the instruments. */

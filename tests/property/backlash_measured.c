@@ -10,8 +10,8 @@ typedef struct {
     double flank, valid, offset_rad;
 } said_t;
 
-/* Gives the time in which an open gap has to be noticed [us], or a negative status. The motor goes slowly: its inertia is
- * left out. */
+/* Gives the time in which an open gap has to be noticed [us], or a negative status. The motor goes slowly: its inertia
+ * is left out. */
 int backlash_measured(const measured_joint_t *joint, int count, const double *motor_rad, const double *torque_n_mm,
                       said_t *said)
 {

@@ -1,13 +1,13 @@
-/* How well could anyone do? A particle filter over the link's place in the gap that knows what no controller knows: every
- * parameter of motor, gap, link and gravity as it is, and the motor's motion without quantisation. It sees the motor's
- * current with its noise (or, on request, without). It does not know what the world does to the link. Assumed of that:
- * a torque that wanders and jumps (steps of 25 % of range, kicks of 8 %), and holds that come and go at the link's place,
- * of a stiffness drawn as the histories draw it; on request it is given instead which kind of time it is, and the hold's
- * stiffness. Found for each tick: the offset in whose neighbourhood, a tenth of the gap to either side, most of the
- * probability lies: the best there is for that measure. On request it knows only what a controller may know: gap,
- * friction and inertia as the machine believes them, the link's to 20 %, and of the motor what its encoder and its
- * current read; and it may let the motor leave its setpoint to feel for a flank. Judges the attainable; shares no code
- * with the firmware. */
+/* How well could anyone do? A particle filter over the link's place in the gap that knows what no controller knows:
+ * every parameter of motor, gap, link and gravity as it is, and the motor's motion without quantisation. It sees the
+ * motor's current with its noise (or, on request, without). It does not know what the world does to the link. Assumed
+ * of that: a torque that wanders and jumps (steps of 25 % of range, kicks of 8 %), and holds that come and go at the
+ * link's place, of a stiffness drawn as the histories draw it; on request it is given instead which kind of time it is,
+ * and the hold's stiffness. Found for each tick: the offset in whose neighbourhood, a tenth of the gap to either side,
+ * most of the probability lies: the best there is for that measure. On request it knows only what a controller may
+ * know: gap, friction and inertia as the machine believes them, the link's to 20 %, and of the motor what its encoder
+ * and its current read; and it may let the motor leave its setpoint to feel for a flank. Judges the attainable; shares
+ * no code with the firmware. */
 #include <math.h>
 #include <string.h>
 
@@ -92,7 +92,8 @@ static void rejuvenate(particle_t *q, const plant_t *p, knows_t knows, dice_t *d
     }
     const double half = 0.5 * p->gap_rad, load = 0.12 * p->range_n_mm * dice_normal(dice);
     const bool engaged = dice_uniform(dice, 0.0, 1.0) < 0.7;
-    q->link_rad = q->motor_rad + (engaged ? -copysign(half, load) - load / p->stiffness : dice_uniform(dice, -half, half));
+    q->link_rad = q->motor_rad
+                  + (engaged ? -copysign(half, load) - load / p->stiffness : dice_uniform(dice, -half, half));
     q->link_speed = q->motor_speed;
     if (!knows.known_world) {
         q->world_n_mm = engaged ? -load - plant_gravity_n_mm(p, q->link_rad) : 0.0;
@@ -165,7 +166,8 @@ static double no_tick_alone_decides(double log_l)
 }
 
 /* How likely the motor's torque is with this load: its dry friction is known while it moves, within a bound else. */
-static double log_likelihood(particle_t *q, const plant_t *p, const motor_t *m, double passed, knows_t knows, dice_t *dice)
+static double log_likelihood(particle_t *q, const plant_t *p, const motor_t *m, double passed, knows_t knows,
+                             dice_t *dice)
 {
     const double most = p->motor_friction_n_mm;
     const double instrument = knows.exact_torque ? 0.004 * p->range_n_mm : p->noise_n_mm;

@@ -17,7 +17,7 @@ double dice_normal(dice_t *dice);
 typedef struct {
     double range_n_mm, noise_n_mm, bias_n_mm, step_rad;        /* motor and its instruments */
     double motor_inertia, motor_friction_n_mm, motor_damping;  /* before the gap */
-    double breakaway_ratio;                                    /* friction at rest over that in motion; 1: as in motion */
+    double breakaway_ratio; /* friction at rest over that in motion; 1: as in motion */
     double gap_rad, stiffness, damping;                        /* of the flanks */
     double link_inertia, link_friction_n_mm, link_damping;     /* behind it */
     double gravity_n_mm, gravity_phase_rad;

@@ -59,8 +59,8 @@ static void cnc_follow(cnc_t *cnc, const history_t *h, double read_rad)
 
 /* reach_gaps: how far the motor may leave its setpoint to feel for a flank; 0: not
  * trace: HISTORY_TICKS rows, or null */
-int backlash_history(uint64_t seed, int belief, int expecting, int breakaway, double reach_gaps, history_counts_t *counts,
-                     trace_tick_t *trace)
+int backlash_history(uint64_t seed, int belief, int expecting, int breakaway, double reach_gaps,
+                     history_counts_t *counts, trace_tick_t *trace)
 {
     history_t h = history_begin(seed, (gap_belief_t)belief, expecting != 0, (breakaway_t)breakaway);
     const plant_t *p = &h.plant;

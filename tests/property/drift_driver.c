@@ -6,8 +6,8 @@
 #include "brace/drift.h"
 
 /* Row by row; each row is one brace_drift_reading_t, its posture's K from the general path. run[]: where it changes, a
- * new run begins. reports (may be null): one per row. Stops at the first alarm when asked to. Returns the rows taken in,
- * or a negative status. */
+ * new run begins. reports (may be null): one per row. Stops at the first alarm when asked to. Returns the rows taken
+ * in, or a negative status. */
 long drift_watch(brace_drift_t *drift, const brace_limb_t *limb, size_t count, const brace_drift_reading_t *row,
                  const int32_t *run, int stop, brace_drift_report_t *reports)
 {

@@ -388,8 +388,8 @@ static void step_jobs(brace_app_t *app, const brace_snapshot_t *snapshot)
     softening_age(&controller->softening, controller->model.is_spatial && snapshot->load.is_counted);
 }
 
-/* The wires look at all that has come: stops and sessions come before everything. Whoever has hung up is gone before the
- * next one is heard. */
+/* The wires look at all that has come: stops and sessions come before everything. Whoever has hung up is gone before
+ * the next one is heard. */
 static void hear(brace_app_t *app, uint32_t now_us)
 {
     controller_t *controller = &app->controller;

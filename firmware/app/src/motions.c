@@ -1,5 +1,6 @@
-/* What moves the limb: the answers to what brace/requests.h lets anybody ask for. What comes over a wire is judged at once
- * and begins when its owner's sign of life has come. What the program around the controller asks for begins at once. */
+/* What moves the limb: the answers to what brace/requests.h lets anybody ask for. What comes over a wire is judged at
+ * once and begins when its owner's sign of life has come. What the program around the controller asks for begins at
+ * once. */
 #include <stddef.h>
 #include <string.h>
 
@@ -95,7 +96,8 @@ static brace_status_t ask_for(brace_app_t *app, const asked_motion_t *motion)
     }
     const session_t *session = &controller->ownership.session;
     const bool still_waits = controller->ownership.waits && (session->has_begin || session->has_begun);
-    const bool waits_already = still_waits && memcmp(motion, &controller->asked, sizeof *motion) == 0; /* it came twice */
+    /* it came twice */
+    const bool waits_already = still_waits && memcmp(motion, &controller->asked, sizeof *motion) == 0;
     if (controller->ownership.is_by_wire && !waits_already) {
         controller->asked = *motion;
         ownership_wait(&controller->ownership);

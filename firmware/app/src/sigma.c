@@ -69,7 +69,8 @@ static float angle_sigma_rad(const controller_t *controller, int index)
 {
     const brace_limb_t *limb = &controller->parameters.in_force.limb;
     const bool is_open = (flank_open_gaps(&controller->flank) & 1u << index) != 0u;
-    const float known_rad = limb->uncertainty.angle_rad, stands_rad = is_open ? 0.5f * limb->joint[index].gap_rad : 0.0f;
+    const float known_rad = limb->uncertainty.angle_rad,
+                stands_rad = is_open ? 0.5f * limb->joint[index].gap_rad : 0.0f;
     return __builtin_sqrtf(known_rad * known_rad + stands_rad * stands_rad);
 }
 

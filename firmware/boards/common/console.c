@@ -124,7 +124,8 @@ static void say_what_will_happen(text_t *text, const brace_app_t *app, uint32_t 
         say(text, "the processor crashes on purpose");
     }
     if (word == (uint32_t)RESTART && brace_app_moves(app)) {
-        say(text, "a joint moves or is held by this controller: its drive gets no command meanwhile, and may let it go");
+        say(text, "a joint moves or is held by this controller: "
+                  "its drive gets no command meanwhile, and may let it go");
     }
 }
 

@@ -116,7 +116,8 @@ int32_t io_listen(const char *scheme, const char *place, int *listener, char *wh
     socklen_t size = sizeof given;
     const bool listens = file >= 0 && setsockopt(file, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes) == 0
                          && bind(file, found->ai_addr, found->ai_addrlen) == 0 && make_nonblocking(file)
-                         && listen(file, 2 * BRACE_POSIX_CLIENTS) == 0 && getsockname(file, (struct sockaddr *)&given, &size) == 0;
+                         && listen(file, 2 * BRACE_POSIX_CLIENTS) == 0
+                         && getsockname(file, (struct sockaddr *)&given, &size) == 0;
     const int32_t status = listens ? BRACE_POSIX_OK : io_status_of_errno();
     freeaddrinfo(found);
     if (!listens) {

@@ -61,7 +61,8 @@ static seen_t watch(selftest_t *test, int32_t index)
 static void judge_samples(selftest_t *test, const char *name, const seen_t *seen)
 {
     if (!selftest_expect(test, seen->finite, name, "finite",
-            "an angle, torque or temperature is not finite: NaN is for one of the two encoders and for temp_degc only")) {
+            "an angle, torque or temperature is not finite: "
+            "NaN is for one of the two encoders and for temp_degc only")) {
         return;
     }
     selftest_expect(test, seen->possible, name, "within what a joint can be",

@@ -127,8 +127,8 @@ uint32_t stm32f405_sector_bytes(uint8_t sector);
  *   serial_*     rings of 512 bytes each way; a byte with a parity or framing error is dropped, so a frame's check
  *                fails; baud [1200, 2e6] that the clock meets to 2 %, else E_RANGE
  *   can_setup    E_UNSUPPORTED: no pins, or CAN FD asked for; E_RANGE: APB1 cannot give the bit rate; E_DEVICE: the
- *                controller does not answer (an emulator), or there is no crystal and neither listen_only nor loopback is
- *                asked for. On a bus that is held dominant, can_health reports bus_off until the bus is free
+ *                controller does not answer (an emulator), or there is no crystal and neither listen_only nor loopback
+ *                is asked for. On a bus that is held dominant, can_health reports bus_off until the bus is free
  *   can_send     three mailboxes, first in first out whatever the identifiers, so the order is kept; AGAIN when all
  *                three are full, or until the bus has been quiet once after can_setup; E_UNSUPPORTED when
  *                listening only. A frame that nobody takes for 100 ms is dropped by the next can_health

@@ -7,8 +7,8 @@
 
 enum { FLASH_WORD_BYTES = 4 };
 
-/* Does the flash interface answer? It is locked at rest. An emulator that lacks it lacks the one-time programmable memory
- * too, and a read of that memory would be a bus fault there. */
+/* Does the flash interface answer? It is locked at rest. An emulator that lacks it lacks the one-time programmable
+ * memory too, and a read of that memory would be a bus fault there. */
 bool flash_answers(void);
 
 /* Programs whole words, in rising order; a word takes 16 us, at most 100 us.

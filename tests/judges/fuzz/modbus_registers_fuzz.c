@@ -94,8 +94,8 @@ static uint32_t some_start(void)
 {
     static const uint16_t edge[] = {0,     2,     114,   116,   208,   210,   4096,  4108,  4110,  16384,
                                     16386, 16388, 16390, 16392, 16394, 16396, 16398, 16400, 16406, 16410,
-                                    16414, 16416, 16418, 16422, 16430, 16440, 16452, 16454, 16456, 16460, 4122,  4126,  4152,
-                                    4180,  65535, 65534, 32768};
+                                    16414, 16416, 16418, 16422, 16430, 16440, 16452, 16454, 16456, 16460, 4122,  4126,
+                                    4152,  4180,  65535, 65534, 32768};
     return dice(4) == 0u ? dice(65536) : edge[dice(sizeof edge / sizeof *edge)];
 }
 
@@ -448,7 +448,8 @@ int main(int argc, char **argv)
     for (number = 1; number <= requests; number++) {
         const uint32_t sequence = app.controller.sequence;
         parameter_job_t *job = &app.controller.parameters;
-        job->apart_us = dice(4) == 0u ? job->apart_us : 10000000u; /* commits are 10 s apart: here that passes at once */
+        /* commits are 10 s apart: here that passes at once */
+        job->apart_us = dice(4) == 0u ? job->apart_us : 10000000u;
         const before_t before = {app.controller.mode.now, job->has_staged, job->staged};
         if (dice(4) == 0u) {
             on_the_line(&before);

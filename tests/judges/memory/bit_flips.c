@@ -4,9 +4,10 @@
  *
  *   bit_flips [EVERY]    each EVERY-th bit (default 1: all)
  *
- * Prints, for each part of the memory: bits, seen (by MEMORY), the longest time until then, without effect on K, reported
- * otherwise (K invalid or flagged), and wrong. Exit code 1: a flip in parameters or in constants made from them was
- * wrong. What was wrong elsewhere is counted, and not judged: it is the state of the tick, which each tick makes anew.
+ * Prints, for each part of the memory: bits, seen (by MEMORY), the longest time until then, without effect on K,
+ * reported otherwise (K invalid or flagged), and wrong. Exit code 1: a flip in parameters or in constants made from
+ * them was wrong. What was wrong elsewhere is counted, and not judged: it is the state of the tick, which each tick
+ * makes anew.
  *
  * Tables of the firmware are const. They lie in flash, where no bit of RAM can flip them. */
 #include <math.h>

@@ -2,8 +2,8 @@
  * 64 bits that begin at each bit (both ends flip, what is between them by lot). After each a controller starts. Until
  * its first K that is valid and carries no UNCALIBRATED, either the newest set has to be in force, or OLD_PARAMETERS
  * (or PARAMETERS, where there is no other set) has to have been reported; and the sequence that was wanted has to be
- * named. Slots as this firmware writes them; and slots as an earlier one did, without the mark PAST, where a rotten mark
- * looks like one that was never written to its end, so that only the block's bits are judged.
+ * named. Slots as this firmware writes them; and slots as an earlier one did, without the mark PAST, where a rotten
+ * mark looks like one that was never written to its end, so that only the block's bits are judged.
  *
  *   rotten_sets [EVERY]    each EVERY-th bit (default 1: all)
  *

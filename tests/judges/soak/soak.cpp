@@ -1,7 +1,8 @@
 // soak [TICKS [SEED [alone|blind]]]: four limbs and their controllers on one CAN bus, for TICKS of a millisecond of
 // simulated time; 10,000,000 is ./dev soak's. Masters ask, send nonsense, hang up and come back; faults, postures,
 // contacts, power cuts come at random. Each minute has 40 s of that and 20 s of calm. It fails when
-//   a valid K is wrong by more than its uncertainty, or an open gap is not reported in the time that brace/app.h promises
+//   a valid K is wrong by more than its uncertainty, or an open gap is not reported in the time that brace/app.h
+//     promises
 //   a request is not answered within 100 ticks in the calm, an answer is none, or its K is not the snapshot's
 //   a controller is not back in MONITOR with a valid K and no fault 10 s after the trouble, or counts trouble then
 //   the process keeps more memory or files in the last tenth than in the third
@@ -9,9 +10,9 @@
 // "blind": the same without sensors at the tips, so that the joints measure every load.
 //
 // The simulation samples the motors first, and then lets the limb settle under what happens in the tick. So K may be
-// right when the motors are sampled, and wrong a tick later, when the controller reports K. No motor's sensor could know
-// that. Such K are counted separately. So are those of the tick after it, where only the motors measure the load: in one
-// millisecond their inertia lets them move by next to nothing, so that their first sample is as before.
+// right when the motors are sampled, and wrong a tick later, when the controller reports K. No motor's sensor could
+// know that. Such K are counted separately. So are those of the tick after it, where only the motors measure the load:
+// in one millisecond their inertia lets them move by next to nothing, so that their first sample is as before.
 // While a sensor is stuck or off by a constant, wrong K are counted apart and do not fail the run: before the
 // controller has detected the fault, it cannot know that the sensor is wrong.
 // Stopped by SIGINT or SIGTERM, it reports what it has run. Exit code 0 when all is well.
@@ -284,7 +285,8 @@ void Soak::say(const char *what, std::size_t limb, double t_s, double share, con
     constexpr int kMostSaid = 40;
     if (said_++ < kMostSaid) {
         std::printf("%9.3f s, limb %s: %s; %.2f of what is allowed; mode %d, faults %x, flags %x\n", t_s,
-                    limbs_[limb].name, what, share, static_cast<int>(reported.mode), reported.faults, reported.stiffness.now.flags);
+                    limbs_[limb].name, what, share, static_cast<int>(reported.mode), reported.faults,
+                    reported.stiffness.now.flags);
     }
 }
 

@@ -71,8 +71,9 @@ Agreement agreement(const Limb &limb, const brace_node_truth_t &truth, brace_app
     };
     if (!found.is_reported || !true_k(limb, truth, reported.load.is_counted, true_n_per_mm) ||
         !reported.sigma_is_known ||
-        brace_uncertainty_stiffness(&brace_app_parameters(app)->limb, reported.theta_rad[kFemur], reported.theta_rad[kTibia],
-                                    &reported.stiffness.engaged, &by_parameters) != BRACE_OK) {
+        brace_uncertainty_stiffness(&brace_app_parameters(app)->limb, reported.theta_rad[kFemur],
+                                    reported.theta_rad[kTibia], &reported.stiffness.engaged,
+                                    &by_parameters) != BRACE_OK) {
         return found;
     }
     const brace_stiffness_t &k = reported.stiffness.engaged;

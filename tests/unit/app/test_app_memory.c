@@ -80,7 +80,8 @@ static void test_every_bit_of_the_constants_in_space(void)
     TEST_ASSERT_EQUAL(BRACE_OK, brace_app_start(&app, &fake.hal));
     ticks(20);
     TEST_ASSERT_TRUE(now()->space.is_valid);
-    flip_all_in(&app.controller.model.spatial, offsetof(brace_spatial_t, yaw_rad_per_n_mm)); /* the springs are the tick's */
+    /* the springs are the tick's */
+    flip_all_in(&app.controller.model.spatial, offsetof(brace_spatial_t, yaw_rad_per_n_mm));
     flip_all_in(&app.controller.model.loaded_space, sizeof app.controller.model.loaded_space);
 }
 

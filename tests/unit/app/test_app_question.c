@@ -215,8 +215,8 @@ static void test_an_answer_goes_to_its_asker_alone(void)
     ASSERT_CLOSE(k.stiffness.k_xx_n_per_mm, answer.k.k_xx_n_per_mm, 4e-4);
 }
 
-/* In a tick in which the wires have nothing to do, a question has both of its steps; a node that only listens on its bus
- * has nothing to do there. */
+/* In a tick in which the wires have nothing to do, a question has both of its steps; a node that only listens on its
+ * bus has nothing to do there. */
 static void test_a_quiet_tick_answers_at_once(void)
 {
     const brace_k_question_t question = {.where = BRACE_K_AT_POSTURE, .theta_rad = {0.0f, 0.8f, 1.2f}};

@@ -132,8 +132,8 @@ static inline brace_app_counters_t counters(void)
     return all;
 }
 
-/* A limb's equilibrium under a force on its tip, by the core's estimator: tests/judges/engine judges it. Every joint is a
- * linear spring. */
+/* A limb's equilibrium under a force on its tip, by the core's estimator: tests/judges/engine judges it. Every joint is
+ * a linear spring. */
 static inline brace_loaded_stiffness_t equilibrium(const brace_parameters_t *p, float theta1_rad, float theta2_rad,
                                                    brace_force_t tip, brace_vec_t down)
 {

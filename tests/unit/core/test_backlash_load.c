@@ -23,7 +23,8 @@ void setUp(void)
     const brace_backlash_params_t params = {.tick_us = TICK_US, .gap_rad = 0.01f, .friction_n_mm = (float)FRICTION_N_MM,
                                             .friction_tolerance_ratio = (float)TOLERANCE,
                                             .inertia_n_mm_s2_per_rad = 20.0f, .torque_range_n_mm = 8000.0f,
-                                            .torque_noise_n_mm = (float)NOISE_N_MM, .torque_bias_n_mm = (float)BIAS_N_MM,
+                                            .torque_noise_n_mm = (float)NOISE_N_MM,
+                                            .torque_bias_n_mm = (float)BIAS_N_MM,
                                             .angle_step_rad = (float)STEP_RAD,
                                             .takeup = {.torque_max_n_mm = 4500.0f, .preload_n_mm = 800.0f,
                                                        .travel_max_rad = 0.06f, .reach_max_rad = 0.15f,
@@ -37,7 +38,8 @@ void tearDown(void) {}
 
 static brace_backlash_sample_t sample_of(double motor_rad, double torque_n_mm)
 {
-    return (brace_backlash_sample_t){.now_us = now_us, .motor_rad = (float)motor_rad, .torque_n_mm = (float)torque_n_mm};
+    return (brace_backlash_sample_t){.now_us = now_us, .motor_rad = (float)motor_rad,
+                                     .torque_n_mm = (float)torque_n_mm};
 }
 
 static void begin(double motor_rad, double torque_n_mm)

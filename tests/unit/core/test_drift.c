@@ -277,13 +277,15 @@ static void test_watching_begins_without_evidence(void)
 {
     int i = 0;
     for (; i < 400 && drift.state == BRACE_DRIFT_LEARNING; i++) {
-        real.link[BRACE_FEMUR].bending_mm_per_n = believed.link[BRACE_FEMUR].bending_mm_per_n * (i % 40 < 20 ? 1.0f : 1.2f);
+        real.link[BRACE_FEMUR].bending_mm_per_n =
+            believed.link[BRACE_FEMUR].bending_mm_per_n * (i % 40 < 20 ? 1.0f : 1.2f);
         const brace_limb_t limb = warmed();
         const float *posture = postures[i / 2 % POSTURES];
         const brace_stiffness_t model = stiffness_of(&believed, posture), k = stiffness_of(&limb, posture);
         TEST_ASSERT_EQUAL(BRACE_OK, brace_drift_run(&drift));
         for (int j = 0; j < RUN && drift.state == BRACE_DRIFT_LEARNING; j++) {
-            const float d = 0.635f * (float)(j % 2 == 0 ? j / 2 : -(j / 2)), dx = i % 2 ? d : 0.0f, dz = i % 2 ? 0.0f : d;
+            const float d = 0.635f * (float)(j % 2 == 0 ? j / 2 : -(j / 2));
+            const float dx = i % 2 ? d : 0.0f, dz = i % 2 ? 0.0f : d;
             const brace_drift_reading_t reading = {posture[0], posture[1], dx, dz,
                                                    k.k_xx_n_per_mm * dx + k.k_xz_n_per_mm * dz,
                                                    k.k_xz_n_per_mm * dx + k.k_zz_n_per_mm * dz, 0.0f};

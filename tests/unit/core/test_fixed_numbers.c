@@ -69,8 +69,8 @@ static void test_sums_that_wrap(void)
 
 /* --- quotients ------------------------------------------------------------------------------------------------ */
 
-/* 16 bits by division and a step of Newton's method: 2^-29 of it, and four of its last places (tests/judges/proofs proves
- * that of every pivot). */
+/* 16 bits by division and a step of Newton's method: 2^-29 of it, and four of its last places (tests/judges/proofs
+ * proves that of every pivot). */
 static void test_one_over_a_pivot(void)
 {
     for (int i = 0; i < 20000; i++) {

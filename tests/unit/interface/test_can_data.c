@@ -300,7 +300,8 @@ static void flood(const uint8_t *data, uint8_t length, uint32_t id)
     drain();
     const uint32_t first = now()->sequence;
     for (int i = 0; i < FLOOD_TICKS; i++) {
-        for (uint32_t n = 0; n < 1000u / (47u + 8u * length); n++) { /* as many as 1 Mbit/s carries without stuff bits */
+        /* as many as 1 Mbit/s carries without stuff bits */
+        for (uint32_t n = 0; n < 1000u / (47u + 8u * length); n++) {
             (void)brace_fake_frame_arrives(&fake, &frame);
         }
         ticks(1);

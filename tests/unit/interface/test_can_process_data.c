@@ -224,7 +224,8 @@ static void test_parts_carry_their_snapshot_s_number_age_and_set(void)
     TEST_ASSERT_FLOAT_WITHIN(0.5f, AGE_MS, load.age_ms);
 }
 
-/* A value beyond what the classic frames carry is flagged in the frame with flags, whichever part it is in; NaN is not. */
+/* A value beyond what the classic frames carry is flagged in the frame with flags, whichever part it is in; NaN is
+ * not. */
 static void test_a_value_beyond_its_frame_is_flagged(void)
 {
     brace_measured_t measured;
@@ -234,8 +235,10 @@ static void test_a_value_beyond_its_frame_is_flagged(void)
     brace_can_load_1_t load;
     brace_can_load_across_1_t across;
     static const size_t of_a[] = {offsetof(brace_measured_t, k_xx_n_per_mm), offsetof(brace_measured_t, k_xz_n_per_mm),
-                                  offsetof(brace_measured_t, k_zz_n_per_mm), offsetof(brace_measured_t, lambda_min_n_per_mm),
-                                  offsetof(brace_measured_t, lambda_max_n_per_mm), offsetof(brace_measured_t, stiff_axis_rad)};
+                                  offsetof(brace_measured_t, k_zz_n_per_mm),
+                                  offsetof(brace_measured_t, lambda_min_n_per_mm),
+                                  offsetof(brace_measured_t, lambda_max_n_per_mm),
+                                  offsetof(brace_measured_t, stiff_axis_rad)};
     static const size_t of_space[] = {
         offsetof(brace_measured_t, space_k_xx_n_per_mm), offsetof(brace_measured_t, space_k_xy_n_per_mm),
         offsetof(brace_measured_t, space_k_xz_n_per_mm), offsetof(brace_measured_t, space_k_yy_n_per_mm),
@@ -246,7 +249,8 @@ static void test_a_value_beyond_its_frame_is_flagged(void)
         offsetof(brace_measured_t, unloaded_k_zz_n_per_mm), offsetof(brace_measured_t, counted_force_x_n),
         offsetof(brace_measured_t, counted_force_z_n), offsetof(brace_measured_t, moved_x_mm),
         offsetof(brace_measured_t, moved_z_mm), offsetof(brace_measured_t, gravity_lean_rad)};
-    static const size_t of_across[] = {offsetof(brace_measured_t, counted_force_y_n), offsetof(brace_measured_t, moved_y_mm),
+    static const size_t of_across[] = {offsetof(brace_measured_t, counted_force_y_n),
+                                       offsetof(brace_measured_t, moved_y_mm),
                                        offsetof(brace_measured_t, unloaded_k_across_n_per_mm)};
     static const struct {
         const size_t *at;

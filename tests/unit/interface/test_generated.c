@@ -305,8 +305,8 @@ static uint32_t word_at(const void *values, uint32_t place)
 /* Which register reads as what: docs/modbus.md, and IEEE 754's quiet NaN. */
 static void test_what_nobody_has_asked_is_not_known(void)
 {
-    enum { NOT_A_NUMBER = 0x7fc00000, FLAGS = (4108 - 4096) / 2, CONTACT = (4126 - 4096) / 2, KNEE = (16404 - 16384) / 2,
-           LOADED_FLAGS = (4146 - 4096) / 2, LOADED_KNEE = (16438 - 16384) / 2,
+    enum { NOT_A_NUMBER = 0x7fc00000, FLAGS = (4108 - 4096) / 2, CONTACT = (4126 - 4096) / 2,
+           KNEE = (16404 - 16384) / 2, LOADED_FLAGS = (4146 - 4096) / 2, LOADED_KNEE = (16438 - 16384) / 2,
            STOP = (16452 - 16384) / 2, SPACE_FLAGS = (4170 - 4096) / 2, SPACE_FORCE_IS_TOLD = (4172 - 4096) / 2 };
     for (uint32_t i = 0; i < (uint32_t)BRACE_ANSWERED_COUNT; i++) {
         const bool is_whole =

@@ -362,7 +362,8 @@ void brace_modbus_tend(brace_client_t *client, uint64_t deadline_us)
 }
 
 /* The check is over the request from its function on. */
-static brace_client_seal_t seal_of(brace_client_t *client, uint32_t address, const uint16_t *words, uint32_t words_count)
+static brace_client_seal_t seal_of(brace_client_t *client, uint32_t address, const uint16_t *words,
+                                   uint32_t words_count)
 {
     uint8_t request[REQUEST_HEAD + 4 * ASKED_MOST] = {
         BRACE_MODBUS_WRITE,   (uint8_t)(address >> 8),     (uint8_t)address, 0u,

@@ -30,8 +30,8 @@ typedef struct {
     uint32_t counter, check;
 } brace_client_seal_t;
 
-/* A session with this challenge is opened by the next sign of life. With the challenge of before the counter goes on: the
- * controller takes none twice. */
+/* A session with this challenge is opened by the next sign of life. With the challenge of before the counter goes on:
+ * the controller takes none twice. */
 void brace_owner_open(brace_client_owner_t *owner, uint64_t challenge);
 
 /* The controller has sent a number, or has answered a command with the one that begins the motion. */

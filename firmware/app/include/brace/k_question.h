@@ -21,9 +21,9 @@ typedef enum {
 typedef enum { BRACE_K_AT_POSTURE = 0, BRACE_K_AT_TIP, BRACE_K_IN_SPACE } brace_k_where_t;
 
 /* K with every gap closed, where the limb need not be, with the joints' temperatures of now. Set what is not used to
- * zero: the controller compares every member to see that the same question is asked again. Members are words of 32 bits,
- * because an enumeration is a byte on some processors, with bytes behind it that nobody sets. A number outside its
- * range is refused with BRACE_E_RANGE. */
+ * zero: the controller compares every member to see that the same question is asked again. Members are words of 32
+ * bits, because an enumeration is a byte on some processors, with bytes behind it that nobody sets. A number outside
+ * its range is refused with BRACE_E_RANGE. */
 typedef struct {
     uint32_t where;                    /* brace_k_where_t; any other number means a posture */
     float theta_rad[BRACE_LINK_COUNT]; /* of a posture: true angles before the load turns the joints; of femur and tibia

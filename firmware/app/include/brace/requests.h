@@ -39,8 +39,8 @@ const brace_drift_report_t *brace_app_drift_report(const brace_app_t *app);
 brace_drift_next_t brace_app_drift_next_step(const brace_app_t *app);
 
 /* --------------------------------------------------------------------------------------- who may --
- * The program around the controller may do everything below. A wire asks here first, for whoever asks it: docs/security.md
- * says what somebody on a bus can do. */
+ * The program around the controller may do everything below. A wire asks here first, for whoever asks it:
+ * docs/security.md says what somebody on a bus can do. */
 
 /* What a request does beside answering. */
 typedef enum {
@@ -86,18 +86,18 @@ void brace_app_gone(brace_app_t *app, brace_asker_t port);
 /* Everybody on the board's buses may move the limb until the next start: for the board's own console. */
 void brace_app_become_bench(brace_app_t *app);
 
-/* Does the controller add anything to a joint's set-point, or is it about to? Then a joint is taken up, held, on its way
- * back, or in a loading test. */
+/* Does the controller add anything to a joint's set-point, or is it about to? Then a joint is taken up, held, on its
+ * way back, or in a loading test. */
 bool brace_app_moves(const brace_app_t *app);
 
-/* Holds every set-point where it is: anybody may, always. A loading test is over; what was taken up stays so; what waits
- * to begin does not. The limb moves again when its owner asks for something, letting go for example.
+/* Holds every set-point where it is: anybody may, always. A loading test is over; what was taken up stays so; what
+ * waits to begin does not. The limb moves again when its owner asks for something, letting go for example.
  * returns BRACE_OK, BRACE_E_NULL, BRACE_E_MODE: nothing moves the limb, and nothing waits to */
 brace_status_t brace_app_stop(brace_app_t *app);
 
 /* ------------------------------------------------------------------------------- what moves the limb --
- * All return BRACE_OK, BRACE_E_NULL, BRACE_E_MODE (not possible in this mode), and what is named. What a wire asks for in
- * its turn of the tick begins when its owner's sign of life comes with the session report's number `begin`; without
+ * All return BRACE_OK, BRACE_E_NULL, BRACE_E_MODE (not possible in this mode), and what is named. What a wire asks for
+ * in its turn of the tick begins when its owner's sign of life comes with the session report's number `begin`; without
  * one within 130 ms it is forgotten. */
 
 /* Takes up the backlash of one joint against a flank. When its take-up holds, another joint may follow. From MONITOR,

@@ -13,8 +13,8 @@ typedef struct {
 } faults_t;
 
 /* The faults of this tick.
- *   causes: faults whose cause is there in this tick. A fault is over when its cause has been away for 100 ms, the fault
- *     TICK_LATE after 1 s.
+ *   causes: faults whose cause is there in this tick. A fault is over when its cause has been away for 100 ms, the
+ *     fault TICK_LATE after 1 s.
  *   lasting: faults that stand as long as somebody says so: PARAMETERS, STORE, MODEL_DRIFT, CRASHED, OLD_PARAMETERS,
  *     JUMP_COXA, JUMP_FEMUR, JUMP_TIBIA
  *   may_begin: whether a fault that comes and goes may begin; not in START, where nothing has been seen yet */

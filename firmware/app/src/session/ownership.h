@@ -1,5 +1,5 @@
-/* May a take-up or a loading test go on moving the limb, or does the limb stand? One owner has begun the motion. When the
- * owner falls silent, or when somebody stops the motion, every set-point stays where it is until an owner asks for
+/* May a take-up or a loading test go on moving the limb, or does the limb stand? One owner has begun the motion. When
+ * the owner falls silent, or when somebody stops the motion, every set-point stays where it is until an owner asks for
  * something else. What an owner asks for waits until its sign of life shows that it has heard the answer; whatever the
  * limb does goes on meanwhile. */
 #ifndef BRACE_SESSION_OWNERSHIP_H

@@ -31,7 +31,8 @@ static uint32_t mac_of(const session_t *session, uint32_t counter, session_kind_
     return (uint32_t)siphash_end(&hash, bytes, count);
 }
 
-/* One word for each word, so that no number comes twice: the steps of MurmurHash3's finalizer, which is public domain. */
+/* One word for each word, so that no number comes twice: the steps of MurmurHash3's finalizer, which is public
+ * domain. */
 static uint32_t mixed(uint32_t word)
 {
     word = (word ^ word >> 16) * 0x85ebca6bu;

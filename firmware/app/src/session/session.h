@@ -26,7 +26,8 @@
 #include "session/siphash.h"
 
 enum {
-    SESSION_LIFE_US = 130000, /* so long may the owner be silent while the limb moves; 100 ms, and a frame that is late */
+    /* so long may the owner be silent while the limb moves; 100 ms, and a frame that is late */
+    SESSION_LIFE_US = 130000,
     SESSION_IDLE_US = 1000000,      /* and while nothing moves and nothing is configured */
     SESSION_CLOSED_US = 10000000,   /* and in CONFIGURATION, which ends by itself then */
     SESSION_CHALLENGE_US = 2000000, /* a challenge without a session is renewed after this time */
@@ -50,7 +51,8 @@ typedef struct {
     bool has_hung_up;       /* on a bench: its connection is closed, and another one may go on */
     uint32_t counter;       /* of the last sealed command */
     uint32_t silent_us;     /* since it or the last sign of life */
-    uint32_t life_us;       /* so long may the owner be silent while the limb moves: SESSION_LIFE_US, or the board's own */
+    /* so long may the owner be silent while the limb moves: SESSION_LIFE_US, or the board's own */
+    uint32_t life_us;
     uint32_t seed;          /* on a bench: where its numbers begin */
     uint32_t slot;          /* how often the number has changed since start; the number of now is that of this slot */
     uint32_t slot_us;       /* since it has changed */
@@ -96,8 +98,8 @@ int32_t session_life(session_t *session, brace_who_t who, const brace_sign_t *si
  *   seal: null on a bench, or where none has come; those that follow it have the same counter, and one of them has to
  *     fit
  *   bytes: of the command, `count` of them
- * returns BRACE_OK, BRACE_REFUSED_NO_KEY, BRACE_REFUSED_STRANGER, BRACE_REFUSED_REPLAY, BRACE_REFUSED_OWNED. At most 600
- *   instructions, and 20 for each byte beyond eight. */
+ * returns BRACE_OK, BRACE_REFUSED_NO_KEY, BRACE_REFUSED_STRANGER, BRACE_REFUSED_REPLAY, BRACE_REFUSED_OWNED. At most
+ *   600 instructions, and 20 for each byte beyond eight. */
 int32_t session_command(session_t *session, brace_who_t who, const brace_seal_t *seal, const uint8_t *bytes,
                         uint32_t count);
 

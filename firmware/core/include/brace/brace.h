@@ -18,7 +18,8 @@
  *     kinematics.h       joint angles to tip and back, levers of the joints
  *
  * K at a posture, no load on the tip; choose one
- *     planar.h           a planar limb with constant springs whose base yields equally in x and z: the fewest instructions
+ *     planar.h           a planar limb with constant springs whose base yields equally in x and z: the fewest
+ *                        instructions
  *     general.h          what planar.h refuses: any base, springs that change from tick to tick
  *     spatial.h          a limb with a coxa joint: K in space
  *     planar_fixed.h     as planar.h, on a controller without a floating-point unit
@@ -37,14 +38,16 @@
  * What K and measurements are for
  *     contact.h          sag under a load, force from a displacement, whether a foot slides
  *     slope.h            K from the steps of a loading test
- *     uncertainty.h      how exactly K is known, in the plane at no load; uncertainty_causes.h under a load and in space
+ *     uncertainty.h      how exactly K is known, in the plane at no load; uncertainty_causes.h under a load and in
+ *                        space
  *     drift.h            whether it is still the limb that was calibrated
  *
  * Many postures at once, on a host; not included here and not in the two-file core
  *     planar_batch.h, chain_batch.h, loaded_batch.h, kinematics_batch.h
  *
- * The others hold the types of these and need not be read: backlash_types.h, buckling_search.h, drift_types.h, element.h,
- * fixed_harmonic.h, fixed_vec.h, harmonics.h, loaded_types.h, loaded_fixed_types.h, loaded_space_types.h, vec.h.
+ * The others hold the types of these and need not be read: backlash_types.h, buckling_search.h, drift_types.h,
+ * element.h, fixed_harmonic.h, fixed_vec.h, harmonics.h, loaded_types.h, loaded_fixed_types.h, loaded_space_types.h,
+ * vec.h.
  *
  * The controller around the core begins at brace/app.h, the client for the robot's computer at brace/client.h.
  */

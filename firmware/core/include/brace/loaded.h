@@ -97,8 +97,8 @@ void brace_loaded_collapse(const brace_limb_t *limb, const brace_gravity_t *weig
  * Accuracy: where the buckling factor is at least 2 and the tip moves by at most a fifth of the reach, K within 0.6 %
  *         (Frobenius norm; median 1e-6), the buckling factor within 2 % below 10, the displacement within 0.5 mm; where
  *         a link bends by more than 0.25 rad within itself, result->stiffness.flags has BRACE_FLAG_NEAR_SINGULAR, and K
- *         may be off by some percent. At no load as brace/general.h. tests/judges/engine/test_core_under_load.py judges random
- *         limbs, and limbs pressed inward.
+ *         may be off by some percent. At no load as brace/general.h. tests/judges/engine/test_core_under_load.py judges
+ *         random limbs, and limbs pressed inward.
  * Cost on a Cortex-M4F: at most 3,500 instructions; 2,400 where two steps are enough; stack at most 800 bytes. */
 brace_status_t brace_loaded_stiffness(const brace_loaded_t *loaded, float theta1_rad, float theta2_rad,
                                       const brace_load_t *load, brace_loaded_stiffness_t *result);

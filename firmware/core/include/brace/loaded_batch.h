@@ -11,7 +11,8 @@
 #include "brace/play.h"
 
 /* K and rest at n postures, each with a force of its own. No argument is checked for null.
- * loaded: from brace_loaded_collapse. joints: direction of the weight and the joints' springs; its tip force is ignored.
+ * loaded: from brace_loaded_collapse. joints: direction of the weight and the joints' springs; its tip force is
+ *   ignored.
  * theta1_rad, theta2_rad, x_n, z_n: n each, as brace_loaded_stiffness takes them.
  * results: n, flags with those of brace_loaded_flags. Where brace_loaded_stiffness refuses, every number is NaN; flags
  * are then as a controller has them without a rest, NEAR_SINGULAR and SOFTENED, and 0 where the inputs are refused.

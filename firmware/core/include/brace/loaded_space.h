@@ -61,9 +61,9 @@ brace_status_t brace_loaded_space_follow(const brace_loaded_space_t *loaded, flo
  *         (Frobenius norm; median 0.01 %) without a flag after brace_loaded_space_settle_on; after
  *         brace_loaded_space_settle alone in all but one of 5,700 random limbs, that one within 1.1 %, as after
  *         brace_loaded_space_follow. The displacement
- *         within 2 mm. result->flags has BRACE_FLAG_NEAR_SINGULAR where a link bends by more than 0.3 rad within itself,
- *         or where the steps have left more than 0.005 rad. At a tenth of such a load K within 0.08 %, at no load within 2e-7 of itself
- *         for each unit of C's condition number (3e-5 for random limbs).
+ *         within 2 mm. result->flags has BRACE_FLAG_NEAR_SINGULAR where a link bends by more than 0.3 rad within
+ *         itself, or where the steps have left more than 0.005 rad. At a tenth of such a load K within 0.08 %, at no
+ *         load within 2e-7 of itself for each unit of C's condition number (3e-5 for random limbs).
  *         tests/judges/engine/test_core_in_space_under_load.py judges.
  * Cost on a Cortex-M4F: at most 3,300 instructions, the same for every posture; stack at most 950 bytes. */
 brace_status_t brace_loaded_space_stiffness(const brace_loaded_space_t *loaded, const brace_space_rest_t *rest,

@@ -6,8 +6,8 @@
  * such input is a cause. All causes are independent of each other:
  *   - the angles of femur and tibia joint, and in space of the coxa joint;
  *   - each length, with length_mm;
- *   - each compliance, with compliance_rel of itself: of links, joints and base. A link's moment transfer grows with its
- *     bending;
+ *   - each compliance, with compliance_rel of itself: of links, joints and base. A link's moment transfer grows with
+ *     its bending;
  *   - the gain of the force sensor that the calibration used, gain_rel: it changes all compliances alike;
  *   - where a sensor at the tip measures the load: that sensor's gain, with gain_rel as well.
  * Taken as exact: tilts, the strength of moment transfer, weights, the direction of down, and the chain itself.

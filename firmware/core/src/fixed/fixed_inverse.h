@@ -35,8 +35,8 @@ static inline fixed_length_t fixed_length_of(int32_t x, int32_t z)
 }
 
 /* Half the angle of (x, -z), of that length, and half of another angle: an axis, [-pi/2, pi/2]. The highest bits of the
- * unit vector choose the nearest entry of the sine table, and an arcsine adds the rest. The angle of the vector is twice
- * that of the axis, so a turn of 2^32 is read as half a turn. */
+ * unit vector choose the nearest entry of the sine table, and an arcsine adds the rest. The angle of the vector is
+ * twice that of the axis, so a turn of 2^32 is read as half a turn. */
 static inline float fixed_axis_rad(int32_t x, int32_t z, const fixed_length_t *length, uint32_t twice_turn)
 {
     const uint32_t half_shift = length->shift - 1u;

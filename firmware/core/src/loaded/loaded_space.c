@@ -311,7 +311,8 @@ static void put_load(const brace_loaded_space_t *loaded, vec3_t tip_n, vec3_t do
     rest->whole_n = vec3_plus_scaled(rest->tip_n, rest->down, loaded->beyond_coxa_n);
 }
 
-/* Raises force and weight from none, each share from the rest under the one before; a share without a rest is halved. */
+/* Raises force and weight from none, each share from the rest under the one before; a share without a rest is
+ * halved. */
 static brace_status_t raise_load(const brace_loaded_space_t *loaded, brace_space_rest_t *rest)
 {
     static const brace_space_pose_t straight;

@@ -98,16 +98,16 @@ INLINE float end_yields(const brace_space_link_t *link, float mm_per_n, float al
     return mm_per_n / brace_fma(2.0f * link->shortens_per_mm * mm_per_n, along_n, 1.0f);
 }
 
-/* The end spring's part of the twist acts at the link's end, which is turned by half of the link's own turn: so much its
- * axis leans from x to y (.x) and to z (.z) of the link's frame. */
+/* The end spring's part of the twist acts at the link's end, which is turned by half of the link's own turn: so much
+ * its axis leans from x to y (.x) and to z (.z) of the link's frame. */
 INLINE brace_vec_t twist_leans(const brace_space_link_t *link, vec3_t turn)
 {
     return (brace_vec_t){link->twist_end_half * turn.z, -(link->twist_end_half * turn.y)};
 }
 
-/* The beam's own end spring twists the link and keeps its direction; the spring behind it turns with the link and twists
- * nothing. As one spring (`across`, and `sideways` likewise) they miss what moves them against one another: half the
- * pull along the link, turned with it, and the twisting moment. Per radian of the link's turn, times its length. */
+/* The beam's own end spring twists the link and keeps its direction; the spring behind it turns with the link and
+ * twists nothing. As one spring (`across`, and `sideways` likewise) they miss what moves them against one another: half
+ * the pull along the link, turned with it, and the twisting moment. Per radian of the link's turn, times its length. */
 typedef struct {
     float pulls_n_mm, twists_n_mm;
 } apart_t;

@@ -74,7 +74,8 @@ int32_t answer_request(request_t *request, uint32_t code, const brace_request_t 
     PROVE(code != BRACE_REQUEST_TAKE_UP || asked->take_up.flank == 1 || asked->take_up.flank == -1,
           "a flank that there is");
     PROVE(request->upload == NULL && request->download == NULL, "no block is committed that nobody has uploaded");
-    PROVE(code != BRACE_REQUEST_WRITE_ENTRY || asked->write_entry.index >= BRACE_ENTRY_COMMANDS, "an entry that is a command");
+    PROVE(code != BRACE_REQUEST_WRITE_ENTRY || asked->write_entry.index >= BRACE_ENTRY_COMMANDS,
+          "an entry that is a command");
     *answer = any;
     request->is_of_now = any_bool();
     return status;

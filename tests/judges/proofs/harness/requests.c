@@ -43,7 +43,8 @@ int32_t brace_app_life(brace_app_t *app, brace_who_t who, const brace_sign_t *si
 {
     (void)app;
     (void)who;
-    PROVE(sign != NULL && (sign->heard_bits == 16u || sign->heard_bits == 32u), "a sign of life has a number, or half of one");
+    PROVE(sign != NULL && (sign->heard_bits == 16u || sign->heard_bits == 32u),
+          "a sign of life has a number, or half of one");
     const int32_t status = any_i32();
     ASSUME(status <= 0 && status >= BRACE_REFUSED_EARLY);
     return status;

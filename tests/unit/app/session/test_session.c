@@ -10,7 +10,8 @@
 static const uint8_t key[SIPHASH_KEY_BYTES] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16};
 static const uint8_t other_key[SIPHASH_KEY_BYTES] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 17};
 static const uint8_t order[8] = {15, 7, 1, 1, 0, 0, 0, 0};
-static const brace_who_t we = {BRACE_ASKER_CAN, 0}, they = {BRACE_ASKER_CAN, 3}, elsewhere = {BRACE_ASKER_MODBUS_TCP, 0};
+static const brace_who_t we = {BRACE_ASKER_CAN, 0}, they = {BRACE_ASKER_CAN, 3};
+static const brace_who_t elsewhere = {BRACE_ASKER_MODBUS_TCP, 0};
 
 static session_t session;
 
@@ -80,7 +81,8 @@ static int32_t command_on_a_bench(brace_who_t who)
 
 /* -------------------------------------------------------------------------------------- numbers -- */
 
-/* A number counts for as long as the owner may be silent, whenever in its time it was sent, and at most a fifth more. */
+/* A number counts for as long as the owner may be silent, whenever in its time it was sent, and at most a fifth
+ * more. */
 static void test_a_number_is_good_for_a_short_time(void)
 {
     const uint32_t slot_us = SESSION_LIFE_US / SESSION_SLOTS_PER_LIFE;
@@ -375,7 +377,8 @@ static void test_the_check_is_over_counter_kind_and_command(void)
         TEST_ASSERT_EQUAL(BRACE_REFUSED_STRANGER, session_command(&session, we, &seal, changed, 8));
     }
     TEST_ASSERT_EQUAL(BRACE_REFUSED_STRANGER, session_command(&session, we, &seal, order, 7)); /* cut short */
-    TEST_ASSERT_EQUAL(BRACE_REFUSED_STRANGER, session_command(&session, we, &lifes, order, 8)); /* a life sign's check */
+    /* a life sign's check */
+    TEST_ASSERT_EQUAL(BRACE_REFUSED_STRANGER, session_command(&session, we, &lifes, order, 8));
     passes(30000);
     const uint32_t number = session_number(&session);
     const brace_sign_t sign = {number, 32, mac(key, session.challenge, number, SESSION_COMMAND, NULL, 0)};

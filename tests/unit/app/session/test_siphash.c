@@ -1,5 +1,5 @@
-/* SipHash-2-4 against the vectors that its authors have published: key 00 01 ... 0f, message 00 01 02 ... of 0, 1, 2 ...
- * bytes; each check with its first byte first. The one of 15 bytes stands in the paper too (appendix A). */
+/* SipHash-2-4 against the vectors that its authors have published: key 00 01 ... 0f, message 00 01 02 ... of 0, 1, 2
+ * ... bytes; each check with its first byte first. The one of 15 bytes stands in the paper too (appendix A). */
 #include "session/siphash.h"
 
 #include "unity.h"

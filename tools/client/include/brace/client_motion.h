@@ -8,9 +8,9 @@
  *
  * While the limb moves, the controller wants a sign of life at least every 100 ms; after 130 ms without one the limb
  * stands. brace_client_step gives the signs: call it at least every 50 ms. Every other call of the client gives them
- * too while it waits. A program that hangs gives none, so the limb stands. Each sign carries a number that the controller
- * has sent within the last 130 ms, so that nothing that was held up on its way moves the limb: with calls every 50 ms the
- * round trip to the controller may be 80 ms.
+ * too while it waits. A program that hangs gives none, so the limb stands. Each sign carries a number that the
+ * controller has sent within the last 130 ms, so that nothing that was held up on its way moves the limb: with calls
+ * every 50 ms the round trip to the controller may be 80 ms.
  *
  * A client follows one motion at a time, the one that was begun last. It allocates nothing for it.
  */
@@ -67,10 +67,11 @@ void brace_client_set_key(brace_client_t *client, const uint8_t key[BRACE_CLIENT
 
 /* Each asks for a motion and waits at most timeout_ms for the controller's answer.
  *   limit_ms: the whole motion may take so long [1, 3 600 000]; then the client asks the limb to stop
- * returns OK: the controller has taken it, and it begins with the next sign of life; call brace_client_step. E_REFUSED: the controller does not begin it. E_USAGE, E_UNSUPPORTED: it
- *   was not asked for. E_TIMEOUT and other failures to answer: it may have begun; brace_client_step finds out, and
- *   reports NOT_BEGUN where the call failed before it asked. Where a motion runs already, that one goes on unless a new
- *   one has begun, and brace_client_step reports it. */
+ * returns OK: the controller has taken it, and it begins with the next sign of life; call brace_client_step. E_REFUSED:
+ *   the controller does not begin it. E_USAGE, E_UNSUPPORTED: it was not asked for. E_TIMEOUT and other failures to
+ *   answer: it may have begun; brace_client_step finds out, and reports NOT_BEGUN where the call failed before it
+ *   asked. Where a motion runs already, that one goes on unless a new one has begun, and brace_client_step reports
+ *   it. */
 
 /* The motor of a joint (0 coxa, 1 femur, 2 tibia) moves through its backlash until one side of it, `flank` [+1, -1],
  * is loaded, and holds that. DONE: it holds, and needs no further signs of life. */

@@ -1,7 +1,7 @@
-/* What a node says by itself beside process data: a heartbeat at controller.heartbeat_hz and at every change of mode, with
- * its condition behind it, so that a newcomer knows every fault within a heartbeat's period; an emergency for every change
- * of the faults, and of the likeliest cause of a drift: the first readings of a changed limb may name another cause than
- * later ones. One for each port. */
+/* What a node says by itself beside process data: a heartbeat at controller.heartbeat_hz and at every change of mode,
+ * with its condition behind it, so that a newcomer knows every fault within a heartbeat's period; an emergency for
+ * every change of the faults, and of the likeliest cause of a drift: the first readings of a changed limb may name
+ * another cause than later ones. One for each port. */
 #ifndef BRACE_WIRE_CAN_ANNOUNCE_H
 #define BRACE_WIRE_CAN_ANNOUNCE_H
 

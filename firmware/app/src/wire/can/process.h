@@ -1,6 +1,6 @@
-/* Process data: K, its eigenvalues, the posture, the load and K's uncertainty of one snapshot, at the parameters' rates; of
- * a limb whose coxa joint is fitted also K in space and the load across the plane; over CAN FD in one frame to four. One
- * for each port.
+/* Process data: K, its eigenvalues, the posture, the load and K's uncertainty of one snapshot, at the parameters'
+ * rates; of a limb whose coxa joint is fitted also K in space and the load across the plane; over CAN FD in one frame
+ * to four. One for each port.
  *
  * All frames of a snapshot are made from one copy of it, so nothing is ever mixed from two. The next snapshot is taken
  * when the last frame of this one has left, so a busy bus thins the data and never splits them. Rates are lowered in

@@ -23,8 +23,8 @@ typedef enum {
     MODBUS_E_VALUE = 3,    /* a count, a length or a value that cannot be */
     MODBUS_E_DEVICE = 4,   /* it could not be done */
     MODBUS_E_BUSY = 6,     /* a set of parameters is being stored, or too many questions wait: ask again */
-    MODBUS_E_OWNER = 7,    /* negative acknowledge: the limb is another's to move, or there is no proof that it is yours;
-                              last_refusal reports which */
+    MODBUS_E_OWNER = 7,    /* negative acknowledge: the limb is another's to move, or there is no proof that it is
+                              yours; last_refusal reports which */
     MODBUS_E_TARGET = 11   /* no such unit behind this TCP connection */
 } modbus_exception_t;
 

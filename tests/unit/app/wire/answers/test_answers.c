@@ -291,7 +291,8 @@ static void test_a_sign_of_life(void)
     refuses(BRACE_REFUSED_LATE, later.number, BRACE_REQUEST_SIGN_OF_LIFE);
 }
 
-/* Somebody asks for a take-up and stops it before the first sign of life: it is taken back, and does not begin later. */
+/* Somebody asks for a take-up and stops it before the first sign of life: it is taken back, and does not begin
+ * later. */
 static void test_stop_takes_back_what_has_not_begun(void)
 {
     brace_parameters_t p = bench_parameters();
@@ -400,7 +401,8 @@ static void test_a_force_is_used_up_by_its_answer(void)
 
 static void test_both_knees_under_a_load(void)
 {
-    static const uint32_t code[2] = {BRACE_REQUEST_K_UNDER_LOAD_AT_TIP_KNEE_UP, BRACE_REQUEST_K_UNDER_LOAD_AT_TIP_KNEE_DOWN};
+    static const uint32_t code[2] = {BRACE_REQUEST_K_UNDER_LOAD_AT_TIP_KNEE_UP,
+                                     BRACE_REQUEST_K_UNDER_LOAD_AT_TIP_KNEE_DOWN};
     for (int down = 0; down < 2; down++) {
         const float theta2_rad = down ? -1.1f : 1.1f;
         brace_pose_t pose;

@@ -155,8 +155,8 @@ static void test_a_commit_as_text_is_answered_as_text(void)
     ticks(2);
     (void)heard();
     const uint32_t longer = 0x433e0000u; /* 190.0f */
-    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_parameters_stage(&app, brace_parameter_number(BRACE_PARAMETER_GEOMETRY_FEMUR_MM),
-                                                           1, &longer));
+    const uint32_t femur = brace_parameter_number(BRACE_PARAMETER_GEOMETRY_FEMUR_MM);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_parameters_stage(&app, femur, 1, &longer));
     brace_can_pack_commit_request(&(brace_can_commit_request_t){0x10, 0}, data);
     uint32_t at = (uint32_t)snprintf(line, sizeof line, "t6058");
     for (uint32_t i = 0; i < 8u; i++) {
