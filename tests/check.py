@@ -27,7 +27,9 @@ MOST_COLUMNS = 120
 NO_TEST_IS_LEFT = 5  # pytest's exit code where every test of a file is marked `minutes`
 PYTHON_TESTS_S = 40.0  # no further test file begins after so long, so that the whole takes about a minute
 BUILD = ROOT / "build" / "host"
-WRITTEN_BY_HAND = (".c", ".h", ".cpp", ".py", ".cmake")
+ALL_LINES = (".c", ".h", ".cpp")  # where every line is judged, not only new ones
+WRITTEN_BY_HAND = (*ALL_LINES, ".py", ".cmake")
+WRITTEN_BY_GENERATOR = ("firmware/interface/generated/", "tools/brace/wire/")
 C_PARTS = {  # changed folder: folder of its tests
     "firmware/core": "tests/unit/core",
     "firmware/interface": "tests/unit/interface",
@@ -76,26 +78,31 @@ def changed_files(since: str) -> list[Path]:
 
 
 def long_lines(since: str) -> list[str]:
-    """Lines that are new since the commit and too long, as FILE:LINE. Generated files and tables may have them."""
-    found, name, line = [], "", 0
-    texts = git("diff", "-U0", "--no-color", since).splitlines()
-    for new in git("ls-files", "-o", "--exclude-standard").splitlines():
-        texts += git("diff", "-U0", "--no-color", "--no-index", "/dev/null", new).splitlines()
-    for text in texts:
-        if text.startswith("+++ "):
-            name = text[6:]
-        elif head := re.match(r"@@ -\S+ \+(\d+)", text):
-            line = int(head[1])
-        elif text.startswith("+"):
-            if len(text) - 1 > MOST_COLUMNS and name.endswith(WRITTEN_BY_HAND) and "generated" not in name \
-                    and not name.startswith("tools/brace/wire/"):  # fmt: skip
-                found.append(f"{name}:{line}: {len(text) - 1} columns")
-            line += 1
+    """C and C++ lines that are too long, and Python and CMake lines that are too and are new since the commit, as
+    FILE:LINE. Generated files and tables may have them. A tab reaches to the next multiple of four columns."""
+    found = []
+    new = new_lines(since)
+    for path in git("ls-files", "-co", "--exclude-standard").splitlines():
+        these = None if path.endswith(ALL_LINES) else new.get(path, set())
+        if path.endswith(WRITTEN_BY_HAND) and not path.startswith(WRITTEN_BY_GENERATOR) and (ROOT / path).is_file():
+            for line, text in enumerate((ROOT / path).read_text().splitlines(), 1):
+                if (columns := len(text.expandtabs(4))) > MOST_COLUMNS and (these is None or line in these):
+                    found.append(f"{path}:{line}: {columns} columns, {MOST_COLUMNS} at most: wrap it")
     return found
 
 
+def new_lines(since: str) -> dict[str, set[int] | None]:
+    """Numbers of the lines that are new since the commit, by file; None: all, because git does not know the file."""
+    lines: dict[str, set[int] | None] = dict.fromkeys(git("ls-files", "-o", "--exclude-standard").splitlines())
+    for part in git("diff", "-U0", "--no-color", "--no-prefix", since).split("\ndiff --git "):
+        if name := re.search(r"^\+\+\+ (.*)$", part, re.MULTILINE):
+            heads = re.findall(r"^@@ -\S+ \+(\d+)(?:,(\d+))? @@", part, re.MULTILINE)
+            lines[name[1]] = {int(first) + more for first, count in heads for more in range(int(count or 1))}
+    return lines
+
+
 def check_format(since: str) -> bool:
-    """ruff on all Python; lengths and trailing blanks of the lines that changed."""
+    """ruff on all Python; lengths, and trailing blanks of the lines that changed."""
     wide = long_lines(since)
     print("\n".join(wide) + "\n" * bool(wide), end="")
     ruff = run(sys.executable, "-m", "ruff", "check", "--quiet", "--config", "tools/pyproject.toml", "tools", "tests")
@@ -221,7 +228,7 @@ def main() -> int:
     in_c = any(path.suffix in (".c", ".h", ".cpp", ".txt", ".cmake") for path in changed)
     units, files = c_tests(changed), python_tests(changed)
     looks: list[Step] = [
-        ("format: ruff; lengths and trailing blanks of changed lines", lambda: check_format(since)),
+        ("format: ruff; columns; trailing blanks of changed lines", lambda: check_format(since)),
         ("types: mypy", lambda: check_types(changed)),
         ("layers: docs/layers.toml, tools/pyproject.toml", check_layers),
     ]
