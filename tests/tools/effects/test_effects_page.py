@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from brace.effects import BY_NAME, EFFECTS
+from brace.effects import BY_NAME
+from brace.effects.catalogue import EFFECTS
 from brace.effects.page import page
 from brace.model.keys import KEY_BY_NAME
 
@@ -34,3 +35,13 @@ def test_a_row_without_its_key_in_the_dictionary_is_refused() -> None:
     row = BY_NAME["backlash"]
     with pytest.raises(ValueError, match="joint.femur.slack_rad.*dictionary.toml"):
         replace(row, numbers=(replace(row.numbers[0], leaf="slack_rad"),)).check()
+
+
+def test_what_changes_with_time_or_temperature_follows_time() -> None:
+    """The list `Changes` is what time or temperature changes in the simulated limb: the row of each says so."""
+    text = (PROJECT / "host_sim" / "effects" / "limb_now.h").read_text()
+    listed = text.partition("using Changes = ChangesBy<")[2].partition(">;")[0]
+    names = [one.strip().removesuffix("::Change") for one in listed.split(",")]
+    assert names and set(names) <= {effect.name for effect in EFFECTS}
+    forgotten = [name for name in names if not BY_NAME[name].follows_time]
+    assert not forgotten, f"follows_time = True is missing in the rows of {forgotten} in effects/catalogue.py"
