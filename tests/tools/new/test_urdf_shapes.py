@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import tomllib
 from collections.abc import Callable
 from pathlib import Path
 
@@ -79,20 +80,81 @@ def test_a_quadrupeds_leg_is_a_planar_limb_and_says_so(brace: Brace, tmp_path: P
 
 
 def _truth_of_roll_leg(robot: Path) -> list[float]:
+    # The leg hangs at zero; theta1 = -pi/2 - hip, and theta2 is the knee's angle here.
+    inverse = np.linalg.inv(_jacobian(robot, 0.0, 2.0708 - np.pi / 2, -1.0))  # rad/mm
+    k = inverse.T @ np.diag([60e3] * 3) @ inverse
+    return [k[0, 0], k[0, 2], k[2, 2]]
+
+
+def _jacobian(robot: Path, *angles_rad: float) -> np.ndarray:
+    """3 x joints at the foot's link [mm]."""
     import mujoco
 
     spec = mujoco.MjSpec.from_file(str(robot))
     spec.compiler.fusestatic = False
     model = spec.compile()
     data = mujoco.MjData(model)
-    # The leg hangs at zero; theta1 = -pi/2 - hip, and theta2 is the knee's angle here.
-    data.qpos[:] = 0.0, 2.0708 - np.pi / 2, -1.0
+    data.qpos[:] = angles_rad
     mujoco.mj_forward(model, data)
-    jacobian = np.zeros((3, 3))
+    jacobian = np.zeros((3, len(angles_rad)))
     mujoco.mj_jacBody(model, data, jacobian, None, model.body("foot_link").id)
-    inverse = np.linalg.inv(1e3 * jacobian)  # rad/mm
-    k = inverse.T @ np.diag([60e3] * 3) @ inverse
-    return [k[0, 0], k[0, 2], k[2, 2]]
+    return 1e3 * jacobian
+
+
+def test_a_roll_in_the_legs_plane_is_a_limb_in_space_along_the_legs_axes(brace: Brace, tmp_path: Path) -> None:
+    """A hip roll without a way aside: z of the limb is its axis. K is compared in the robot's frame."""
+    pytest.importorskip("mujoco")
+    hip = _joint("hip", "0.08 0 0", "0 1 0")
+    out, robot = tmp_path / "limb.toml", _robot(tmp_path / "leg.urdf", ROLL[0], hip, *ROLL[2:])
+    refused = brace("new", "--out", out, "--urdf", robot, *SPACE)
+    assert refused.code == 3 and "90 deg from the vertical" in refused.err and "--urdf-frame leg" in refused.err
+    told = json.loads(brace("new", "--out", out, "--urdf", robot, "--urdf-frame", "leg", *SPACE, "--json").out)
+    assert "z is the robot's (1, 0, 0), 90 deg from its vertical" in " ".join(told["guesses"])
+    q = {"abad": 0.4, "hip": 0.7, "knee": -1.3}
+    theta = {name: each["zero_rad"] + each["sign"] * q[each["joint"]] for name, each in told["urdf"]["angles"].items()}
+    options = [f"--theta{number}={theta[name]!r}" for number, name in enumerate(("coxa", "femur", "tibia"))]
+    k = json.loads(brace("k", "--model", out, *options, "--json").out)
+    ours = np.array([[k[f"k_{''.join(sorted(one + other))}_n_per_mm"] for one in "xyz"] for other in "xyz"])
+    axes = np.array([told["urdf"]["axes_of_robot"][name] for name in "xyz"]).T
+    inverse = np.linalg.inv(_jacobian(robot, *q.values()))
+    assert axes @ ours @ axes.T == pytest.approx(inverse.T @ np.diag([60e3] * 3) @ inverse, rel=2e-5, abs=1e-5)
+    down = tomllib.loads(out.read_text())["gravity"]  # x of the limb, with the roll at zero
+    assert down["direction_rad"] == pytest.approx(0.0) and down["lean_rad"] == pytest.approx(0.0)
+
+
+def test_two_hinges_are_no_limb_in_space_until_the_coxa_is_given(brace: Brace, tmp_path: Path) -> None:
+    pytest.importorskip("mujoco")
+    out, robot = tmp_path / "limb.toml", _robot(tmp_path / "leg.urdf", HIP, KNEE, FOOT)
+    done = brace("new", "--out", out, "--urdf", robot, *SPACE)
+    assert done.code == 3 and "hip and knee are all hinges up to foot_link" in done.err and "--coxa MM" in done.err
+    assert brace("new", "--out", out, "--urdf", robot, *SPACE, "--coxa", 57).code == 0
+    assert tomllib.loads(out.read_text())["geometry"]["coxa_mm"] == 57.0
+
+
+def test_what_hangs_on_the_body_is_counted_by_name(brace: Brace, tmp_path: Path) -> None:
+    pytest.importorskip("mujoco")
+    robot = _robot(tmp_path / "leg.urdf", YAW, HIP, KNEE, _joint("ankle", "0.1 0 0", "0 1 0"), FOOT)
+    new = "new", "--out", tmp_path / "limb.toml", "--urdf", robot, *PLANE
+    counted = "4 hinges lie between body and foot_link: yaw, hip, knee, ankle"
+    assert counted in brace(*new, "--urdf-tip", "foot_link").err
+    assert "hinges up to each end: foot_link 4" in brace(*new).err
+    assert "no link 'foot'" in (done := brace(*new, "--urdf-tip", "foot")).err and "--urdf-tip foot_link" in done.err
+    assert "knee_link lies on an axis" in brace(*new, "--urdf-tip", "knee_link").err
+
+
+def test_a_travel_given_by_hand_is_not_read(brace: Brace, tmp_path: Path) -> None:
+    pytest.importorskip("mujoco")
+    robot = _robot(tmp_path / "leg.urdf", YAW, HIP, _joint("knee", "0.1 0 0", "0 1 0", limit="0 120"), FOOT)
+    new = "new", "--out", tmp_path / "limb.toml", "--urdf", robot, *PLANE
+    assert "give --tibia-travel" in (done := brace(*new)).err and done.code == 3
+    assert brace(*new, "--tibia-travel", "0deg", "120deg").code == 0
+
+
+def test_a_leaning_knee_is_said_with_its_share_of_k(brace: Brace, tmp_path: Path) -> None:
+    pytest.importorskip("mujoco")
+    robot = _robot(tmp_path / "leg.urdf", HIP, _joint("knee", "0.1 0 0|0.02 0 0", "0 1 0"), FOOT)
+    told = brace("new", "--out", tmp_path / "limb.toml", "--urdf", robot, *PLANE).out
+    assert "knee's axis leans by 1.1 deg from hip's" in told and "2 x 0.05 / sin(theta2)" in told
 
 
 def test_wide_limits_are_none_and_a_lean_or_offset_is_told(brace: Brace, tmp_path: Path) -> None:
@@ -103,6 +165,7 @@ def test_wide_limits_are_none_and_a_lean_or_offset_is_told(brace: Brace, tmp_pat
     assert done.code == 0, done.err
     assert "limits beyond a whole turn each way" in done.out
     assert "leans by 1.1 deg" in done.out and "2, 2, 2 mm aside" in done.out
+    assert "2 x 14 mm / (tip's distance from its axis)" in done.out  # 2 mm, and twice 0.02 of the reach of 300
     assert "[motor.femur]" not in (tmp_path / "limb.toml").read_text()
 
 

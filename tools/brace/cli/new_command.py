@@ -15,6 +15,7 @@ from brace.ground.errors import UsageError
 if TYPE_CHECKING:
     from brace.newlimb.describe import Known
     from brace.newlimb.quantity import Joint, Link
+    from brace.newlimb.urdf import UrdfLeg
 
 PLANE = ("femur", "tibia")
 NEEDED = {  # option: what is asked, and an example
@@ -52,6 +53,12 @@ def add(commands: Subcommands) -> None:
         "--urdf", type=common.path, metavar="FILE", help="lengths and travel of its two or three joints"
     )
     parser.add_argument("--urdf-tip", default="", metavar="LINK", help="the link whose origin is the foot")
+    parser.add_argument(
+        "--urdf-frame",
+        choices=("robot", "leg"),
+        default="robot",
+        help="z of the limb: the robot's z (default), or the first joint's axis and the leg's own plane",
+    )
     for name in (*PLANE, "coxa"):
         parser.add_argument(f"--{name}", metavar="MM", help=f"length of the {name}; 185, 0.185m" if name != "coxa" else
                             "distance of the yaw axis, for a limb in space")  # fmt: skip
@@ -72,7 +79,7 @@ def run(arguments: argparse.Namespace) -> int:
 
     _refuse_existing(arguments.out)
     check_file(arguments.out)
-    notes = _fill_from_urdf(arguments) if arguments.urdf is not None else []
+    leg = _fill_from_urdf(arguments) if arguments.urdf is not None else None
     missing = [name for name in NEEDED if getattr(arguments, name) is None]
     if missing and has_terminal():
         ask(arguments, {**NEEDED, **OPTIONAL}, lambda name, text: _check(arguments, name, text))
@@ -83,12 +90,14 @@ def run(arguments: argparse.Namespace) -> int:
             why=f"{_option(missing[0])} is {NEEDED[missing[0]][0]}; there is no terminal to ask at",
             next_step=" ".join(f"{_option(name)} {NEEDED[name][1]}" for name in missing),
         )
-    known = _known(arguments, notes)
+    known = _known(arguments, leg)
     model = describe.model(known, arguments.out)
     reported = _expected(known, model)
     write_file(arguments.out, describe.text(known))
     if arguments.json:
-        common.print_json({**reported, "guesses": describe.guesses(known), "out": arguments.out})
+        common.print_json(
+            {**reported, "guesses": describe.guesses(known), "out": arguments.out, "urdf": _leg_json(leg)}
+        )
         return 0
     common.emit(_text(known, reported))
     for sentence in describe.guesses(known):
@@ -149,7 +158,15 @@ def _check(arguments: argparse.Namespace, name: str, text: str) -> object:
         raise _naming(name, error) from None
 
 
-def _known(arguments: argparse.Namespace, notes: list[str]) -> Known:
+def _leg_json(leg: UrdfLeg | None) -> dict[str, object] | None:
+    """The limb's axes in the robot's frame, and theta = zero_rad + sign * the joint's angle."""
+    if leg is None:
+        return None
+    axes = {name: [float(part) for part in axis] for name, axis in vars(leg.frame).items()}
+    return {"axes_of_robot": axes, "angles": {name: vars(angle) for name, angle in leg.angles.items()}}
+
+
+def _known(arguments: argparse.Namespace, leg: UrdfLeg | None) -> Known:
     from brace.newlimb.describe import Known
 
     given = {name: value for name, value in vars(arguments).items() if value is not None}
@@ -171,7 +188,8 @@ def _known(arguments: argparse.Namespace, notes: list[str]) -> Known:
         cast("dict[str, float | None]", said["_play"]),
         cast("dict[str, tuple[float, float]]", said["_travel"]),
         arguments.urdf.name if arguments.urdf else "",
-        tuple(notes),
+        tuple(leg.notes) if leg else (),
+        leg.down if leg else None,
     )
 
 
@@ -221,13 +239,14 @@ def _text(known: Known, reported: dict[str, object]) -> str:
     )
 
 
-def _fill_from_urdf(arguments: argparse.Namespace) -> list[str]:
-    """What the URDF says and no option does; returns how it was understood."""
-    from brace.newlimb.urdf import read_chain
+def _fill_from_urdf(arguments: argparse.Namespace) -> UrdfLeg:
+    """What the URDF says and no option does."""
+    from brace.newlimb.urdf import read_leg
 
-    in_space = any(value is not None for name, value in vars(arguments).items() if name.startswith("coxa"))
-    found, notes = read_chain(arguments.urdf, arguments.urdf_tip, in_space)
-    for name, value in found.items():
-        if getattr(arguments, name) is None:
+    given = {name for name, value in vars(arguments).items() if value is not None}
+    in_space = any(name.startswith("coxa") for name in given)
+    leg = read_leg(arguments.urdf, arguments.urdf_tip, in_space, arguments.urdf_frame, given)
+    for name, value in leg.options.items():
+        if name not in given:
             setattr(arguments, name, value)
-    return notes
+    return leg

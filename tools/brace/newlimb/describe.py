@@ -29,6 +29,7 @@ class Known:
     travels_rad: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     source: str = ""
     notes: tuple[str, ...] = ()  # what the source left open and how it was understood
+    down: tuple[float, float] | None = None  # gravity.direction_rad and lean_rad, where down is not -z
 
 
 def compliance_rel(known: Known) -> float:
@@ -100,6 +101,9 @@ def text(known: Known) -> str:
     for name, (low, high) in known.travels_rad.items():
         lines += ["", f"[motor.{name}]  # travel {math.degrees(low):.4g} to {math.degrees(high):.4g} deg"]
         lines += [f"angle_min_rad = {low:.6g}", f"angle_max_rad = {high:.6g}"]
+    if known.down:
+        lines += ["", "[gravity]  # down as the robot stands, with the coxa joint at zero"]
+        lines += [f"direction_rad = {known.down[0]!r}", f"lean_rad = {known.down[1]!r}"]
     lines += [
         "",
         "[uncertainty]  # one sigma of what is trusted above; measure the limb and run brace identify for better "
