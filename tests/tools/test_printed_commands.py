@@ -175,6 +175,8 @@ OTHER_PROGRAMS = {  # how a command begins, without .venv/bin/: where it runs, o
     "python -m brace.sim.servos": "test_pages_commands.py",
     "pip install ./brace": "needs the files of ./dev release; test_release.py tries its parts",
     "pip install": "needs the network; tools/pyproject.toml has these packages",
+    "python -m pip install -e 'tools[robots]'": "needs the network; ./dev judges installs it",
+    "python tests/judges/robots/robots.py": "a minute; test_robots.py plays three legs of each kind",
     "sudo apt install": "needs root, and the files of ./dev release",
     "ip link": "needs root, and CAN in the kernel; tests/socketcan/with_vcan does it with vcan0",
     "sed": "runs with the commands beside it, above",
