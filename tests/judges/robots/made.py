@@ -9,7 +9,7 @@ import numpy as np
 from chain import Array, X, Y, Z, about
 
 KINDS = ("exact", "a little off", "knee leans", "rolls in its plane", "beside", "leans", "two hinges", "leaning plane",
-         "three in the plane", "slide", "mimic", "four hinges")  # fmt: skip
+         "three in the plane", "slide", "mimic", "four hinges", "knee crosses")  # fmt: skip
 
 
 def write(path: Path, kind: str, draw: np.random.Generator) -> str:
@@ -26,6 +26,8 @@ def write(path: Path, kind: str, draw: np.random.Generator) -> str:
     if kind == "three in the plane":
         yaw_axis = about(Z, draw.uniform(-0.3, 0.3)) @ Y
     knee_axis = about(X, draw.uniform(0.005, 0.03)) @ Y if kind == "knee leans" else Y
+    if kind == "knee crosses":
+        knee_axis = about(X, draw.uniform(0.1, 1.5)) @ Y
     coxa, femur, tibia = draw.uniform(0.0, 0.1), draw.uniform(0.08, 0.4), draw.uniform(0.08, 0.4)
     most = 0.012 * (coxa + femur + tibia)
     aside = draw.uniform(0.02, 0.1) if kind == "beside" else (small > 0.0) * draw.uniform(-1.0, 1.0) * most

@@ -30,8 +30,9 @@ def test_legs_made_at_random(tmp_path: Path) -> None:
     assert not _wrong(found)
     for kind in ("exact", "knee leans", "rolls in its plane", "leaning plane"):
         assert all(any(leg.became == "space" for leg in tries) for tries in found[kind]), kind
-    for kind in ("three in the plane", "slide", "mimic", "four hinges"):
+    for kind in ("three in the plane", "slide", "mimic", "four hinges", "knee crosses"):
         assert all(leg.became == "refused" for tries in found[kind] for leg in tries), kind
+    assert all(leg.became != "space" for tries in found["beside"] for leg in tries)  # not even where its share is said
     assert set(found) == set(made.KINDS)
 
 
