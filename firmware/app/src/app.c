@@ -127,7 +127,10 @@ static void blank_snapshot(const controller_t *controller, brace_snapshot_t *sna
                                    .gravity_lean_rad = controller->gravity.lean_rad,
                                    .temp_degc = unknown};
     stiffness_unknown(snapshot, BRACE_FLAG_STALE);
+    snapshot->force_x_interval_n = snapshot->force_y_interval_n = snapshot->force_z_interval_n =
+        (brace_interval_t){unknown, unknown};
     for (int i = 0; i < BRACE_LINK_COUNT; i++) {
+        snapshot->load_interval_n_mm[i] = snapshot->force_x_interval_n;
         snapshot->theta_rad[i] = snapshot->motor_rad[i] = snapshot->torque_n_mm[i] = unknown;
     }
 }
@@ -168,6 +171,7 @@ brace_status_t brace_app_start(brace_app_t *app, const brace_hal_t *hal)
     frozen_start(&controller->frozen);
     joints_start(&controller->joints, hal);
     posture_start(&controller->posture);
+    interval_start(&controller->interval);
     parameter_job_start(&controller->parameters, hal);
     for (bool done = false; !done;) { /* at most once for each part */
         done = configure_step(controller);
@@ -268,6 +272,26 @@ static void take_force(const controller_t *controller, brace_snapshot_t *snapsho
     snapshot->force_x_n = tip_n.x;
     snapshot->force_y_n = tip_n.y;
     snapshot->force_z_n = tip_n.z;
+}
+
+/* Where that load lies with 90 %: another part of it in every tick. */
+static void take_interval(controller_t *controller, brace_snapshot_t *snapshot)
+{
+    interval_t *interval = &controller->interval;
+    const interval_inputs_t inputs = {.joints = &controller->joints,
+                                      .flank = &controller->flank,
+                                      .posture = &controller->posture,
+                                      .force = &controller->tip_force,
+                                      .is_sensed = snapshot->force_is_sensed,
+                                      .parameters = &controller->parameters.in_force,
+                                      .down = controller->gravity.down};
+    interval_step(interval, &inputs);
+    snapshot->force_x_interval_n = interval->x_n;
+    snapshot->force_y_interval_n = interval->y_n;
+    snapshot->force_z_interval_n = interval->z_n;
+    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
+        snapshot->load_interval_n_mm[i] = interval->load_n_mm[i];
+    }
 }
 
 /* K of these samples. There is none in CONFIGURATION, nor while a set comes into force: the model is in the making. */
@@ -615,6 +639,7 @@ void brace_app_tick(brace_app_t *app, uint32_t now_us)
                controller->gravity.down, parameters, controller->ownership.is_held, now_us);
     take_posture(controller, snapshot);
     take_force(controller, snapshot);
+    take_interval(controller, snapshot);
     take_stiffness(controller, snapshot);
     take_place(controller, snapshot);
     part_is_done(controller, PART_STIFFNESS);

@@ -13,6 +13,7 @@
 #include "flank/flank.h"
 #include "flank/takeup.h"
 #include "guard/guard.h"
+#include "interval/interval.h"
 #include "jobs/configure/parameter_job.h"
 #include "jobs/drift/drift_job.h"
 #include "jobs/loading/loading.h"
@@ -54,6 +55,7 @@ typedef struct {
     flank_t flank;
     takeup_t takeup;
     posture_t posture;
+    interval_t interval;
     gravity_t gravity;
     model_t model;
     softening_t softening;

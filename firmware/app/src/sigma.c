@@ -14,14 +14,21 @@ static uint32_t kind_of(const controller_t *controller, const brace_snapshot_t *
            (snapshot->force_is_sensed ? (uint32_t)FORCE_IS_SENSED : 0u);
 }
 
-/* How far a joint's load may be from the load that K counts [N mm], with a sign. The mean lags behind, and
- * the motor's friction carries a part of the load. Both are bounds and independent. NaN: not known */
+/* How far a joint's load may be from the load that K counts [N mm], with a sign. The mean lags behind; friction in
+ * motor, gear and joint carries a part of the load, which grows with it; and the torque by current is known to a share
+ * of itself. The first two are bounds, all are independent. NaN: not known */
 static float load_off_n_mm(const controller_t *controller, int index)
 {
     const brace_drive_t *drive = &controller->parameters.in_force.drive[index];
     const float lag_n_mm = flank_lag_n_mm(&controller->flank, &controller->joints, index);
-    const float friction_n_mm = drive->motor_friction_n_mm * (1.0f + drive->motor_friction_tolerance_ratio);
-    return __builtin_copysignf(__builtin_sqrtf(lag_n_mm * lag_n_mm + friction_n_mm * friction_n_mm), lag_n_mm);
+    const float load_n_mm = __builtin_fabsf(controller->flank.joint[index].out.load_n_mm);
+    const float share = drive->motor_friction_per_torque_ratio + drive->motor_friction_per_load_ratio;
+    const float friction_n_mm = (drive->motor_friction_n_mm + share * load_n_mm) *
+                                    (1.0f + drive->motor_friction_tolerance_ratio) +
+                                drive->coulomb_n_mm + drive->coulomb_per_load_ratio * load_n_mm;
+    const float gain_n_mm = drive->torque_gain_rel * load_n_mm;
+    return __builtin_copysignf(
+        __builtin_sqrtf(lag_n_mm * lag_n_mm + friction_n_mm * friction_n_mm + gain_n_mm * gain_n_mm), lag_n_mm);
 }
 
 /* Does a joint's load change K? Where a sensor at the tip measures the force, only the coxa joint still tells a part of

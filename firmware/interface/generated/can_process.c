@@ -590,6 +590,126 @@ void brace_can_unpack_sigma_space_3(const uint8_t data[8], brace_can_sigma_space
     message->k_across_n_per_mm = brace_value_unsigned(bits, 16u, 16u, 0.002f);
 }
 
+uint32_t brace_can_pack_interval_0(const brace_can_interval_0_t *message, uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits = 24576u;
+    bits |= brace_bits_number(message->sequence, 0u, 8u, &limited);
+    bits |= brace_bits_signed(message->force_x_low_n, 1000.0f, 16u, 24u, &limited);
+    bits |= brace_bits_signed(message->force_x_high_n, 1000.0f, 40u, 24u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_interval_0(const uint8_t data[8], brace_can_interval_0_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->sequence = brace_value_number(bits, 0u, 8u);
+    message->force_x_low_n = brace_value_signed(bits, 16u, 24u, 0.001f);
+    message->force_x_high_n = brace_value_signed(bits, 40u, 24u, 0.001f);
+}
+
+uint32_t brace_can_pack_interval_1(const brace_can_interval_1_t *message, uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits = 24832u;
+    bits |= brace_bits_number(message->sequence, 0u, 8u, &limited);
+    bits |= brace_bits_signed(message->force_z_low_n, 1000.0f, 16u, 24u, &limited);
+    bits |= brace_bits_signed(message->force_z_high_n, 1000.0f, 40u, 24u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_interval_1(const uint8_t data[8], brace_can_interval_1_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->sequence = brace_value_number(bits, 0u, 8u);
+    message->force_z_low_n = brace_value_signed(bits, 16u, 24u, 0.001f);
+    message->force_z_high_n = brace_value_signed(bits, 40u, 24u, 0.001f);
+}
+
+uint32_t brace_can_pack_interval_2(const brace_can_interval_2_t *message, uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits = 25088u;
+    bits |= brace_bits_number(message->sequence, 0u, 8u, &limited);
+    bits |= brace_bits_signed(message->load_femur_low_n_mm, 5.0f, 16u, 24u, &limited);
+    bits |= brace_bits_signed(message->load_femur_high_n_mm, 5.0f, 40u, 24u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_interval_2(const uint8_t data[8], brace_can_interval_2_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->sequence = brace_value_number(bits, 0u, 8u);
+    message->load_femur_low_n_mm = brace_value_signed(bits, 16u, 24u, 0.2f);
+    message->load_femur_high_n_mm = brace_value_signed(bits, 40u, 24u, 0.2f);
+}
+
+uint32_t brace_can_pack_interval_3(const brace_can_interval_3_t *message, uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits = 25344u;
+    bits |= brace_bits_number(message->sequence, 0u, 8u, &limited);
+    bits |= brace_bits_signed(message->load_tibia_low_n_mm, 5.0f, 16u, 24u, &limited);
+    bits |= brace_bits_signed(message->load_tibia_high_n_mm, 5.0f, 40u, 24u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_interval_3(const uint8_t data[8], brace_can_interval_3_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->sequence = brace_value_number(bits, 0u, 8u);
+    message->load_tibia_low_n_mm = brace_value_signed(bits, 16u, 24u, 0.2f);
+    message->load_tibia_high_n_mm = brace_value_signed(bits, 40u, 24u, 0.2f);
+}
+
+uint32_t brace_can_pack_interval_across_0(const brace_can_interval_across_0_t *message, uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits = 28672u;
+    bits |= brace_bits_number(message->sequence, 0u, 8u, &limited);
+    bits |= brace_bits_signed(message->force_y_low_n, 1000.0f, 16u, 24u, &limited);
+    bits |= brace_bits_signed(message->force_y_high_n, 1000.0f, 40u, 24u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_interval_across_0(const uint8_t data[8], brace_can_interval_across_0_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->sequence = brace_value_number(bits, 0u, 8u);
+    message->force_y_low_n = brace_value_signed(bits, 16u, 24u, 0.001f);
+    message->force_y_high_n = brace_value_signed(bits, 40u, 24u, 0.001f);
+}
+
+uint32_t brace_can_pack_interval_across_1(const brace_can_interval_across_1_t *message, uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits = 28928u;
+    bits |= brace_bits_number(message->sequence, 0u, 8u, &limited);
+    bits |= brace_bits_signed(message->load_coxa_low_n_mm, 5.0f, 16u, 24u, &limited);
+    bits |= brace_bits_signed(message->load_coxa_high_n_mm, 5.0f, 40u, 24u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_interval_across_1(const uint8_t data[8], brace_can_interval_across_1_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->sequence = brace_value_number(bits, 0u, 8u);
+    message->load_coxa_low_n_mm = brace_value_signed(bits, 16u, 24u, 0.2f);
+    message->load_coxa_high_n_mm = brace_value_signed(bits, 40u, 24u, 0.2f);
+}
+
 uint32_t brace_can_pack_snapshot_fd(const brace_can_snapshot_fd_t *message, uint8_t data[64])
 {
     uint32_t limited = 0u;
@@ -875,6 +995,69 @@ void brace_can_unpack_sigma_fd(const uint8_t data[64], brace_can_sigma_fd_t *mes
     bits = brace_bits_load(data + 56);
     message->space_lambda_3_n_per_mm = brace_value_float(bits, 0u);
     message->k_across_n_per_mm = brace_value_float(bits, 32u);
+}
+
+uint32_t brace_can_pack_interval_fd(const brace_can_interval_fd_t *message, uint8_t data[64])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits = 24576u;
+    bits |= brace_bits_number(message->sequence, 0u, 8u, &limited);
+    bits |= brace_bits_number(message->parameter_tag, 16u, 16u, &limited);
+    bits |= brace_bits_float(message->force_x_low_n, 32u);
+    brace_bits_store(bits, data);
+    bits = 0u;
+    bits |= brace_bits_float(message->force_x_high_n, 0u);
+    bits |= brace_bits_float(message->force_z_low_n, 32u);
+    brace_bits_store(bits, data + 8);
+    bits = 0u;
+    bits |= brace_bits_float(message->force_z_high_n, 0u);
+    bits |= brace_bits_float(message->load_femur_low_n_mm, 32u);
+    brace_bits_store(bits, data + 16);
+    bits = 0u;
+    bits |= brace_bits_float(message->load_femur_high_n_mm, 0u);
+    bits |= brace_bits_float(message->load_tibia_low_n_mm, 32u);
+    brace_bits_store(bits, data + 24);
+    bits = 0u;
+    bits |= brace_bits_float(message->load_tibia_high_n_mm, 0u);
+    bits |= brace_bits_float(message->force_y_low_n, 32u);
+    brace_bits_store(bits, data + 32);
+    bits = 0u;
+    bits |= brace_bits_float(message->force_y_high_n, 0u);
+    bits |= brace_bits_float(message->load_coxa_low_n_mm, 32u);
+    brace_bits_store(bits, data + 40);
+    bits = 0u;
+    bits |= brace_bits_float(message->load_coxa_high_n_mm, 0u);
+    brace_bits_store(bits, data + 48);
+    bits = 0u;
+    brace_bits_store(bits, data + 56);
+    return limited;
+}
+
+void brace_can_unpack_interval_fd(const uint8_t data[64], brace_can_interval_fd_t *message)
+{
+    uint64_t bits = brace_bits_load(data);
+    message->sequence = brace_value_number(bits, 0u, 8u);
+    message->parameter_tag = brace_value_number(bits, 16u, 16u);
+    message->force_x_low_n = brace_value_float(bits, 32u);
+    bits = brace_bits_load(data + 8);
+    message->force_x_high_n = brace_value_float(bits, 0u);
+    message->force_z_low_n = brace_value_float(bits, 32u);
+    bits = brace_bits_load(data + 16);
+    message->force_z_high_n = brace_value_float(bits, 0u);
+    message->load_femur_low_n_mm = brace_value_float(bits, 32u);
+    bits = brace_bits_load(data + 24);
+    message->load_femur_high_n_mm = brace_value_float(bits, 0u);
+    message->load_tibia_low_n_mm = brace_value_float(bits, 32u);
+    bits = brace_bits_load(data + 32);
+    message->load_tibia_high_n_mm = brace_value_float(bits, 0u);
+    message->force_y_low_n = brace_value_float(bits, 32u);
+    bits = brace_bits_load(data + 40);
+    message->force_y_high_n = brace_value_float(bits, 0u);
+    message->load_coxa_low_n_mm = brace_value_float(bits, 32u);
+    bits = brace_bits_load(data + 48);
+    message->load_coxa_high_n_mm = brace_value_float(bits, 0u);
+    bits = brace_bits_load(data + 56);
 }
 
 uint32_t brace_can_details_part(const uint8_t *data)

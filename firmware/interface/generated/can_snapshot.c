@@ -351,6 +351,72 @@ void brace_can_make_sigma_space_3(const brace_measured_t *measured, float age_ms
     (void)brace_can_pack_sigma_space_3(&message, data);
 }
 
+void brace_can_make_interval_0(const brace_measured_t *measured, float age_ms, uint8_t *data)
+{
+    (void)age_ms;
+    const brace_can_interval_0_t message = {
+        .sequence = measured->sequence & 0xffu,
+        .force_x_low_n = measured->force_x_low_n,
+        .force_x_high_n = measured->force_x_high_n,
+    };
+    (void)brace_can_pack_interval_0(&message, data);
+}
+
+void brace_can_make_interval_1(const brace_measured_t *measured, float age_ms, uint8_t *data)
+{
+    (void)age_ms;
+    const brace_can_interval_1_t message = {
+        .sequence = measured->sequence & 0xffu,
+        .force_z_low_n = measured->force_z_low_n,
+        .force_z_high_n = measured->force_z_high_n,
+    };
+    (void)brace_can_pack_interval_1(&message, data);
+}
+
+void brace_can_make_interval_2(const brace_measured_t *measured, float age_ms, uint8_t *data)
+{
+    (void)age_ms;
+    const brace_can_interval_2_t message = {
+        .sequence = measured->sequence & 0xffu,
+        .load_femur_low_n_mm = measured->load_femur_low_n_mm,
+        .load_femur_high_n_mm = measured->load_femur_high_n_mm,
+    };
+    (void)brace_can_pack_interval_2(&message, data);
+}
+
+void brace_can_make_interval_3(const brace_measured_t *measured, float age_ms, uint8_t *data)
+{
+    (void)age_ms;
+    const brace_can_interval_3_t message = {
+        .sequence = measured->sequence & 0xffu,
+        .load_tibia_low_n_mm = measured->load_tibia_low_n_mm,
+        .load_tibia_high_n_mm = measured->load_tibia_high_n_mm,
+    };
+    (void)brace_can_pack_interval_3(&message, data);
+}
+
+void brace_can_make_interval_across_0(const brace_measured_t *measured, float age_ms, uint8_t *data)
+{
+    (void)age_ms;
+    const brace_can_interval_across_0_t message = {
+        .sequence = measured->sequence & 0xffu,
+        .force_y_low_n = measured->force_y_low_n,
+        .force_y_high_n = measured->force_y_high_n,
+    };
+    (void)brace_can_pack_interval_across_0(&message, data);
+}
+
+void brace_can_make_interval_across_1(const brace_measured_t *measured, float age_ms, uint8_t *data)
+{
+    (void)age_ms;
+    const brace_can_interval_across_1_t message = {
+        .sequence = measured->sequence & 0xffu,
+        .load_coxa_low_n_mm = measured->load_coxa_low_n_mm,
+        .load_coxa_high_n_mm = measured->load_coxa_high_n_mm,
+    };
+    (void)brace_can_pack_interval_across_1(&message, data);
+}
+
 void brace_can_make_snapshot_fd(const brace_measured_t *measured, float age_ms, uint8_t *data)
 {
     const brace_can_snapshot_fd_t message = {
@@ -452,4 +518,26 @@ void brace_can_make_sigma_fd(const brace_measured_t *measured, float age_ms, uin
         .k_across_n_per_mm = measured->sigma_k_across_n_per_mm,
     };
     (void)brace_can_pack_sigma_fd(&message, data);
+}
+
+void brace_can_make_interval_fd(const brace_measured_t *measured, float age_ms, uint8_t *data)
+{
+    (void)age_ms;
+    const brace_can_interval_fd_t message = {
+        .sequence = measured->sequence & 0xffu,
+        .parameter_tag = measured->parameter_crc & 0xffffu,
+        .force_x_low_n = measured->force_x_low_n,
+        .force_x_high_n = measured->force_x_high_n,
+        .force_z_low_n = measured->force_z_low_n,
+        .force_z_high_n = measured->force_z_high_n,
+        .load_femur_low_n_mm = measured->load_femur_low_n_mm,
+        .load_femur_high_n_mm = measured->load_femur_high_n_mm,
+        .load_tibia_low_n_mm = measured->load_tibia_low_n_mm,
+        .load_tibia_high_n_mm = measured->load_tibia_high_n_mm,
+        .force_y_low_n = measured->force_y_low_n,
+        .force_y_high_n = measured->force_y_high_n,
+        .load_coxa_low_n_mm = measured->load_coxa_low_n_mm,
+        .load_coxa_high_n_mm = measured->load_coxa_high_n_mm,
+    };
+    (void)brace_can_pack_interval_fd(&message, data);
 }

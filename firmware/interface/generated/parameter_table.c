@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stddef.h>
 
-_Static_assert(sizeof(brace_parameters_t) == 4 * 114, "the dictionary lists every member");
+_Static_assert(sizeof(brace_parameters_t) == 4 * 126, "the dictionary lists every member");
 _Static_assert(offsetof(brace_parameters_t, limb.coxa_mm) == 0, "order");
 _Static_assert(offsetof(brace_parameters_t, limb.femur_mm) == 4, "order");
 _Static_assert(offsetof(brace_parameters_t, limb.tibia_mm) == 8, "order");
@@ -56,70 +56,82 @@ _Static_assert(offsetof(brace_parameters_t, drive[0].angle_step_rad) == 184, "or
 _Static_assert(offsetof(brace_parameters_t, drive[0].angle_min_rad) == 188, "order");
 _Static_assert(offsetof(brace_parameters_t, drive[0].angle_max_rad) == 192, "order");
 _Static_assert(offsetof(brace_parameters_t, drive[0].takeup_torque_n_mm) == 196, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[1].coulomb_n_mm) == 200, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[1].coulomb_per_load_ratio) == 204, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[1].hardening_n_mm_per_rad3) == 208, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[1].motor_friction_n_mm) == 212, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[1].motor_friction_tolerance_ratio) == 216, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[1].motor_inertia_n_mm_s2_per_rad) == 220, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[1].torque_range_n_mm) == 224, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[1].torque_noise_n_mm) == 228, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[1].torque_bias_n_mm) == 232, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[1].angle_step_rad) == 236, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[1].angle_min_rad) == 240, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[1].angle_max_rad) == 244, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[1].takeup_torque_n_mm) == 248, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[2].coulomb_n_mm) == 252, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[2].coulomb_per_load_ratio) == 256, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[2].hardening_n_mm_per_rad3) == 260, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[2].motor_friction_n_mm) == 264, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[2].motor_friction_tolerance_ratio) == 268, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[2].motor_inertia_n_mm_s2_per_rad) == 272, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[2].torque_range_n_mm) == 276, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[2].torque_noise_n_mm) == 280, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[2].torque_bias_n_mm) == 284, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[2].angle_step_rad) == 288, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[2].angle_min_rad) == 292, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[2].angle_max_rad) == 296, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[2].takeup_torque_n_mm) == 300, "order");
-_Static_assert(offsetof(brace_parameters_t, gravity.femur_n) == 304, "order");
-_Static_assert(offsetof(brace_parameters_t, gravity.tibia_n) == 308, "order");
-_Static_assert(offsetof(brace_parameters_t, gravity.knee_n) == 312, "order");
-_Static_assert(offsetof(brace_parameters_t, gravity.direction_rad) == 316, "order");
-_Static_assert(offsetof(brace_parameters_t, gravity.lean_rad) == 320, "order");
-_Static_assert(offsetof(brace_parameters_t, sensor.bias_x_n) == 324, "order");
-_Static_assert(offsetof(brace_parameters_t, sensor.bias_z_n) == 328, "order");
-_Static_assert(offsetof(brace_parameters_t, sensor.gain) == 332, "order");
-_Static_assert(offsetof(brace_parameters_t, sensor.rotation_rad) == 336, "order");
-_Static_assert(offsetof(brace_parameters_t, sensor.crosstalk_xz) == 340, "order");
-_Static_assert(offsetof(brace_parameters_t, sensor.crosstalk_zx) == 344, "order");
-_Static_assert(offsetof(brace_parameters_t, sensor.drift_x_n_per_s) == 348, "order");
-_Static_assert(offsetof(brace_parameters_t, sensor.drift_z_n_per_s) == 352, "order");
-_Static_assert(offsetof(brace_parameters_t, sensor.saturation_n) == 356, "order");
-_Static_assert(offsetof(brace_parameters_t, sensor.noise_n) == 360, "order");
-_Static_assert(offsetof(brace_parameters_t, slow.creep_ratio) == 364, "order");
-_Static_assert(offsetof(brace_parameters_t, slow.creep_time_constant_s) == 368, "order");
-_Static_assert(offsetof(brace_parameters_t, slow.joint_compliance_per_degc) == 372, "order");
-_Static_assert(offsetof(brace_parameters_t, slow.reference_degc) == 376, "order");
-_Static_assert(offsetof(brace_parameters_t, slow.contact_play_mm) == 380, "order");
-_Static_assert(offsetof(brace_parameters_t, slow.change_at_s) == 384, "order");
-_Static_assert(offsetof(brace_parameters_t, slow.change_link) == 388, "order");
-_Static_assert(offsetof(brace_parameters_t, slow.change_bending_factor) == 392, "order");
-_Static_assert(offsetof(brace_parameters_t, controller.node_id) == 396, "order");
-_Static_assert(offsetof(brace_parameters_t, controller.can_bit_rate) == 400, "order");
-_Static_assert(offsetof(brace_parameters_t, controller.tick_us) == 404, "order");
-_Static_assert(offsetof(brace_parameters_t, controller.age_limit_us) == 408, "order");
-_Static_assert(offsetof(brace_parameters_t, controller.stiffness_hz) == 412, "order");
-_Static_assert(offsetof(brace_parameters_t, controller.posture_hz) == 416, "order");
-_Static_assert(offsetof(brace_parameters_t, controller.load_hz) == 420, "order");
-_Static_assert(offsetof(brace_parameters_t, controller.sigma_hz) == 424, "order");
-_Static_assert(offsetof(brace_parameters_t, controller.heartbeat_hz) == 428, "order");
-_Static_assert(offsetof(brace_parameters_t, controller.bus_load_ratio) == 432, "order");
-_Static_assert(offsetof(brace_parameters_t, controller.can_fd_bit_rate) == 436, "order");
-_Static_assert(offsetof(brace_parameters_t, controller.let_go_after_ms) == 440, "order");
-_Static_assert(offsetof(brace_parameters_t, controller.stop_id) == 444, "order");
-_Static_assert(offsetof(brace_parameters_t, controller.modbus_address) == 448, "order");
-_Static_assert(offsetof(brace_parameters_t, controller.modbus_baud) == 452, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[0].motor_friction_per_torque_ratio) == 200, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[0].motor_friction_per_load_ratio) == 204, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[0].motor_friction_sliding_ratio) == 208, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[0].torque_gain_rel) == 212, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[1].coulomb_n_mm) == 216, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[1].coulomb_per_load_ratio) == 220, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[1].hardening_n_mm_per_rad3) == 224, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[1].motor_friction_n_mm) == 228, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[1].motor_friction_tolerance_ratio) == 232, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[1].motor_inertia_n_mm_s2_per_rad) == 236, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[1].torque_range_n_mm) == 240, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[1].torque_noise_n_mm) == 244, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[1].torque_bias_n_mm) == 248, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[1].angle_step_rad) == 252, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[1].angle_min_rad) == 256, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[1].angle_max_rad) == 260, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[1].takeup_torque_n_mm) == 264, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[1].motor_friction_per_torque_ratio) == 268, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[1].motor_friction_per_load_ratio) == 272, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[1].motor_friction_sliding_ratio) == 276, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[1].torque_gain_rel) == 280, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[2].coulomb_n_mm) == 284, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[2].coulomb_per_load_ratio) == 288, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[2].hardening_n_mm_per_rad3) == 292, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[2].motor_friction_n_mm) == 296, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[2].motor_friction_tolerance_ratio) == 300, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[2].motor_inertia_n_mm_s2_per_rad) == 304, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[2].torque_range_n_mm) == 308, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[2].torque_noise_n_mm) == 312, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[2].torque_bias_n_mm) == 316, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[2].angle_step_rad) == 320, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[2].angle_min_rad) == 324, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[2].angle_max_rad) == 328, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[2].takeup_torque_n_mm) == 332, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[2].motor_friction_per_torque_ratio) == 336, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[2].motor_friction_per_load_ratio) == 340, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[2].motor_friction_sliding_ratio) == 344, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[2].torque_gain_rel) == 348, "order");
+_Static_assert(offsetof(brace_parameters_t, gravity.femur_n) == 352, "order");
+_Static_assert(offsetof(brace_parameters_t, gravity.tibia_n) == 356, "order");
+_Static_assert(offsetof(brace_parameters_t, gravity.knee_n) == 360, "order");
+_Static_assert(offsetof(brace_parameters_t, gravity.direction_rad) == 364, "order");
+_Static_assert(offsetof(brace_parameters_t, gravity.lean_rad) == 368, "order");
+_Static_assert(offsetof(brace_parameters_t, sensor.bias_x_n) == 372, "order");
+_Static_assert(offsetof(brace_parameters_t, sensor.bias_z_n) == 376, "order");
+_Static_assert(offsetof(brace_parameters_t, sensor.gain) == 380, "order");
+_Static_assert(offsetof(brace_parameters_t, sensor.rotation_rad) == 384, "order");
+_Static_assert(offsetof(brace_parameters_t, sensor.crosstalk_xz) == 388, "order");
+_Static_assert(offsetof(brace_parameters_t, sensor.crosstalk_zx) == 392, "order");
+_Static_assert(offsetof(brace_parameters_t, sensor.drift_x_n_per_s) == 396, "order");
+_Static_assert(offsetof(brace_parameters_t, sensor.drift_z_n_per_s) == 400, "order");
+_Static_assert(offsetof(brace_parameters_t, sensor.saturation_n) == 404, "order");
+_Static_assert(offsetof(brace_parameters_t, sensor.noise_n) == 408, "order");
+_Static_assert(offsetof(brace_parameters_t, slow.creep_ratio) == 412, "order");
+_Static_assert(offsetof(brace_parameters_t, slow.creep_time_constant_s) == 416, "order");
+_Static_assert(offsetof(brace_parameters_t, slow.joint_compliance_per_degc) == 420, "order");
+_Static_assert(offsetof(brace_parameters_t, slow.reference_degc) == 424, "order");
+_Static_assert(offsetof(brace_parameters_t, slow.contact_play_mm) == 428, "order");
+_Static_assert(offsetof(brace_parameters_t, slow.change_at_s) == 432, "order");
+_Static_assert(offsetof(brace_parameters_t, slow.change_link) == 436, "order");
+_Static_assert(offsetof(brace_parameters_t, slow.change_bending_factor) == 440, "order");
+_Static_assert(offsetof(brace_parameters_t, controller.node_id) == 444, "order");
+_Static_assert(offsetof(brace_parameters_t, controller.can_bit_rate) == 448, "order");
+_Static_assert(offsetof(brace_parameters_t, controller.tick_us) == 452, "order");
+_Static_assert(offsetof(brace_parameters_t, controller.age_limit_us) == 456, "order");
+_Static_assert(offsetof(brace_parameters_t, controller.stiffness_hz) == 460, "order");
+_Static_assert(offsetof(brace_parameters_t, controller.posture_hz) == 464, "order");
+_Static_assert(offsetof(brace_parameters_t, controller.load_hz) == 468, "order");
+_Static_assert(offsetof(brace_parameters_t, controller.sigma_hz) == 472, "order");
+_Static_assert(offsetof(brace_parameters_t, controller.heartbeat_hz) == 476, "order");
+_Static_assert(offsetof(brace_parameters_t, controller.bus_load_ratio) == 480, "order");
+_Static_assert(offsetof(brace_parameters_t, controller.can_fd_bit_rate) == 484, "order");
+_Static_assert(offsetof(brace_parameters_t, controller.let_go_after_ms) == 488, "order");
+_Static_assert(offsetof(brace_parameters_t, controller.stop_id) == 492, "order");
+_Static_assert(offsetof(brace_parameters_t, controller.modbus_address) == 496, "order");
+_Static_assert(offsetof(brace_parameters_t, controller.modbus_baud) == 500, "order");
 
 const float brace_f32_range[25][2] = {
     {0.0f, 10000.0f},
@@ -168,11 +180,12 @@ const uint32_t brace_u32_choices[2][9] = {
 };
 
 /* For each member: its range of floats, or of whole numbers after these, or its choices after those. */
-const uint8_t brace_parameter_rule[114] = {
+const uint8_t brace_parameter_rule[126] = {
     0, 1, 1, 2, 2, 3, 2, 4, 4, 2, 2, 3, 2, 4, 4, 2, 2, 3, 2, 4, 4, 4, 5, 6, 4, 5, 6, 4, 5, 6, 2, 2, 4, 7, 5,
-    4, 4, 8, 9, 10, 11, 4, 11, 12, 11, 11, 13, 14, 14, 12, 8, 9, 10, 11, 4, 11, 12, 11, 11, 13, 14, 14, 12, 8,
-    9, 10, 11, 4, 11, 12, 11, 11, 13, 14, 14, 12, 11, 11, 11, 15, 3, 16, 16, 17, 15, 18, 18, 19, 19, 20, 11,
-    2, 21, 18, 22, 2, 23, 25, 17, 26, 35, 27, 28, 29, 29, 29, 29, 30, 24, 31, 32, 33, 34, 36,
+    4, 4, 8, 9, 10, 11, 4, 11, 12, 11, 11, 13, 14, 14, 12, 9, 9, 4, 4, 8, 9, 10, 11, 4, 11, 12, 11, 11, 13,
+    14, 14, 12, 9, 9, 4, 4, 8, 9, 10, 11, 4, 11, 12, 11, 11, 13, 14, 14, 12, 9, 9, 4, 4, 11, 11, 11, 15, 3,
+    16, 16, 17, 15, 18, 18, 19, 19, 20, 11, 2, 21, 18, 22, 2, 23, 25, 17, 26, 35, 27, 28, 29, 29, 29, 29, 30,
+    24, 31, 32, 33, 34, 36,
 };
 
 const brace_parameters_t brace_parameters_safe = {
@@ -195,6 +208,8 @@ const brace_parameters_t brace_parameters_safe = {
     .drive[0].angle_min_rad = -3.2f,
     .drive[0].angle_max_rad = 3.2f,
     .drive[0].takeup_torque_n_mm = 4000.0f,
+    .drive[0].motor_friction_sliding_ratio = 0.5f,
+    .drive[0].torque_gain_rel = 0.28f,
     .drive[1].motor_friction_n_mm = 200.0f,
     .drive[1].motor_friction_tolerance_ratio = 1.0f,
     .drive[1].motor_inertia_n_mm_s2_per_rad = 20.0f,
@@ -205,6 +220,8 @@ const brace_parameters_t brace_parameters_safe = {
     .drive[1].angle_min_rad = -3.2f,
     .drive[1].angle_max_rad = 3.2f,
     .drive[1].takeup_torque_n_mm = 4000.0f,
+    .drive[1].motor_friction_sliding_ratio = 0.5f,
+    .drive[1].torque_gain_rel = 0.28f,
     .drive[2].motor_friction_n_mm = 200.0f,
     .drive[2].motor_friction_tolerance_ratio = 1.0f,
     .drive[2].motor_inertia_n_mm_s2_per_rad = 20.0f,
@@ -215,6 +232,8 @@ const brace_parameters_t brace_parameters_safe = {
     .drive[2].angle_min_rad = -3.2f,
     .drive[2].angle_max_rad = 3.2f,
     .drive[2].takeup_torque_n_mm = 4000.0f,
+    .drive[2].motor_friction_sliding_ratio = 0.5f,
+    .drive[2].torque_gain_rel = 0.28f,
     .gravity.direction_rad = -1.5707963267948966f,
     .sensor.gain = 1.0f,
     .sensor.saturation_n = INFINITY,
@@ -288,6 +307,10 @@ static const char *const keys[] = {
     "motor.coxa.angle_min_rad",
     "motor.coxa.angle_max_rad",
     "motor.coxa.takeup_torque_n_mm",
+    "motor.coxa.friction_per_torque_ratio",
+    "motor.coxa.friction_per_load_ratio",
+    "motor.coxa.friction_sliding_ratio",
+    "motor.coxa.torque_gain_rel",
     "joint.femur.coulomb_n_mm",
     "joint.femur.coulomb_per_load_ratio",
     "joint.femur.hardening_n_mm_per_rad3",
@@ -301,6 +324,10 @@ static const char *const keys[] = {
     "motor.femur.angle_min_rad",
     "motor.femur.angle_max_rad",
     "motor.femur.takeup_torque_n_mm",
+    "motor.femur.friction_per_torque_ratio",
+    "motor.femur.friction_per_load_ratio",
+    "motor.femur.friction_sliding_ratio",
+    "motor.femur.torque_gain_rel",
     "joint.tibia.coulomb_n_mm",
     "joint.tibia.coulomb_per_load_ratio",
     "joint.tibia.hardening_n_mm_per_rad3",
@@ -314,6 +341,10 @@ static const char *const keys[] = {
     "motor.tibia.angle_min_rad",
     "motor.tibia.angle_max_rad",
     "motor.tibia.takeup_torque_n_mm",
+    "motor.tibia.friction_per_torque_ratio",
+    "motor.tibia.friction_per_load_ratio",
+    "motor.tibia.friction_sliding_ratio",
+    "motor.tibia.torque_gain_rel",
     "gravity.femur_n",
     "gravity.tibia_n",
     "gravity.knee_n",
@@ -359,11 +390,11 @@ static const char *const units[] = {
     "rad/(N mm)", "", "mm/N", "mm/N", "rad", "mm/N", "rad/(N mm)", "", "rad/(N mm)", "rad", "rad",
     "rad/(N mm)", "rad", "rad", "rad/(N mm)", "rad", "rad", "mm/N", "mm/N", "rad/(N mm)", "mm", "rad", "", "",
     "N mm", "", "N mm/rad^3", "N mm", "", "N mm s^2/rad", "N mm", "N mm", "N mm", "rad", "rad", "rad", "N mm",
-    "N mm", "", "N mm/rad^3", "N mm", "", "N mm s^2/rad", "N mm", "N mm", "N mm", "rad", "rad", "rad", "N mm",
-    "N mm", "", "N mm/rad^3", "N mm", "", "N mm s^2/rad", "N mm", "N mm", "N mm", "rad", "rad", "rad", "N mm",
-    "N", "N", "N", "rad", "rad", "N", "N", "", "rad", "", "", "N/s", "N/s", "N", "N", "", "s", "1/degC",
-    "degC", "mm", "s", "", "", "", "bit/s", "us", "us", "Hz", "Hz", "Hz", "Hz", "Hz", "", "bit/s", "", "", "",
-    "bit/s",
+    "", "", "", "", "N mm", "", "N mm/rad^3", "N mm", "", "N mm s^2/rad", "N mm", "N mm", "N mm", "rad",
+    "rad", "rad", "N mm", "", "", "", "", "N mm", "", "N mm/rad^3", "N mm", "", "N mm s^2/rad", "N mm",
+    "N mm", "N mm", "rad", "rad", "rad", "N mm", "", "", "", "", "N", "N", "N", "rad", "rad", "N", "N", "",
+    "rad", "", "", "N/s", "N/s", "N", "N", "", "s", "1/degC", "degC", "mm", "s", "", "", "", "bit/s", "us",
+    "us", "Hz", "Hz", "Hz", "Hz", "Hz", "", "bit/s", "", "", "", "bit/s",
 };
 
 const char *brace_parameter_key(uint32_t index)
@@ -378,20 +409,20 @@ const char *brace_parameter_unit(uint32_t index)
 
 const uint16_t brace_parameter_indices[BRACE_PARAMETER_NUMBERS] = {
     0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27, 28,
-    29, 30, 31, 32, 33, 34, 35, 36, 37, 38, 39, 40, 41, 42, 43, 44, 45, 46, 47, 48, 49, 50, 51, 52, 53, 54,
-    55, 56, 57, 58, 59, 60, 61, 62, 63, 64, 65, 66, 67, 68, 69, 70, 71, 72, 73, 74, 75, 76, 77, 78, 81, 82,
-    83, 84, 85, 86, 87, 88, 89, 90, 91, 92, 93, 94, 95, 96, 97, 98, 99, 100, 101, 102, 103, 104, 107, 108,
-    109, 112, 113, 79, 80, 105, 110, 111, 106,
+    29, 30, 31, 32, 33, 34, 35, 36, 37, 38, 39, 40, 41, 42, 43, 44, 45, 46, 47, 48, 49, 54, 55, 56, 57, 58,
+    59, 60, 61, 62, 63, 64, 65, 66, 71, 72, 73, 74, 75, 76, 77, 78, 79, 80, 81, 82, 83, 88, 89, 90, 93, 94,
+    95, 96, 97, 98, 99, 100, 101, 102, 103, 104, 105, 106, 107, 108, 109, 110, 111, 112, 113, 114, 115, 116,
+    119, 120, 121, 124, 125, 91, 92, 117, 122, 123, 118, 50, 51, 52, 53, 67, 68, 69, 70, 84, 85, 86, 87,
 };
 
 uint32_t brace_parameter_number(uint32_t index)
 {
     static const uint16_t number[BRACE_PARAMETER_COUNT] = {
         0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27, 28,
-        29, 30, 31, 32, 33, 34, 35, 36, 37, 38, 39, 40, 41, 42, 43, 44, 45, 46, 47, 48, 49, 50, 51, 52, 53, 54,
-        55, 56, 57, 58, 59, 60, 61, 62, 63, 64, 65, 66, 67, 68, 69, 70, 71, 72, 73, 74, 75, 76, 77, 78, 108, 109,
-        79, 80, 81, 82, 83, 84, 85, 86, 87, 88, 89, 90, 91, 92, 93, 94, 95, 96, 97, 98, 99, 100, 101, 102, 110,
-        113, 103, 104, 105, 111, 112, 106, 107,
+        29, 30, 31, 32, 33, 34, 35, 36, 37, 38, 39, 40, 41, 42, 43, 44, 45, 46, 47, 48, 49, 114, 115, 116, 117,
+        50, 51, 52, 53, 54, 55, 56, 57, 58, 59, 60, 61, 62, 118, 119, 120, 121, 63, 64, 65, 66, 67, 68, 69, 70,
+        71, 72, 73, 74, 75, 122, 123, 124, 125, 76, 77, 78, 108, 109, 79, 80, 81, 82, 83, 84, 85, 86, 87, 88, 89,
+        90, 91, 92, 93, 94, 95, 96, 97, 98, 99, 100, 101, 102, 110, 113, 103, 104, 105, 111, 112, 106, 107,
     };
     return index < BRACE_PARAMETER_COUNT ? number[index] : (uint32_t)BRACE_PARAMETER_NUMBERS;
 }

@@ -45,3 +45,15 @@ brace_play_joint_t brace_play_joint(const brace_parameters_t *parameters, int jo
                                 .noise_n = parameters->sensor.noise_n,
                                 .gain_rel = parameters->limb.uncertainty.gain_rel};
 }
+
+brace_gear_t brace_gear(const brace_parameters_t *parameters, int joint_index)
+{
+    const brace_drive_t *drive = &parameters->drive[joint_index];
+    return (brace_gear_t){.friction_n_mm = drive->motor_friction_n_mm,
+                          .per_torque_ratio = drive->motor_friction_per_torque_ratio,
+                          .per_load_ratio = drive->motor_friction_per_load_ratio,
+                          .tolerance_ratio = drive->motor_friction_tolerance_ratio,
+                          .sliding_ratio = drive->motor_friction_sliding_ratio,
+                          .joint_n_mm = drive->coulomb_n_mm,
+                          .joint_per_load_ratio = drive->coulomb_per_load_ratio};
+}

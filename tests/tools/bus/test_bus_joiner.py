@@ -429,3 +429,51 @@ def test_an_uncertainty_in_space_joins_that_in_the_plane() -> None:
                 (8.1, 8.2, 8.5, 8.4)
             assert last.sigma.values["stiff_axis"] == 0.25
             assert last.as_json()["sigma_space_k_xx_n_per_mm"] == 8.1
+
+
+def interval_of_tick(tick: int, message: str, node: int = 1) -> list[Frame]:
+    """The frames of where a snapshot's force and loads lie."""
+    frames = []
+    for part, layout in enumerate(GROUPS[message]):
+        values: dict[str, float | int | None] = {
+            field.name: -2.0 if field.name.endswith("low") else 3.0 for field in layout.fields
+        }
+        values["sequence"] = tick * TICKS_A_PERIOD & 0xFF
+        time_s = 1000.0 + tick * PERIOD_S + 1e-5 * part
+        frames.append(Frame(time_s, layout.identifier + node, layout.encode(values)))
+    return frames
+
+
+def test_an_interval_joins_its_k_first_in_the_plane_then_across_it() -> None:
+    joiner = Joiner()
+    told = [
+        snapshot
+        for frame in (*frames_of(3)[:2], *interval_of_tick(3, "interval"), *interval_of_tick(3, "interval_across"))
+        if (snapshot := joiner.add(frame)) is not None
+    ]
+    assert [snapshot.adds for snapshot in told] == ["stiffness", "interval", "interval"]
+    plane, across = (snapshot.as_json()["interval"] for snapshot in told[1:])
+    assert plane == {
+        f"{name}_{end}_{unit}": value
+        for name, unit in (("force_x", "n"), ("force_z", "n"), ("load_femur", "n_mm"), ("load_tibia", "n_mm"))
+        for end, value in (("low", -2.0), ("high", 3.0))
+    }
+    assert isinstance(across, dict) and across["force_y_low_n"] == -2.0 and across["force_y_high_n"] == 3.0
+    assert told[2].interval is not None
+    assert told[2].interval.words() == [
+        "force with 90 % between: x -2.00 to 3.00, y -2.00 to 3.00, z -2.00 to 3.00 N"
+    ]
+    assert all(joiner.add(frame) is None for frame in interval_of_tick(4, "interval"))  # of no K that has come
+
+
+def test_an_interval_of_can_fd_joins_its_whole_snapshot() -> None:
+    joiner = Joiner()
+    joiner.add(whole_of(7))
+    (layout,) = FD_GROUPS["interval_fd"]
+    values: dict[str, float | int | None] = {item.name: None for item in layout.fields}
+    values |= {"sequence": 7, "parameter_tag": 0, "force_x_low": 1.0, "force_x_high": 2.0}
+    snapshot = joiner.add(Frame(1.001, layout.identifier + 5, layout.encode(values)))
+    assert snapshot is not None and snapshot.interval is not None and snapshot.adds == "interval"
+    reported = snapshot.interval.as_json()
+    assert reported["force_x_low_n"] == 1.0 and reported["force_z_low_n"] is None and "force_y_low_n" not in reported
+    assert snapshot.interval.words() == ["force with 90 % between: x 1.00 to 2.00 N"]

@@ -119,7 +119,7 @@ def test_without_a_step_something_fails(left_out: Step, tmp_path: Path, unity: s
     ("before", "after", "said"),
     [
         ('unit = "degC"\nrange', 'unit = "rad"\nrange', "warmest_degc: its name says 'degC', its unit is 'rad'"),
-        ("register = 228", "register = 226", "interface: parameters: register 226 has two values"),
+        ("register = 252", "register = 226", "interface: parameters: register 226 has two values"),
         ('from = "temperature"', 'from = "heat"', "interface: warmth.warmer: no measured value is named 'heat'"),
         ("number = 200\n[[multi", "number = 16\n[[multi", "interface: warmth: 16 is that of"),
         ('unit = "degC"\ndescription = "of', 'unit = "mm"\ndescription = "of', "temperature is f32 in 'degC'"),

@@ -149,10 +149,10 @@ def test_every_value_of_a_question_belongs_to_one(tmp_path: Path) -> None:
 def test_a_gap_may_be_declared(tmp_path: Path) -> None:
     """A value that is gone leaves its registers to nobody."""
     reserved = '\n[[reserved]]\narea = "measured"\nregister = 198\nvalues = 1\ndescription = "a value of version 0.1"\n'
-    path = altered(tmp_path, 'name = "take_up_tibia"\nregister = 198', 'name = "take_up_tibia"\nregister = 294')
+    path = altered(tmp_path, 'name = "take_up_tibia"\nregister = 198', 'name = "take_up_tibia"\nregister = 318')
     path.write_text(path.read_text() + reserved)
     values = load_values(path, load_codes(DICTIONARY))
-    assert (values.measured[-1].name, values.measured[-1].index) == ("take_up_tibia", 147)
+    assert (values.measured[-1].name, values.measured[-1].index) == ("take_up_tibia", 159)
 
 
 def test_the_order_in_the_file_does_not_matter(tmp_path: Path) -> None:

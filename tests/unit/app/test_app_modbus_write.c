@@ -2,6 +2,7 @@
  * docs/modbus.md. */
 #include <math.h>
 
+#include "brace/words.h"
 #include "modbus_master.h"
 
 enum { CONFIGURE = 16384, COMMIT = 16386, ROLLBACK = 16388, CLEAR = 16390, TAKE_UP = 16392, LET_GO = 16394,
@@ -90,19 +91,25 @@ static void test_what_is_staged_is_forgotten_when_configuration_is_left(void)
     TEST_ASSERT_EQUAL_HEX32(before, value_at(&reply, 0));
 }
 
+/* The bits of the parameter with this number on the wires. */
+static uint32_t in_force(uint32_t number)
+{
+    return brace_word_at(&app.controller.parameters.in_force, brace_parameter_index(number));
+}
+
 static void test_a_block_is_written_whole_or_not_at_all(void)
 {
     uint32_t values[60];
     configure();
     for (uint32_t i = 0; i < 60u; i++) {
-        memcpy(&values[i], (const uint8_t *)&app.controller.parameters.in_force + 4u * i, 4);
+        values[i] = in_force(i);
     }
     values[0] = bits(33.0f);
     values[59] = bits(__builtin_nanf(""));
     refused(write_values(0, values, 60), 16, 3);
     reply_t reply = read_asks(3, 0, 2);
     TEST_ASSERT_EQUAL_HEX32(bits(app.controller.parameters.in_force.limb.coxa_mm), value_at(&reply, 0));
-    memcpy(&values[59], (const uint8_t *)&app.controller.parameters.in_force + 4u * 59u, 4);
+    values[59] = in_force(59);
     accepted(write_values(0, values, 60), 16);
     reply = read_asks(3, 0, 2);
     TEST_ASSERT_EQUAL_HEX32(bits(33.0f), value_at(&reply, 0));
@@ -129,7 +136,7 @@ static void test_writes_have_their_limits(void)
     configure();
     uint32_t values[61];
     for (uint32_t i = 0; i < 61u; i++) {
-        memcpy(&values[i], (const uint8_t *)&app.controller.parameters.in_force + 4u * i, 4);
+        values[i] = in_force(i);
     }
     const uint8_t too_many[] = {16, 0, 0, 0, 124, 248, 0, 0};
     accepted(write_values(0, values, 61), 16); /* 122 registers; 123 is odd */

@@ -131,8 +131,8 @@ static void test_a_share_that_heartbeats_use_up_leaves_little(void)
     drain();
     const count_t seen = run(2000);
     TEST_ASSERT_UINT32_WITHIN(1, 20, of(&seen, 0x700));
-    /* A condition follows each; one snapshot, of no more than a dozen frames. */
-    TEST_ASSERT_LESS_OR_EQUAL(2u * of(&seen, 0x700) + 12u, seen.all);
+    /* A condition follows each; one snapshot, of no more than sixteen frames. */
+    TEST_ASSERT_LESS_OR_EQUAL(2u * of(&seen, 0x700) + 16u, seen.all);
 }
 
 /* Where nothing else is to be sent, two frames leave in each tick until a snapshot is sent. A port that nobody has

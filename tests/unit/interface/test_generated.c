@@ -63,8 +63,8 @@ static void test_every_message_has_a_rate_of_the_controller(void)
         details += message[i].id == (uint32_t)BRACE_CAN_ID_DETAILS;
         of_coxa += message[i].needs_coxa;
     }
-    TEST_ASSERT_EQUAL(7 + 6 + 2 + 2 + 4, details);
-    TEST_ASSERT_EQUAL(7 + 2 + 4, of_coxa);
+    TEST_ASSERT_EQUAL(7 + 6 + 2 + 2 + 4 + 4 + 2, details);
+    TEST_ASSERT_EQUAL(7 + 2 + 4 + 2, of_coxa);
     TEST_ASSERT_EQUAL_HEX32(BRACE_CAN_ID_DETAILS_FD, whole[1].id);
     TEST_ASSERT_EQUAL(offsetof(brace_controller_t, stiffness_hz), whole[1].rate);
     TEST_ASSERT_TRUE(whole[1].needs_coxa && !whole[0].needs_coxa);

@@ -262,7 +262,8 @@ static void test_a_block_of_another_dictionary(void)
         uint8_t *block = memory.bytes[slot];
         put_block(slot, 1, 7, true);
         block[8] ^= 1u;
-        block[12] = (uint8_t)(4 * BRACE_PARAMETER_COUNT + 40);
+        block[12] = (uint8_t)((4 * BRACE_PARAMETER_COUNT + 40) & 0xff);
+        block[13] = (uint8_t)((4 * BRACE_PARAMETER_COUNT + 40) >> 8);
         const uint32_t covered = BRACE_BLOCK_BYTES - 4 + 40;
         const uint32_t crc = brace_crc32(0, block, covered);
         memcpy(block + covered, &crc, 4);

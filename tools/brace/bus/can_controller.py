@@ -21,6 +21,7 @@ from brace.bus.controller import (
 )
 from brace.bus.drift import TAKE_UPS, Drift, drift_of, take_up_of
 from brace.bus.entries import index_of
+from brace.bus.interval import INTERVAL_ENTRIES, Interval, interval_of
 from brace.bus.load import ACROSS_ENTRIES, LOAD_ENTRIES, Load, load_of
 from brace.bus.session import Session
 from brace.bus.sigma import SIGMA_ENTRIES, SPACE_ENTRIES, Sigma, sigma_of
@@ -98,6 +99,10 @@ class CanController:
     def load(self) -> Load:
         """Entry by entry, so of several snapshots."""
         return load_of(self._entries((*LOAD_ENTRIES, *ACROSS_ENTRIES)))
+
+    def interval(self) -> Interval:
+        """Entry by entry, as the load."""
+        return interval_of(self._entries(INTERVAL_ENTRIES))
 
     def sigma(self) -> Sigma:
         """Entry by entry, as the load."""

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
 from brace.bus.drift import Drift
+from brace.bus.interval import Interval
 from brace.bus.load import Load
 from brace.bus.sigma import Sigma
 from brace.bus.snapshot import Snapshot
@@ -94,6 +95,9 @@ class Controller(Protocol):
 
     def load(self) -> Load:
         """What the K of now counts."""
+
+    def interval(self) -> Interval:
+        """Where the force on the tip and the loads of the joints lie with 90 %."""
 
     def sigma(self) -> Sigma:
         """How sure the controller is of the K of now."""

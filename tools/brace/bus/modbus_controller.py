@@ -22,6 +22,7 @@ from brace.bus.controller import (
     check_dictionary,
 )
 from brace.bus.drift import TAKE_UPS, Drift, drift_of, take_up_of
+from brace.bus.interval import Interval, interval_of
 from brace.bus.load import Load, load_of
 from brace.bus.modbus_line import connected
 from brace.bus.modbus_values import (
@@ -31,6 +32,7 @@ from brace.bus.modbus_values import (
     DRIFT,
     ENGAGED,
     LOAD,
+    INTERVAL,
     SIGMA,
     SPACE,
     TAKE_UP_OF,
@@ -220,6 +222,10 @@ class ModbusController:
     def load(self) -> Load:
         """Of one read."""
         return load_of(self._values_of(LOAD))
+
+    def interval(self) -> Interval:
+        """Of one read."""
+        return interval_of(self._values_of(INTERVAL))
 
     def sigma(self) -> Sigma:
         """Of one read."""

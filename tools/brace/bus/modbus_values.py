@@ -30,6 +30,7 @@ TAKE_UP_OF = _between("take_up_coxa", "take_up_tibia")
 LOAD = _between("unloaded_k_xx", "unloaded_k_across")
 ENGAGED = _between("engaged_k_xx", "engaged_k_zz")
 SIGMA = _between("sigma_k_xx", "sigma_k_across")
+INTERVAL = _between("force_x_low", "load_tibia_high")
 
 
 def decoded(registers: Sequence[Register], words: Sequence[int]) -> dict[str, Value]:

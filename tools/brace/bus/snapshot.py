@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from brace.bus.frame import NODE_MASK, Frame
+from brace.bus.interval import Interval, interval_of
 from brace.bus.load import Load, load_of
 from brace.bus.sigma import Sigma, sigma_of
 from brace.bus.space import SpaceSnapshot, space_snapshot
@@ -25,7 +26,9 @@ _DETAILS = _CONDITION.identifier
 _PART_BYTE = _CONDITION.part_at // 8
 # Number of a part -> its group, and its place there.
 _PARTS = {layout.part: (name, place) for name, group in GROUPS.items() for place, layout in enumerate(group)}
-_OF_SNAPSHOTS = frozenset(("space", "load", "load_across", "sigma", "sigma_space"))
+_OF_SNAPSHOTS = frozenset(
+    ("space", "load", "load_across", "sigma", "sigma_space", "interval", "interval_across")
+)
 _PARTS_FD = {layout.part: (name, layout) for name, group in FD_GROUPS.items() for layout in group}
 
 
@@ -53,7 +56,8 @@ class Snapshot(NamedTuple):
     sigma: Sigma | None = None  # of this snapshot; None: it is not sent, or it has not come (yet)
     space: SpaceSnapshot | None = None  # of this snapshot; None: the limb has no coxa joint, or it has not come (yet)
     load: Load | None = None  # of this snapshot; None: it is not sent, or it has not come (yet)
-    adds: str = "stiffness"  # what has come last of it: stiffness, space, posture, load, sigma
+    interval: Interval | None = None  # of this snapshot; None: it is not sent, or it has not come (yet)
+    adds: str = "stiffness"  # what has come last of it: stiffness, space, posture, load, sigma, interval
 
     @property
     def is_valid(self) -> bool:
@@ -92,6 +96,8 @@ class Snapshot(NamedTuple):
             entry["space"] = self.space.as_json()
         if self.load is not None:
             entry["load"] = self.load.as_json()
+        if self.interval is not None:
+            entry["interval"] = self.interval.as_json()
         return entry
 
 
@@ -230,6 +236,8 @@ class Joiner:
             return self._add_load(node, frame.time_s, values["sequence"], values, "load")
         if name == "sigma_fd":
             return self._add_sigma(node, frame.time_s, values["sequence"], values)
+        if name == "interval_fd":
+            return self._add_interval(node, frame.time_s, values["sequence"], values)
         return None
 
     def _join_stiffness(self, node: int, frame: Frame) -> Snapshot | None:
@@ -255,6 +263,7 @@ class Joiner:
         self._join_load(node, adds="stiffness")
         self._join_space(node)
         self._join_sigma(node, adds="stiffness")
+        self._join_interval(node, adds="stiffness")
         return self._newest[node]
 
     def _join_posture(self, node: int, frame: Frame) -> Snapshot | None:
@@ -301,6 +310,8 @@ class Joiner:
             return None
         if message == "space":
             return self._join_space(node)
+        if message in ("interval", "interval_across"):
+            return self._join_interval(node)
         return self._join_sigma(node) if message in ("sigma", "sigma_space") else self._join_load(node)
 
     def _forget_across(self, node: int, load: _Parts, next_sequence: int) -> None:
@@ -336,6 +347,16 @@ class Joiner:
             values |= {name if name == "k_across" else f"space_{name}": v for name, v in space.values().items()}
         return self._add_sigma(node, sigma.time_s, sigma.sequence, values, adds)
 
+    def _join_interval(self, node: int, adds: str = "interval") -> Snapshot | None:
+        """Where force and loads lie, first in the plane, then across it too where the node sends that."""
+        plane, across = (self._whole_of_newest(name, node) for name in ("interval", "interval_across"))
+        if plane is None:
+            return None
+        values = plane.values()
+        if across is not None and across.sequence == plane.sequence:
+            values = across.values() | values
+        return self._add_interval(node, plane.time_s, plane.sequence, values, adds)
+
     def _whole_of_newest(self, message: str, node: int) -> _Parts | None:
         """What has come of a message, if it is whole and of the newest snapshot."""
         parts = self._parts.get((message, node))
@@ -366,6 +387,15 @@ class Joiner:
         if newest is None or newest.sigma == sigma:
             return None
         self._newest[node] = newest._replace(adds=adds, sigma=sigma)
+        return self._newest[node]
+
+    def _add_interval(
+        self, node: int, time_s: float, sequence: Value, values: Mapping[str, Value], adds: str = "interval"
+    ) -> Snapshot | None:
+        newest, interval = self._of_newest(node, time_s, sequence), interval_of(values)
+        if newest is None or newest.interval == interval:
+            return None
+        self._newest[node] = newest._replace(adds=adds, interval=interval)
         return self._newest[node]
 
     def _of_newest(self, node: int, time_s: float, sequence: Value) -> Snapshot | None:

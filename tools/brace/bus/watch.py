@@ -42,6 +42,7 @@ class NodeState:
     space: Snapshot | None = None  # the newest with K in space
     load: Snapshot | None = None  # the newest with its load
     sigma: Snapshot | None = None  # the newest with its uncertainty
+    interval: Snapshot | None = None  # the newest with where its force and loads lie
     heartbeat: Heartbeat | None = None
     mode: str = ""  # as last heard; empty: not heard yet
     faults: tuple[str, ...] | None = None  # as last heard; None: not heard yet
@@ -136,6 +137,8 @@ class Watch:
             state.posture = snapshot
         if snapshot.load is not None:
             state.load = snapshot
+        if snapshot.interval is not None:
+            state.interval = snapshot
         if snapshot.space is not None:
             state.in_space += snapshot.adds == "space" or not is_more
             state.space = snapshot

@@ -78,7 +78,7 @@ def line_of(node: int, state: NodeState) -> str:
         parts += k.flags
     load = _load(state)
     line = " ".join([*parts, *(f"fault {name}" for name in fault_words(state))])
-    return line if load is None else f"{line}; {', '.join(load.words())}"
+    return "; ".join([line, *([] if load is None else [", ".join(load.words())]), *_interval_words(state)])
 
 
 def shown(state: NodeState) -> Snapshot | None:
@@ -94,6 +94,13 @@ def _load(state: NodeState) -> Load | None:
     if reported is None or newest is None or newest.time_s - reported.time_s > _LOAD_LATE_S:
         return None
     return reported.load
+
+
+def _interval_words(state: NodeState) -> list[str]:
+    """The newest; nothing where none has come lately."""
+    reported, newest = state.interval, state.snapshot
+    is_late = reported is None or newest is None or newest.time_s - reported.time_s > _LOAD_LATE_S
+    return [] if reported is None or reported.interval is None or is_late else reported.interval.words()
 
 
 def _sigma(state: NodeState) -> Sigma | None:
@@ -214,6 +221,7 @@ def _lines(state: NodeState) -> list[str]:
     load = _load(state)
     if load is not None:
         lines += load.words()
+    lines += _interval_words(state)
     if posture is not None and None not in (posture.theta1, posture.theta2):
         lines.append(f"theta1 {posture.theta1:.4f}, theta2 {posture.theta2:.4f} rad")
     if k is not None:

@@ -32,7 +32,9 @@ def monitor_modbus(arguments: argparse.Namespace, url: BusUrl) -> int:
     try:
         with ended_by_signal() as ended:
             while not ended.is_set() and time.monotonic() < until:
-                snapshot = device.live()._replace(load=device.load(), sigma=device.sigma())
+                snapshot = device.live()._replace(
+                    load=device.load(), sigma=device.sigma(), interval=device.interval()
+                )
                 state.last_s = snapshot.time_s
                 watch.take(state, snapshot)
                 if arguments.json:

@@ -279,7 +279,8 @@ def _live(arguments: argparse.Namespace, device: Controller) -> int:
     }
     load = snapshot.load if snapshot.load is not None else device.load()
     sigma = snapshot.sigma if snapshot.sigma is not None else device.sigma()
-    entry |= sigma.as_json()
+    interval = snapshot.interval if snapshot.interval is not None else device.interval()
+    entry |= sigma.as_json() | {"interval": interval.as_json()}
     drift, take_ups = device.drift(), device.take_ups()
     faults = snapshot.faults or ()
     if arguments.json:
@@ -294,6 +295,8 @@ def _live(arguments: argparse.Namespace, device: Controller) -> int:
         if snapshot.has_posture and None not in (snapshot.theta1, snapshot.theta2):
             common.emit(f"theta1 {snapshot.theta1:.5f} rad, theta2 {snapshot.theta2:.5f} rad")
         for line in load.lines((snapshot.k_xx, snapshot.k_xz, snapshot.k_zz), "GAP_OPEN" in snapshot.flags):
+            common.emit(line)
+        for line in interval.words():
             common.emit(line)
         age = "over 127 ms" if snapshot.age_ms is None else f"{snapshot.age_ms:g} ms"
         common.emit(f"age {age}; play femur {snapshot.play[0]}, tibia " f"{snapshot.play[1]}")

@@ -126,7 +126,9 @@ class Feed:
             state = self.watch.nodes.setdefault(device.node, NodeState())
             self.trouble = ""
             while True:
-                snapshot = await asyncio.to_thread(lambda: device.live()._replace(load=device.load()))
+                snapshot = await asyncio.to_thread(
+                    lambda: device.live()._replace(load=device.load(), sigma=device.sigma())
+                )
                 state.last_s = self.watch.last_s = snapshot.time_s
                 self.watch.take(state, snapshot)
                 await asyncio.sleep(_MODBUS_S)

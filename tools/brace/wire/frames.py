@@ -5,7 +5,7 @@ from __future__ import annotations
 from brace.wire import codes
 from brace.wire.layout import Field, Layout
 
-DICTIONARY_HASH = 0xC10823B7
+DICTIONARY_HASH = 0x5E29BE72
 PROTOCOL = 2
 REQUEST_ID = 0x600
 ANSWER_ID = 0x580
@@ -185,6 +185,40 @@ GROUPS: dict[str, tuple[Layout, ...]] = {
             Field("k_across", 16, 16, kind="value", step=0.002, unit="N/mm"),
         ), part=83, part_at=8),
     ),
+    "interval": (
+        Layout("interval_0", 0x200, None, (
+            Field("sequence", 0, 8),
+            Field("force_x_low", 16, 24, kind="value", signed=True, step=0.001, unit="N"),
+            Field("force_x_high", 40, 24, kind="value", signed=True, step=0.001, unit="N"),
+        ), part=96, part_at=8),
+        Layout("interval_1", 0x200, None, (
+            Field("sequence", 0, 8),
+            Field("force_z_low", 16, 24, kind="value", signed=True, step=0.001, unit="N"),
+            Field("force_z_high", 40, 24, kind="value", signed=True, step=0.001, unit="N"),
+        ), part=97, part_at=8),
+        Layout("interval_2", 0x200, None, (
+            Field("sequence", 0, 8),
+            Field("load_femur_low", 16, 24, kind="value", signed=True, step=0.2, unit="N mm"),
+            Field("load_femur_high", 40, 24, kind="value", signed=True, step=0.2, unit="N mm"),
+        ), part=98, part_at=8),
+        Layout("interval_3", 0x200, None, (
+            Field("sequence", 0, 8),
+            Field("load_tibia_low", 16, 24, kind="value", signed=True, step=0.2, unit="N mm"),
+            Field("load_tibia_high", 40, 24, kind="value", signed=True, step=0.2, unit="N mm"),
+        ), part=99, part_at=8),
+    ),
+    "interval_across": (
+        Layout("interval_across_0", 0x200, None, (
+            Field("sequence", 0, 8),
+            Field("force_y_low", 16, 24, kind="value", signed=True, step=0.001, unit="N"),
+            Field("force_y_high", 40, 24, kind="value", signed=True, step=0.001, unit="N"),
+        ), part=112, part_at=8),
+        Layout("interval_across_1", 0x200, None, (
+            Field("sequence", 0, 8),
+            Field("load_coxa_low", 16, 24, kind="value", signed=True, step=0.2, unit="N mm"),
+            Field("load_coxa_high", 40, 24, kind="value", signed=True, step=0.2, unit="N mm"),
+        ), part=113, part_at=8),
+    ),
 }
 
 FD_GROUPS: dict[str, tuple[Layout, ...]] = {
@@ -253,6 +287,24 @@ FD_GROUPS: dict[str, tuple[Layout, ...]] = {
             Field("space_lambda_3", 448, 32, kind="f32", unit="N/mm"),
             Field("k_across", 480, 32, kind="f32", unit="N/mm"),
         ), 64, part=64, part_at=8),
+    ),
+    "interval_fd": (
+        Layout("interval_fd", 0x300, None, (
+            Field("sequence", 0, 8),
+            Field("parameter_tag", 16, 16),
+            Field("force_x_low", 32, 32, kind="f32", unit="N"),
+            Field("force_x_high", 64, 32, kind="f32", unit="N"),
+            Field("force_z_low", 96, 32, kind="f32", unit="N"),
+            Field("force_z_high", 128, 32, kind="f32", unit="N"),
+            Field("load_femur_low", 160, 32, kind="f32", unit="N mm"),
+            Field("load_femur_high", 192, 32, kind="f32", unit="N mm"),
+            Field("load_tibia_low", 224, 32, kind="f32", unit="N mm"),
+            Field("load_tibia_high", 256, 32, kind="f32", unit="N mm"),
+            Field("force_y_low", 288, 32, kind="f32", unit="N"),
+            Field("force_y_high", 320, 32, kind="f32", unit="N"),
+            Field("load_coxa_low", 352, 32, kind="f32", unit="N mm"),
+            Field("load_coxa_high", 384, 32, kind="f32", unit="N mm"),
+        ), 64, part=96, part_at=8),
     ),
 }
 

@@ -99,6 +99,23 @@ static void take_posture(const brace_snapshot_t *snapshot, brace_measured_t *m)
     m->temperature_degc = snapshot->temp_degc;
 }
 
+static void take_intervals(const brace_snapshot_t *snapshot, brace_measured_t *m)
+{
+    const brace_interval_t *load = snapshot->load_interval_n_mm;
+    m->force_x_low_n = snapshot->force_x_interval_n.low;
+    m->force_x_high_n = snapshot->force_x_interval_n.high;
+    m->force_z_low_n = snapshot->force_z_interval_n.low;
+    m->force_z_high_n = snapshot->force_z_interval_n.high;
+    m->force_y_low_n = snapshot->force_y_interval_n.low;
+    m->force_y_high_n = snapshot->force_y_interval_n.high;
+    m->load_coxa_low_n_mm = load[BRACE_COXA].low;
+    m->load_coxa_high_n_mm = load[BRACE_COXA].high;
+    m->load_femur_low_n_mm = load[BRACE_FEMUR].low;
+    m->load_femur_high_n_mm = load[BRACE_FEMUR].high;
+    m->load_tibia_low_n_mm = load[BRACE_TIBIA].low;
+    m->load_tibia_high_n_mm = load[BRACE_TIBIA].high;
+}
+
 /* K in space; as above. Without a coxa joint there is none whose quality could be reported. */
 static void take_space(const brace_snapshot_t *snapshot, brace_measured_t *m)
 {
@@ -251,6 +268,7 @@ void measured_take(const brace_app_t *app, const brace_app_counters_t *counters,
     take_load(snapshot, m);
     take_space(snapshot, m);
     take_posture(snapshot, m);
+    take_intervals(snapshot, m);
     take_coxa_joint(snapshot, m);
     take_take_ups(snapshot, m);
     take_parameters(snapshot, m);

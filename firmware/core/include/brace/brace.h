@@ -33,6 +33,7 @@
  * Backlash of the joints
  *     backlash.h         which side of the gap is loaded, a state machine per joint; taking the gap up
  *     play.h             which side a known load holds
+ *     load_band.h        where a load lies that is known by a motor before a gear
  *     gap_stiffness.h    K while a gap is open
  *
  * What K and measurements are for
@@ -62,6 +63,7 @@
 #include "brace/general.h"
 #include "brace/kinematics.h"
 #include "brace/limb.h"
+#include "brace/load_band.h"
 #include "brace/loaded.h"
 #include "brace/loaded_fixed.h"
 #include "brace/loaded_space.h"

@@ -41,13 +41,20 @@
     X(BRACE_CAN_ID_DETAILS, sigma_space_0, sigma_hz, 1) \
     X(BRACE_CAN_ID_DETAILS, sigma_space_1, sigma_hz, 1) \
     X(BRACE_CAN_ID_DETAILS, sigma_space_2, sigma_hz, 1) \
-    X(BRACE_CAN_ID_DETAILS, sigma_space_3, sigma_hz, 1)
+    X(BRACE_CAN_ID_DETAILS, sigma_space_3, sigma_hz, 1) \
+    X(BRACE_CAN_ID_DETAILS, interval_0, load_hz, 0) \
+    X(BRACE_CAN_ID_DETAILS, interval_1, load_hz, 0) \
+    X(BRACE_CAN_ID_DETAILS, interval_2, load_hz, 0) \
+    X(BRACE_CAN_ID_DETAILS, interval_3, load_hz, 0) \
+    X(BRACE_CAN_ID_DETAILS, interval_across_0, load_hz, 1) \
+    X(BRACE_CAN_ID_DETAILS, interval_across_1, load_hz, 1)
 
 #define BRACE_CAN_PROCESS_FD(X) \
     X(BRACE_CAN_ID_SNAPSHOT_FD, snapshot_fd, stiffness_hz, 0) \
     X(BRACE_CAN_ID_DETAILS_FD, space_fd, stiffness_hz, 1) \
     X(BRACE_CAN_ID_DETAILS_FD, load_fd, load_hz, 0) \
-    X(BRACE_CAN_ID_DETAILS_FD, sigma_fd, sigma_hz, 0)
+    X(BRACE_CAN_ID_DETAILS_FD, sigma_fd, sigma_hz, 0) \
+    X(BRACE_CAN_ID_DETAILS_FD, interval_fd, load_hz, 0)
 
 #define BRACE_CAN_BY_HAND(X) \
     X(BRACE_CAN_ID_EMERGENCY, emergency) \
@@ -83,10 +90,17 @@
     X(sigma_space_1, 8) \
     X(sigma_space_2, 8) \
     X(sigma_space_3, 8) \
+    X(interval_0, 8) \
+    X(interval_1, 8) \
+    X(interval_2, 8) \
+    X(interval_3, 8) \
+    X(interval_across_0, 8) \
+    X(interval_across_1, 8) \
     X(snapshot_fd, 64) \
     X(space_fd, 64) \
     X(load_fd, 64) \
     X(sigma_fd, 64) \
+    X(interval_fd, 64) \
     X(read_entry_request, 8) \
     X(read_entry_answer_0, 8) \
     X(write_entry_request, 8) \

@@ -14,7 +14,7 @@
 #include <stdint.h>
 
 /* Of every frame, entry and parameter, with types, steps and units: what two ends must agree on. */
-#define BRACE_DICTIONARY_HASH 0xc10823b7u
+#define BRACE_DICTIONARY_HASH 0x5e29be72u
 #define BRACE_PROTOCOL 2u
 
 /* Identifiers of node 0; a controller adds its node number, 1-127. */
@@ -173,6 +173,12 @@ enum {
     BRACE_CAN_PART_SIGMA_SPACE_1 = 81,
     BRACE_CAN_PART_SIGMA_SPACE_2 = 82,
     BRACE_CAN_PART_SIGMA_SPACE_3 = 83,
+    BRACE_CAN_PART_INTERVAL_0 = 96,
+    BRACE_CAN_PART_INTERVAL_1 = 97,
+    BRACE_CAN_PART_INTERVAL_2 = 98,
+    BRACE_CAN_PART_INTERVAL_3 = 99,
+    BRACE_CAN_PART_INTERVAL_ACROSS_0 = 112,
+    BRACE_CAN_PART_INTERVAL_ACROSS_1 = 113,
 };
 uint32_t brace_can_details_part(const uint8_t *data);
 
@@ -181,6 +187,7 @@ enum {
     BRACE_CAN_PART_SPACE_FD = 16,
     BRACE_CAN_PART_LOAD_FD = 32,
     BRACE_CAN_PART_SIGMA_FD = 64,
+    BRACE_CAN_PART_INTERVAL_FD = 96,
 };
 uint32_t brace_can_details_fd_part(const uint8_t *data);
 
@@ -634,6 +641,106 @@ typedef struct {
 uint32_t brace_can_pack_sigma_space_3(const brace_can_sigma_space_3_t *message, uint8_t data[8]);
 void brace_can_unpack_sigma_space_3(const uint8_t data[8], brace_can_sigma_space_3_t *message);
 
+/* where the force on the tip and the loads of the joints lie with 90 %, of the same snapshot as load: friction in
+ * the gears and the doubt of the torque by current are counted: frame 1 of 4 */
+typedef struct {
+    /* the number of the snapshot; the frames of one snapshot carry the same number */
+    uint32_t sequence;
+    /* the low end of the interval in which the force of the ground on the tip along x lies with 90 % [N, -8388.61
+     * to 8388.61] */
+    float force_x_low_n;
+    /* the high end of the interval in which the force of the ground on the tip along x lies with 90 % [N, -8388.61
+     * to 8388.61] */
+    float force_x_high_n;
+} brace_can_interval_0_t;
+#define BRACE_CAN_INTERVAL_0_FORCE_X_LOW_N_MOST 8388.607f
+#define BRACE_CAN_INTERVAL_0_FORCE_X_HIGH_N_MOST 8388.607f
+uint32_t brace_can_pack_interval_0(const brace_can_interval_0_t *message, uint8_t data[8]);
+void brace_can_unpack_interval_0(const uint8_t data[8], brace_can_interval_0_t *message);
+
+/* where the force on the tip and the loads of the joints lie with 90 %, of the same snapshot as load: friction in
+ * the gears and the doubt of the torque by current are counted: frame 2 of 4 */
+typedef struct {
+    /* the number of the snapshot; the frames of one snapshot carry the same number */
+    uint32_t sequence;
+    /* the low end of the interval in which the force of the ground on the tip along z lies with 90 % [N, -8388.61
+     * to 8388.61] */
+    float force_z_low_n;
+    /* the high end of the interval in which the force of the ground on the tip along z lies with 90 % [N, -8388.61
+     * to 8388.61] */
+    float force_z_high_n;
+} brace_can_interval_1_t;
+#define BRACE_CAN_INTERVAL_1_FORCE_Z_LOW_N_MOST 8388.607f
+#define BRACE_CAN_INTERVAL_1_FORCE_Z_HIGH_N_MOST 8388.607f
+uint32_t brace_can_pack_interval_1(const brace_can_interval_1_t *message, uint8_t data[8]);
+void brace_can_unpack_interval_1(const uint8_t data[8], brace_can_interval_1_t *message);
+
+/* where the force on the tip and the loads of the joints lie with 90 %, of the same snapshot as load: friction in
+ * the gears and the doubt of the torque by current are counted: frame 3 of 4 */
+typedef struct {
+    /* the number of the snapshot; the frames of one snapshot carry the same number */
+    uint32_t sequence;
+    /* the low end of the interval in which the load behind the femur joint's gear lies with 90 % [N mm,
+     * -1.67772e+06 to 1.67772e+06] */
+    float load_femur_low_n_mm;
+    /* the high end of the interval in which the load behind the femur joint's gear lies with 90 % [N mm,
+     * -1.67772e+06 to 1.67772e+06] */
+    float load_femur_high_n_mm;
+} brace_can_interval_2_t;
+#define BRACE_CAN_INTERVAL_2_LOAD_FEMUR_LOW_N_MM_MOST 1677721.4f
+#define BRACE_CAN_INTERVAL_2_LOAD_FEMUR_HIGH_N_MM_MOST 1677721.4f
+uint32_t brace_can_pack_interval_2(const brace_can_interval_2_t *message, uint8_t data[8]);
+void brace_can_unpack_interval_2(const uint8_t data[8], brace_can_interval_2_t *message);
+
+/* where the force on the tip and the loads of the joints lie with 90 %, of the same snapshot as load: friction in
+ * the gears and the doubt of the torque by current are counted: frame 4 of 4 */
+typedef struct {
+    /* the number of the snapshot; the frames of one snapshot carry the same number */
+    uint32_t sequence;
+    /* the low end of the interval in which the load behind the tibia joint's gear lies with 90 % [N mm,
+     * -1.67772e+06 to 1.67772e+06] */
+    float load_tibia_low_n_mm;
+    /* the high end of the interval in which the load behind the tibia joint's gear lies with 90 % [N mm,
+     * -1.67772e+06 to 1.67772e+06] */
+    float load_tibia_high_n_mm;
+} brace_can_interval_3_t;
+#define BRACE_CAN_INTERVAL_3_LOAD_TIBIA_LOW_N_MM_MOST 1677721.4f
+#define BRACE_CAN_INTERVAL_3_LOAD_TIBIA_HIGH_N_MM_MOST 1677721.4f
+uint32_t brace_can_pack_interval_3(const brace_can_interval_3_t *message, uint8_t data[8]);
+void brace_can_unpack_interval_3(const uint8_t data[8], brace_can_interval_3_t *message);
+
+/* the same across the limb's plane; only a limb whose coxa joint is fitted sends it: frame 1 of 2 */
+typedef struct {
+    /* the number of the snapshot; the frames of one snapshot carry the same number */
+    uint32_t sequence;
+    /* the low end of the interval in which the force of the ground on the tip across the limb's plane, to the left
+     * lies with 90 % [N, -8388.61 to 8388.61] */
+    float force_y_low_n;
+    /* the high end of the interval in which the force of the ground on the tip across the limb's plane, to the
+     * left lies with 90 % [N, -8388.61 to 8388.61] */
+    float force_y_high_n;
+} brace_can_interval_across_0_t;
+#define BRACE_CAN_INTERVAL_ACROSS_0_FORCE_Y_LOW_N_MOST 8388.607f
+#define BRACE_CAN_INTERVAL_ACROSS_0_FORCE_Y_HIGH_N_MOST 8388.607f
+uint32_t brace_can_pack_interval_across_0(const brace_can_interval_across_0_t *message, uint8_t data[8]);
+void brace_can_unpack_interval_across_0(const uint8_t data[8], brace_can_interval_across_0_t *message);
+
+/* the same across the limb's plane; only a limb whose coxa joint is fitted sends it: frame 2 of 2 */
+typedef struct {
+    /* the number of the snapshot; the frames of one snapshot carry the same number */
+    uint32_t sequence;
+    /* the low end of the interval in which the load behind the coxa joint's gear lies with 90 % [N mm,
+     * -1.67772e+06 to 1.67772e+06] */
+    float load_coxa_low_n_mm;
+    /* the high end of the interval in which the load behind the coxa joint's gear lies with 90 % [N mm,
+     * -1.67772e+06 to 1.67772e+06] */
+    float load_coxa_high_n_mm;
+} brace_can_interval_across_1_t;
+#define BRACE_CAN_INTERVAL_ACROSS_1_LOAD_COXA_LOW_N_MM_MOST 1677721.4f
+#define BRACE_CAN_INTERVAL_ACROSS_1_LOAD_COXA_HIGH_N_MM_MOST 1677721.4f
+uint32_t brace_can_pack_interval_across_1(const brace_can_interval_across_1_t *message, uint8_t data[8]);
+void brace_can_unpack_interval_across_1(const uint8_t data[8], brace_can_interval_across_1_t *message);
+
 /* a whole snapshot, in place of stiffness_a, stiffness_b, eigenvalues and posture, where
  * controller.can_fd_bit_rate is set and the bus can do it */
 typedef struct {
@@ -819,6 +926,43 @@ typedef struct {
 #define BRACE_CAN_SIGMA_FD_STIFF_AXIS_RAD_MOST 6.5534f
 uint32_t brace_can_pack_sigma_fd(const brace_can_sigma_fd_t *message, uint8_t data[64]);
 void brace_can_unpack_sigma_fd(const uint8_t data[64], brace_can_sigma_fd_t *message);
+
+/* where the force on the tip and the loads of the joints lie with 90 %, of the same snapshot as snapshot_fd; in
+ * place of interval and interval_across */
+typedef struct {
+    /* the number of the snapshot; the frames of one snapshot carry the same number */
+    uint32_t sequence;
+    /* the low half of the CRC of the parameters in force */
+    uint32_t parameter_tag;
+    /* the low end of the interval in which the force of the ground on the tip along x lies with 90 % */
+    float force_x_low_n;
+    /* the high end of the interval in which the force of the ground on the tip along x lies with 90 % */
+    float force_x_high_n;
+    /* the low end of the interval in which the force of the ground on the tip along z lies with 90 % */
+    float force_z_low_n;
+    /* the high end of the interval in which the force of the ground on the tip along z lies with 90 % */
+    float force_z_high_n;
+    /* the low end of the interval in which the load behind the femur joint's gear lies with 90 % */
+    float load_femur_low_n_mm;
+    /* the high end of the interval in which the load behind the femur joint's gear lies with 90 % */
+    float load_femur_high_n_mm;
+    /* the low end of the interval in which the load behind the tibia joint's gear lies with 90 % */
+    float load_tibia_low_n_mm;
+    /* the high end of the interval in which the load behind the tibia joint's gear lies with 90 % */
+    float load_tibia_high_n_mm;
+    /* the low end of the interval in which the force of the ground on the tip across the limb's plane, to the left
+     * lies with 90 % */
+    float force_y_low_n;
+    /* the high end of the interval in which the force of the ground on the tip across the limb's plane, to the
+     * left lies with 90 % */
+    float force_y_high_n;
+    /* the low end of the interval in which the load behind the coxa joint's gear lies with 90 % */
+    float load_coxa_low_n_mm;
+    /* the high end of the interval in which the load behind the coxa joint's gear lies with 90 % */
+    float load_coxa_high_n_mm;
+} brace_can_interval_fd_t;
+uint32_t brace_can_pack_interval_fd(const brace_can_interval_fd_t *message, uint8_t data[64]);
+void brace_can_unpack_interval_fd(const uint8_t data[64], brace_can_interval_fd_t *message);
 
 typedef struct {
     uint32_t token;

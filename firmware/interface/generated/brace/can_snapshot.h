@@ -36,9 +36,16 @@ void brace_can_make_sigma_space_0(const brace_measured_t *measured, float age_ms
 void brace_can_make_sigma_space_1(const brace_measured_t *measured, float age_ms, uint8_t *data);
 void brace_can_make_sigma_space_2(const brace_measured_t *measured, float age_ms, uint8_t *data);
 void brace_can_make_sigma_space_3(const brace_measured_t *measured, float age_ms, uint8_t *data);
+void brace_can_make_interval_0(const brace_measured_t *measured, float age_ms, uint8_t *data);
+void brace_can_make_interval_1(const brace_measured_t *measured, float age_ms, uint8_t *data);
+void brace_can_make_interval_2(const brace_measured_t *measured, float age_ms, uint8_t *data);
+void brace_can_make_interval_3(const brace_measured_t *measured, float age_ms, uint8_t *data);
+void brace_can_make_interval_across_0(const brace_measured_t *measured, float age_ms, uint8_t *data);
+void brace_can_make_interval_across_1(const brace_measured_t *measured, float age_ms, uint8_t *data);
 void brace_can_make_snapshot_fd(const brace_measured_t *measured, float age_ms, uint8_t *data);
 void brace_can_make_space_fd(const brace_measured_t *measured, float age_ms, uint8_t *data);
 void brace_can_make_load_fd(const brace_measured_t *measured, float age_ms, uint8_t *data);
 void brace_can_make_sigma_fd(const brace_measured_t *measured, float age_ms, uint8_t *data);
+void brace_can_make_interval_fd(const brace_measured_t *measured, float age_ms, uint8_t *data);
 
 #endif

@@ -324,9 +324,36 @@ typedef struct {
     /* the number that the sign of life carries back with which the motion that was asked for begins; all ones
      * where none waits */
     uint32_t begin_number;
+    /* the low end of the interval in which force_x lies with 90 %: by the joints' torques and what rubs in their
+     * gears, or by the sensor at the tip; of at most eight ticks before; not known where force_x is not */
+    float force_x_low_n;
+    /* the high end of the interval in which force_x lies with 90 % */
+    float force_x_high_n;
+    /* the low end of the interval in which force_z lies with 90 % */
+    float force_z_low_n;
+    /* the high end of the interval in which force_z lies with 90 % */
+    float force_z_high_n;
+    /* the low end of the interval in which the force of the ground on the tip across the limb's plane, to the
+     * left, lies with 90 %; not known of a limb without a coxa joint */
+    float force_y_low_n;
+    /* the high end of the interval in which the force across the limb's plane lies with 90 % */
+    float force_y_high_n;
+    /* the low end of the interval in which the load behind the coxa joint's gear lies with 90 %, by its motor's
+     * torque and what rubs in its gear; of at most eight ticks before */
+    float load_coxa_low_n_mm;
+    /* the high end of the interval in which the load behind the coxa joint's gear lies with 90 % */
+    float load_coxa_high_n_mm;
+    /* the low end of the interval in which the load behind the femur joint's gear lies with 90 % */
+    float load_femur_low_n_mm;
+    /* the high end of the interval in which the load behind the femur joint's gear lies with 90 % */
+    float load_femur_high_n_mm;
+    /* the low end of the interval in which the load behind the tibia joint's gear lies with 90 % */
+    float load_tibia_low_n_mm;
+    /* the high end of the interval in which the load behind the tibia joint's gear lies with 90 % */
+    float load_tibia_high_n_mm;
 } brace_measured_t;
 
-enum { BRACE_MEASURED_COUNT = 147 };
+enum { BRACE_MEASURED_COUNT = 159 };
 #ifndef __cplusplus
 _Static_assert(sizeof(brace_measured_t) == 4 * BRACE_MEASURED_COUNT, "32 bits each");
 #endif

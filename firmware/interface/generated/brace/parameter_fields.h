@@ -36,6 +36,17 @@ typedef struct {
     /* the bound of the joint's motor torque while play is taken up; at most the torque range [N mm, above 0 to
      * 1e+06] */
     float takeup_torque_n_mm;
+    /* the share of the motor's torque that is added to the joint's motor friction, because gears rub harder under
+     * load; docs/joints.md has published values [0 to 0.9] */
+    float motor_friction_per_torque_ratio;
+    /* the share of the load behind the joint's gear that is added to its motor friction [0 to 0.9] */
+    float motor_friction_per_load_ratio;
+    /* the least share of the joint's motor friction that is left while the joint moves; published fits of geared
+     * servos have 0.4 to 0.9 [0 to 1] */
+    float motor_friction_sliding_ratio;
+    /* how far the joint's torque by current is trusted, as one sigma relative to it; makers' constants and
+     * published fits of the same servos are apart by this much [0 to 1] */
+    float torque_gain_rel;
 } brace_drive_t;
 
 /* The force sensor at the tip. */

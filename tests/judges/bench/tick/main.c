@@ -53,6 +53,8 @@ static brace_parameters_t random_parameters(const world_manner_t *manner)
         p.drive[i].torque_bias_n_mm = 10.0f;
         p.drive[i].motor_friction_n_mm = dice_between(&dice, 0.0f, 60.0f);
         p.drive[i].motor_friction_tolerance_ratio = 0.2f;
+        p.drive[i].motor_friction_per_torque_ratio = 0.3f;
+        p.drive[i].motor_friction_per_load_ratio = 0.1f;
         p.drive[i].angle_step_rad = 1e-5f;
         p.drive[i].takeup_torque_n_mm = 5000.0f;
         p.drive[i].angle_min_rad = -3.0f;
