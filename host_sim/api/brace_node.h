@@ -36,6 +36,8 @@ typedef struct {
     double torque_bias_n_mm;         /* offset of the samples */
     double angle_step_rad;           /* step of the motor's encoder [1e-9, 0.1] */
     double rate_rad_per_s;           /* rate at which the set-point moves (0, 100] */
+    double friction_per_torque_ratio; /* share of the motor's torque that is added to friction_n_mm [0, 0.9] */
+    double friction_per_load_ratio;  /* share of the load behind the gear that is added to it [0, 0.9] */
 } brace_node_drive_t;
 
 /* Where the contact holds the tip, relative to the tip of the unloaded limb: x and z in the limb's plane, y across it,

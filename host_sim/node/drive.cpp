@@ -24,6 +24,14 @@ double damping(const brace_node_drive_t &drive)
                : drive.servo_n_mm_s_per_rad;
 }
 
+// The most that friction holds between motor and gear: a constant, and shares of the torque and of the load. The torque
+// is that of the step before. Model M5 of Duclusaud et al., arXiv 2410.08650, of a joint that stands.
+double friction_n_mm(const brace_node_drive_t &drive, double torque_n_mm, double load_n_mm)
+{
+    return drive.friction_n_mm
+           + std::fabs(drive.friction_per_torque_ratio * torque_n_mm + drive.friction_per_load_ratio * load_n_mm);
+}
+
 // Finds the speeds v that make 1/2 v'Mv - b'v + sum rub |v| least: M v = b with dry friction, one joint after another.
 template <int N>
 Vector<N> speeds_with_friction(const Matrix<N> &inertia, const Vector<N> &impulse, const Vector<N> &rub)
@@ -56,7 +64,7 @@ void step_motors(const brace_node_drive_t *drive, double dt_s, const Vector<N> &
             const double p = drive[i].servo_n_mm_per_rad;
             inertia(i, i) += drive[i].inertia_n_mm_s2_per_rad;
             impulse[i] = drive[i].inertia_n_mm_s2_per_rad * motor[i].speed_rad_per_s - dt_s * load_n_mm[i];
-            rub[i] = dt_s * drive[i].friction_n_mm;
+            rub[i] = dt_s * friction_n_mm(drive[i], motor[i].torque_n_mm, load_n_mm[i]);
             if (limited[i]) {
                 impulse[i] += dt_s * motor[i].torque_n_mm;
             } else {

@@ -86,6 +86,7 @@ bool is_sound(const brace_node_drive_t &drive)
     return in_range(drive.servo_n_mm_per_rad, 1e-6, 1e9)
            && (std::isnan(drive.servo_n_mm_s_per_rad) || in_range(drive.servo_n_mm_s_per_rad, 0.0, 1e9))
            && in_range(drive.inertia_n_mm_s2_per_rad, 1e-6, 1e6) && in_range(drive.friction_n_mm, 0.0, 1e6)
+           && in_range(drive.friction_per_torque_ratio, 0.0, 0.9) && in_range(drive.friction_per_load_ratio, 0.0, 0.9)
            && in_range(drive.torque_range_n_mm, 1e-6, 1e6) && in_range(drive.torque_noise_n_mm, 0.0, 1e6)
            && in_range(drive.torque_bias_n_mm, -1e6, 1e6) && in_range(drive.angle_step_rad, 1e-9, 0.1)
            && in_range(drive.rate_rad_per_s, 1e-6, 100.0);
@@ -152,7 +153,7 @@ extern "C" void brace_node_limb_default(brace_node_limb_t *limb)
     limb->plant.joint[1].compliance_rad_per_n_mm = 1.0e-5;
     limb->plant.joint[2].compliance_rad_per_n_mm = 1.6e-5;
     for (brace_node_drive_t &drive : limb->drive) {
-        drive = {6e4, std::nan(""), 20.0, 200.0, 8000.0, 400.0, 0.0, 2e-5, 0.5};
+        drive = {6e4, std::nan(""), 20.0, 200.0, 8000.0, 400.0, 0.0, 2e-5, 0.5, 0.0, 0.0};
     }
     limb->theta_rad[1] = 1.0;
     limb->theta_rad[2] = 1.4;

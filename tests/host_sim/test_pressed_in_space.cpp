@@ -376,7 +376,7 @@ void a_motor_with_a_limit_presses_its_flank_with_that()
     brace_node_drive_t drive[3];
     Motor motor[3];
     for (const int i : {0, 1, 2}) {
-        drive[i] = {6e4, NAN, 20.0, 0.0, 8000.0, 0.0, 0.0, 2e-5, 0.5};
+        drive[i] = {6e4, NAN, 20.0, 0.0, 8000.0, 0.0, 0.0, 2e-5, 0.5, 0.0, 0.0};
         motor[i].angle_rad = kPosture[i];
         motor[i].limit_n_mm = 8000.0;
     }

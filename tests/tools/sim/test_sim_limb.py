@@ -112,6 +112,25 @@ def test_dry_friction_holds_a_motor_until_the_servo_overcomes_it(paper: LimbMode
         assert 0.5 * FRICTION_N_MM / P_SERVO_N_MM_PER_RAD < off <= FRICTION_N_MM / P_SERVO_N_MM_PER_RAD * 1.0001
 
 
+def test_a_gears_friction_grows_with_the_load(paper: LimbModel) -> None:
+    """A pressed limb's motors stand where friction holds them, and carry less than the load: by more than the constant,
+    by no more than the shares of torque and load add to it. The controller's interval holds the load."""
+    shares = {"friction_per_torque_ratio": 0.4, "friction_per_load_ratio": 0.1}
+    geared = paper.with_values({f"motor.{joint}.{key}": v for joint in ("femur", "tibia") for key, v in shares.items()})
+    with node(geared, press_mm=(0.0, 30.0), has_force_sensor=False) as one:
+        one.step(1.0)
+        truth, seen = one.raw_truth(), one.raw_snapshot()
+    grew = False
+    for joint in (1, 2):
+        torque_n_mm, load_n_mm = truth.torque_n_mm[joint], truth.load_n_mm[joint]
+        held_n_mm = FRICTION_N_MM + abs(0.4 * torque_n_mm + 0.1 * load_n_mm)
+        assert abs(torque_n_mm - load_n_mm) <= 1.01 * held_n_mm
+        grew = grew or abs(torque_n_mm - load_n_mm) > 1.2 * FRICTION_N_MM
+        interval = seen.load_interval_n_mm[joint]
+        assert interval.low <= load_n_mm <= interval.high
+    assert grew
+
+
 def test_a_wall_yields_in_series(paper: LimbModel) -> None:
     with node(
         paper, press_mm=(0.0, 0.1), hold_n_per_mm=0.5, force_noise_n=0.0, drive=FRICTIONLESS

@@ -30,6 +30,8 @@ E_URL, E_IN_USE, E_NO_DEVICE, E_NO_CAN, E_DENIED, E_SYSTEM, E_SIZE = range(-1, -
 _DRIVE_KEYS = (  # of [motor.*], and members of brace_node_drive_t
     "inertia_n_mm_s2_per_rad",
     "friction_n_mm",
+    "friction_per_torque_ratio",
+    "friction_per_load_ratio",
     "torque_range_n_mm",
     "torque_noise_n_mm",
     "angle_step_rad",
