@@ -45,6 +45,7 @@ from brace.diagnose.loading.rivals import Contest, Member, contests
 from brace.diagnose.loading.structure import STRUCTURED_P
 from brace.diagnose.loading.within_trust import allowed_sigma, pull_sigma, within_trust
 from brace.diagnose.loading.verdict import NOTHING_STANDS
+from brace.diagnose.loading.wandering_zero import also_seen
 from brace.diagnose.options import Options
 from brace.model import LimbModel
 from brace.model.keys import KEY_BY_NAME
@@ -549,6 +550,8 @@ def _notes(
             f"a hint of {final.sets[0].label}: {odds:.0f} to 1 against nothing missing, where {1 / NOTHING_STANDS:.0f} "
             "to 1 is asked of a name; another record like this one would settle it"
         )
+    if final.decision.verdict != "unknown" and (small := also_seen(record, after)):
+        notes.append(small)
     space = after.space
     for key, pull in zip(space.keys, space.pull(after.x)):
         if abs(pull) > FAR_OUT:

@@ -27,6 +27,7 @@ from brace.diagnose.loading.space import Trust, trust_of
 from brace.diagnose.loading.structure import structure_of
 from brace.diagnose.loading.troubles.likeliest import likeliest, with_trouble
 from brace.diagnose.loading.verdict import decide, undecided
+from brace.diagnose.loading.wandering_zero import with_wandering_zero
 from brace.diagnose.options import Advance, Options, silent
 from brace.effects import Variant, all_variants
 from brace.ground.errors import UsageError
@@ -56,7 +57,7 @@ def diagnose_loading(
         return stopped
     advance(0.02, "reading the noise off the repeats")
     trust = trust_of(believed, turns=not dataset.small_displacements)
-    whole = with_known_noise(load_record(dataset), trust)
+    whole = with_wandering_zero(with_known_noise(load_record(dataset), trust))
     enough = enough_rows(dataset)
     record = whole if enough.all() else whole.select(enough)
     variants = all_variants(setting_of(record, believed))
