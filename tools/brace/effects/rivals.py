@@ -211,6 +211,28 @@ INSTRUMENT_TROUBLES: tuple[RivalCause, ...] = (
     ),
 )  # fmt: skip
 
-_ALL = (*RIVAL_CAUSES, *INSTRUMENT_TROUBLES)
+PRESLIDING = "presliding_friction"
+
+
+def _strained(joint: str) -> RivalCause:
+    return RivalCause(
+        PRESLIDING,
+        f"joint.{joint}",
+        words="friction that is strained before it slides",
+        meaning="the joint's friction builds up over a way before it slides (generalised Maxwell slip)",
+        looks_like=(),
+        ways=((Size(f"joint.{joint}.coulomb_n_mm", "N mm", 0.0, 1e7),),),
+        in_limb=True,
+        same_because="both joints' friction makes nearly the same loops",
+        would_tell="load the joint alone, over several amplitudes (a joint test)",
+        rarer=1.0,  # most geared joints have it
+    )
+
+
+# Of the limb, and fitted as columns beside the readings as well: the plant's friction has no way before it slides.
+STRAINED_JOINTS: tuple[RivalCause, ...] = (_strained("femur"), _strained("tibia"))
+
+_ALL = (*RIVAL_CAUSES, *INSTRUMENT_TROUBLES, *STRAINED_JOINTS)
 RIVAL_BY_NAME = {cause.name: cause for cause in _ALL}
+TROUBLE_BY_KIND = {cause.name: cause for cause in INSTRUMENT_TROUBLES} | {one.label: one for one in STRAINED_JOINTS}
 RIVAL_UNITS = {size.key: size.unit for cause in _ALL for way in cause.ways for size in way}

@@ -57,7 +57,8 @@ def resolve(record: Record, final: Pass, found: Contest | None, believed: LimbMo
             for item in sets
         ]  # fmt: skip
     else:
-        base = limb_of(believed, final.base.fit.model)
+        unexplained = verdict == "none" and final.structure.structured  # beside a plain loop: no refit to rely on
+        base = believed if unexplained else limb_of(believed, final.base.fit.model)
         exported = believed if verdict == "unknown" else chosen if verdict == "effect" else base
         return Resolved(verdict, (), (), exported, None, _nothing_to_take(take))
     limbs = [limb_of(believed, member.model) for member, _ in members]

@@ -32,7 +32,6 @@ from brace.diagnose.loading.next_experiment.confusability import TOLD_APART, Con
 from brace.diagnose.loading.next_experiment.experiment import next_experiment
 from brace.diagnose.loading.fit import Fit
 from brace.diagnose.loading.troubles.likeliest import Trouble
-from brace.diagnose.loading.troubles.kinds import LAG
 from brace.diagnose.loading.few_readings import FEW, rests_on_one, slopes_in_words
 from brace.diagnose.loading.hold_out import held_out, load_range
 from brace.diagnose.loading.intervals import intervals, without_none
@@ -59,6 +58,8 @@ FAR_OUT = 3.0  # sigmas of the calibration from which a refitted number is a fin
 STAYS_AHEAD = 0.5
 SURE, LIKELIER_THAN_NOT = 0.8, 0.5  # confidences from which a name is given without a word before it, with "probably"
 MOST_LIKELY = 0.9  # share of the members' probability from which the first is said to be it
+BESIDE_STRAINED = 0.75  # of a name's confidence: what sliding springs leave of other friction may look like an effect
+MOST_SURE = confidence.RIGHT_BY_EFFECTS[1]
 SIZE_FIRST = ("creep",)  # effects whose first number is their size, and whose others mean nothing without it
 LOST_NATS = -2.0  # of the held-out configurations: more than refitting alone makes
 
@@ -113,9 +114,15 @@ def _all_but_next(
     if record.rows <= FEW:  # of a few runs drawn again the share of draws with the same choice says more
         most = agreed.bootstrap_share
         effects = tuple(replace(one, confidence=min(one.confidence, most)) for one in effects)
+    if any(one.cause.in_limb for one in final.troubles):
+        effects = tuple(replace(one, confidence=one.confidence * BESIDE_STRAINED) for one in effects)
     effects = tuple(sorted(effects, key=lambda one: -round(one.confidence, 9)))
     held = held_out(final.record, after, locked) if decision.verdict != "unknown" else ()
-    late = tuple(_trouble(one, 1.0 / (1.0 + np.exp(-one.lead))) for one in final.troubles if one.name == LAG)
+    beside = tuple(
+        _trouble(one, one.share / (1.0 + np.exp(-one.lead)) * (MOST_SURE if one.cause.in_limb else 1.0))
+        for one in final.troubles
+        if one.is_effect
+    )
     return Diagnosis(
         verdict=_verdict(final, resolved),
         sentence=" ".join([
@@ -125,7 +132,7 @@ def _all_but_next(
         ]),
         model=resolved.exported,
         gap=_gap(whole, record, locked, believed, judged),
-        effects=(*effects, *late),
+        effects=(*effects, *beside),
         indistinguishable=_classes(final, alike, contested),
         could_be=_could_be(final, effects),
         members=_as_named(resolved.alternatives, effects),
@@ -134,7 +141,7 @@ def _all_but_next(
         held_out=held,
         unexplained=_unexplained(final, after),
         next_experiment=None,
-        data_faults=(*record.dataset.faults, *(trouble.fault for trouble in final.troubles)),
+        data_faults=(*record.dataset.faults, *(one.fault for one in final.troubles if not one.cause.in_limb)),
         candidates=tuple(
             Candidate(item.label, final.base.fit.cost - item.best.fit.cost, item.posterior)
             for item in final.sets[:MOST_CANDIDATES]
@@ -242,6 +249,8 @@ def _classes(
     contests comes first."""
     decision = final.decision
     found = [tuple(member.label for member in one.members) for one in contested if not one.decided]
+    rubs = [one for one in final.troubles if one.cause.in_limb]
+    found += [(one.name, *one.alike, f"coulomb_friction@{one.cause.where}") for one in rubs]
     for label in decision.labels if decision.verdict == "effect" else decision.labels[:1]:
         rivals = next((members for members in decision.classes if members[0] == label), (label,))
         look_alikes = [other for other in alike.look_alikes(label) if not _told_apart(alike, label, other)]
@@ -421,14 +430,30 @@ def _verdict(final: Pass, resolved: Resolved) -> Verdict:
     among the effects, that is what is missing."""
     if resolved.verdict != "none" or not final.troubles:
         return resolved.verdict
-    return "effect" if any(one.name == LAG for one in final.troubles) else "data_fault"
+    return "effect" if any(one.is_effect for one in final.troubles) else "data_fault"
 
 
 def _beside(final: Pass, resolved: Resolved) -> Iterator[str]:
-    """What the instruments did, behind what is said of the limb."""
-    troubles = "; ".join(one.shown for one in final.troubles)
-    if troubles and resolved.verdict != "none":
+    """What the record has besides, behind what is said of the limb."""
+    if resolved.verdict == "none":
+        return
+    if rubs := "; ".join(one.shown for one in final.troubles if one.cause.in_limb):
+        yield f"Beside it, {rubs}."
+    if troubles := "; ".join(one.shown for one in final.troubles if not one.cause.in_limb):
         yield f"The instruments were in trouble, too, and the limb is judged without what they did: {troubles}."
+
+
+def _beside_nothing(final: Pass) -> str:
+    """Of a limb with nothing from the catalogue: its friction that has no law here, and what the instruments did."""
+    rubs = [one.shown for one in final.troubles if one.cause.in_limb]
+    troubles = [one.shown for one in final.troubles if not one.cause.in_limb]
+    if not rubs:
+        return (
+            f"The limb agrees with its model, but the instruments were in trouble: {'; '.join(troubles)}. "
+            "Nothing was added to the model."
+        )
+    too = f" The instruments were in trouble, too: {'; '.join(troubles)}." if troubles else ""
+    return f"Missing: {'; '.join(rubs)}.{too}"
 
 
 def _sentence(
@@ -438,10 +463,7 @@ def _sentence(
     if contested is not None:
         return _contested(resolved, contested, effects)
     if verdict == "none" and final.troubles:
-        return (
-            "The limb agrees with its model, but the instruments were in trouble: "
-            f"{'; '.join(one.shown for one in final.troubles)}. Nothing was added to the model."
-        )
+        return _beside_nothing(final)
     if verdict == "none":
         return "Model and record agree within the noise and what calibration leaves open; nothing is missing."
     if verdict == "unknown":

@@ -19,6 +19,7 @@ from brace.diagnose.loading.extensions import outside
 from brace.diagnose.loading.fit import fit
 from brace.diagnose.loading.noise_after_base import with_growth, with_known_noise, with_less_noise
 from brace.diagnose.loading.parts import locked_rows
+from brace.diagnose.loading.plain_loop import with_plain_loop
 from brace.diagnose.loading.rivals import with_causes
 from brace.diagnose.loading.rounding import asked_for
 from brace.diagnose.loading.search import Hypothesis, Search
@@ -90,8 +91,13 @@ def _searches(
 
 
 def search_pass(record: Record, trust: Trust, variants: Sequence[Variant], advance: Advance) -> Pass:
-    """Search, then the best set fitted to the end, and what it leaves tested for structure. Readings that scatter more
-    under load may look like troubles, and the other way round: the likelier of the two goes first."""
+    """Search, then the best set fitted to the end, and what it leaves tested for structure."""
+    return with_plain_loop(_search_pass(record, trust, variants, advance))
+
+
+def _search_pass(record: Record, trust: Trust, variants: Sequence[Variant], advance: Advance) -> Pass:
+    """Readings that scatter more under load may look like troubles, and the other way round: the likelier of the two
+    goes first."""
     found = _with_less_noise(_searched(record, trust, variants, advance), variants, advance)
     noisier = _with_growing_noise(found, variants, advance)
     if noisier is not found:
@@ -133,7 +139,8 @@ def _without_troubles(found: Pass, variants: Sequence[Variant], advance: Advance
             sets = with_causes(cleaner)
             trouble = trouble if sets is cleaner.sets else likeliest(cleaner.record, sets)
         if trouble is None or not trouble.far_ahead or trouble.lead < cleaner.decision.outside.lead:
-            cleaner = replace(cleaner, rival=trouble if trouble is not None and trouble.is_named else None)
+            rival = trouble if trouble is not None and trouble.is_named and not trouble.cause.in_limb else None
+            cleaner = replace(cleaner, rival=rival)  # friction of the plain law needs no stand-in that is no better
             break
         first = first or trouble
         if not trouble.is_named:

@@ -2,8 +2,8 @@
 
 Many readings resolve a change of force far below the step that each of them is rounded to, because noise dithers them.
 They resolve the zero as well, but no maker promises that it stands still within a step. So each zero is taken to differ
-from the record's by one sigma of rounding: by a constant, slowly, and from one part of the record to the next (a Gaussian
-process in time). That spread is part of the readings' covariance. What a zero must do to be named has to be more."""
+from the record's by one sigma of rounding: by a constant, slowly, and from one part of the record to the next (a
+Gaussian process in time). That spread is part of the readings' covariance. What a zero must do to be named has to be more."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def zero_sigma_n(record: Record) -> float:
 
 
 def also_seen(record: Record, fitted: Fit) -> str:
-    """One line about a zero that certainly wanders, within what the sensor resolves; "" where noise would do as much."""
+    """One line about a zero that certainly wanders, by less than the sensor resolves; "" where noise would do so."""
     sigma_n = zero_sigma_n(record)
     if sigma_n == 0.0:
         return ""

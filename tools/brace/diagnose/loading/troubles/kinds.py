@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import comb, log
 
 import numpy as np
@@ -16,7 +16,8 @@ from brace.identify.record import Record
 from brace.diagnose.loading.screen import Remover
 from brace.diagnose.loading.structure import far_among_alike
 from brace.diagnose.loading.troubles.steps import best_rows
-from brace.effects.rivals import INSTRUMENT_TROUBLES
+from brace.diagnose.loading.troubles.presliding import can_rub, friction_n_mm, presliding_columns
+from brace.effects.rivals import INSTRUMENT_TROUBLES, STRAINED_JOINTS
 from brace.native.plant_batch import number_index, reference_planar_many
 
 LAG, GAIN_STEP, ZERO_STEP, ZEROS, POSE, SLIP, OUTLIERS = (cause.name for cause in INSTRUMENT_TROUBLES)
@@ -45,14 +46,18 @@ MOST_SLIPS = 2
 FAR_OUT = 5.0  # sigmas: what a single reading must be off by to be taken for a slip
 MOST_OUT = 0.02  # of the readings: more than these are no slips
 POSE_STEP_RAD = 1e-4
+RUBS = {cause.label: cause.where.removeprefix("joint.") for cause in STRAINED_JOINTS}  # the joint of each kind
+RUB_SIGMAS = (0.01, 0.03, 0.1, 0.3, 1.0)  # what an element's stiffness may be, of the joint's own
 
 
 @dataclass(frozen=True)
 class Way:
-    """`columns` are channels x rows x sizes; `price` in nats, for the ways of its kind among which it was chosen."""
+    """`columns` are channels x rows x sizes; `price` in nats, for the ways of its kind among which it was chosen.
+    `total`: what each size counts in the one number that is reported; empty: the first alone."""
 
     columns: np.ndarray
     price: float
+    total: np.ndarray = field(default_factory=lambda: np.empty(0))
 
 
 @dataclass(frozen=True)
@@ -75,6 +80,9 @@ def kinds(record: Record, fitted: Fit, remover: Remover, left: np.ndarray) -> It
     yield Kind(GAIN_STEP, list(_steps(record, remover, left, [both, *_alone(forces)], most=1)))
     yield Kind(GAIN_OF_ONE, [Way(_of_forces(record, one), log(len(FORCES))) for one in _alone(forces)])
     displaced = _displaced(record, fitted)
+    for name, joint in RUBS.items():
+        if can_rub(record, fitted, joint):
+            yield Kind(name, [rubbing(record, fitted, joint)], RUB_SIGMAS)
     yield Kind(SLIP, list(_steps(record, remover, left, [displaced], MOST_SLIPS)))
     yield Kind(ELSEWHERE, [Way(_of_forces(record, displaced), 0.0)])
     ramps = list(_ramps(record))
@@ -105,6 +113,12 @@ def kinds(record: Record, fitted: Fit, remover: Remover, left: np.ndarray) -> It
         columns[far, np.arange(far.size)] = record.sigma.ravel()[far]
         which = far.size * log(max(record.readings, 2))
         yield Kind(OUTLIERS, [Way(columns.reshape(*record.measured.shape, far.size), which)])
+
+
+def rubbing(record: Record, fitted: Fit, joint: str) -> Way:
+    """Friction of a joint that is strained before it slides."""
+    columns = presliding_columns(record, fitted, joint, _displaced(record, fitted))
+    return Way(columns, 0.0, friction_n_mm(record, fitted, joint))
 
 
 def _steps(

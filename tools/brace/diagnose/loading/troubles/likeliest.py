@@ -22,21 +22,24 @@ from brace.diagnose.loading.troubles.kinds import (
     LAG,
     NOT_NAMED,
     OUTLIERS,
+    RUBS,
     SLIP,
     ZERO_STEP,
     ZEROS,
     kinds,
     lag_columns,
+    rubbing,
 )
 from brace.diagnose.loading.troubles.lag import rarity_nats
 from brace.diagnose.loading.troubles.words import first_row, shown
-from brace.effects.rivals import RIVAL_BY_NAME, RivalCause
+from brace.effects.rivals import TROUBLE_BY_KIND, RivalCause
 
 MUST_LEAD = 4.6  # nats: 100 to 1 against the best of the catalogue, as every name must be ahead of nothing missing
 REFITTED = 5  # kinds of trouble beside sets of effects, the most likely ones
 BY_SLOPES = 0.01  # nats for each sigma squared that a trouble explains by slopes: what a fit may explain beside
 BACK = 0.2  # of the largest slip: what slips that go back may leave
 MAY_BE = -3.0  # nats: 1 to 20, from which a trouble is a rival of what was named, or of a likelier trouble
+SURELY = 3.0  # sigmas that friction must be above nothing
 FLAT = 1e3  # whitened: a size of which nothing is known before
 
 
@@ -55,6 +58,13 @@ class Trouble:
     value: float
     sigma: float
     shown: str
+    alike: tuple[str, ...] = ()  # kinds that explain the record nearly as well
+    share: float = 1.0  # of the probability of all kinds alike
+
+    @property
+    def is_effect(self) -> bool:
+        """Whether it is a name among the effects."""
+        return self.name == LAG or self.name in RUBS
 
     @property
     def far_ahead(self) -> bool:
@@ -75,14 +85,16 @@ class Trouble:
     @property
     def cause(self) -> RivalCause:
         """Name and words of a trouble of the instruments. KeyError where `is_named` is false."""
-        return RIVAL_BY_NAME[self.name]
+        return TROUBLE_BY_KIND[self.name]
 
     @property
     def sizes(self) -> dict[str, Interval]:
         """Its first size with its 90 % interval; none where the trouble has a size for each run or reading."""
-        if self.name not in (LAG, GAIN_STEP, ZERO_STEP, SLIP):
+        if self.name not in (LAG, GAIN_STEP, ZERO_STEP, SLIP, *RUBS):
             return {}
         half = Z_90 * self.sigma
+        if self.name in RUBS:
+            return {self.cause.ways[0][0].key: Interval(self.value, max(0.0, self.value - half), self.value + half)}
         return {self.cause.ways[0][0].key: Interval(self.value, self.value - half, self.value + half)}
 
     @property
@@ -107,7 +119,41 @@ def likeliest(record: Record, sets: Sequence[LabelSet]) -> Trouble | None:
         first.setdefault((option.kind, option.rest.labels), option)
     chosen = [one for place, one in enumerate(first.values()) if place < REFITTED or one.kind == LAG]
     troubles = [_fitted(record, base, option, against) for option in chosen]
-    return most_likely(troubles)
+    return _of_joints(most_likely(troubles), troubles)
+
+
+def _of_joints(found: Trouble | None, troubles: Sequence[Trouble]) -> Trouble | None:
+    """Friction of a joint with the other joint's beside it, where the record hardly tells the two."""
+    if found is None or found.name not in RUBS:
+        return found
+    others: dict[str, float] = {}
+    for one in troubles:
+        if one.name in RUBS and one.name != found.name and one.rest.labels == found.rest.labels:
+            others[one.name] = max(others.get(one.name, -np.inf), one.lead - found.lead)
+    alike = tuple(name for name, behind in others.items() if behind > MAY_BE)
+    return replace(found, alike=alike, share=float(1.0 / (1.0 + np.sum(np.exp(list(others.values()))))))
+
+
+def rubs(record: Record, sets: Sequence[LabelSet]) -> tuple[Trouble | None, float]:
+    """The friction of one joint, strained before it slides, that alone explains the record best; and its lead over
+    everything without friction that is known here: `sets`, and the troubles of the instruments beside the best of
+    those. None where no joint's friction explains anything."""
+    without = [item for item in sets if not any(label.startswith("coulomb_friction@") for label in item.labels)]
+    base = next(item for item in sets if not item.labels)
+    fitted = base.best.fit
+    known = max(item.best.score for item in without)
+    options = list(_options(record, base))
+    beside = [one for one in options if one.kind not in RUBS]
+    if without[0].labels:
+        beside += [one for one in _options(record, without[0]) if one.kind not in RUBS]
+    known = max([known, *(one.promise(record, fitted) for one in beside)])
+    best = [max((one for one in options if one.kind == name), key=lambda one: one.promise(record, fitted), default=None)
+            for name in RUBS]  # fmt: skip
+    troubles = [_fitted(record, fitted, one, known) for one in best if one is not None]
+    found = max(troubles, key=lambda one: one.lead, default=None)
+    if found is None or not np.isfinite(found.lead):
+        return None, -np.inf
+    return _of_joints(found, troubles), found.lead
 
 
 def most_likely(troubles: Sequence[Trouble]) -> Trouble | None:
@@ -155,6 +201,7 @@ class _Option:
     cost: float
     price: float
     sigma: float
+    total: np.ndarray
 
     def score(self, record: Record, base: Fit, cost: float) -> float:
         """Log evidence over nothing missing, with this cost."""
@@ -185,9 +232,10 @@ def _options(record: Record, rest: LabelSet) -> Iterator[_Option]:
                 price = way.price + float(np.log(max(1, len(kind.spread))))
                 if spread:
                     price += 0.5 * float(np.linalg.slogdet(np.eye(along.size) + spread**2 * power)[1])
-                sigma = float(np.sqrt(max(inverse[0, 0], 0.0)))
+                total = way.total if way.total.size else np.eye(along.size)[0]
+                sigma = float(np.sqrt(max(total @ inverse @ total, 0.0)))
                 cost = fitted.cost - float(along @ inverse @ along)
-                yield _Option(kind.name, way.columns, spread, rest, cost, price, sigma)
+                yield _Option(kind.name, way.columns, spread, rest, cost, price, sigma, total)
 
 
 def _fitted(record: Record, base: Fit, option: _Option, against: float) -> Trouble:
@@ -200,15 +248,20 @@ def _fitted(record: Record, base: Fit, option: _Option, against: float) -> Troub
         wide = option.columns * _flat(record, option.columns)
         fitted = fit(record.beside(wide), rest.space, fitted.x)
     lead = option.score(record, base, min(fitted.cost, option.cost)) - against
+    if option.kind in RUBS:  # as for a lag: the way of a joint goes by its compliance
+        again = rubbing(record, fitted, RUBS[option.kind])
+        option = replace(option, columns=again.columns, total=again.total, cost=np.inf)
+        wide = option.columns * option.spread
+        fitted = fit(record.beside(wide), rest.space, fitted.x)
     whitened = record.whitened(option.columns)
     inner = whitened.T @ whitened + (np.eye(whitened.shape[1]) / option.spread**2 if option.spread else 0.0)
     left = fitted.space.residuals(record, fitted.x[None])[0]
     sizes = np.linalg.pinv(inner, hermitian=True) @ (whitened.T @ left)
     if option.kind == LAG:
         lead -= rarity_nats(record, float(sizes[0]))
-    if option.kind == SLIP and _goes_back(sizes):
-        lead = -np.inf
-    return _in_words(record, option, fitted, wide, sizes, lead)
+    found = _in_words(record, option, fitted, wide, sizes, lead)
+    backwards = option.kind in RUBS and found.value < SURELY * found.sigma  # friction takes work out of a joint
+    return replace(found, lead=-np.inf) if backwards or (option.kind == SLIP and _goes_back(sizes)) else found
 
 
 def _goes_back(sizes: np.ndarray) -> bool:
@@ -229,7 +282,7 @@ def _in_words(
     row = first_row(columns) + 1 if option.kind in (GAIN_STEP, ZERO_STEP, SLIP, OUTLIERS) else None
     sentence = shown(record, option.kind, columns, sizes, option.sigma)
     rest = replace(option.rest, best=replace(option.rest.best, fit=fitted))
-    field, value = _channels(record, columns), float(sizes[0])
+    field, value = _channels(record, columns), float(option.total @ sizes)
     return Trouble(option.kind, field, row, wide, rest, lead, value, option.sigma, sentence)
 
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from brace.identify.record import Record
 from brace.diagnose.loading.troubles.lag import lag_in_words
-from brace.diagnose.loading.troubles.kinds import GAIN_STEP, LAG, NOT_NAMED, POSE, SLIP, ZERO_STEP, ZEROS
+from brace.diagnose.loading.troubles.kinds import GAIN_STEP, LAG, NOT_NAMED, POSE, RUBS, SLIP, ZERO_STEP, ZEROS
 
 MOST_LISTED = 8  # rows
 
@@ -39,6 +39,12 @@ def shown(record: Record, name: str, columns: np.ndarray, sizes: np.ndarray, sig
         return (
             f"the posture differs from run to run by about {1e3 * float(np.std(sizes)):.2g} mrad from the commanded "
             "angles; measure the angles of every run (columns theta1_rad, theta2_rad)"
+        )
+    if name in RUBS:
+        joint = "knee" if RUBS[name] == "tibia" else "femur"
+        return (
+            f"friction of the {joint} joint, which is strained before it slides; "
+            "the model has no such law, so that limb.toml leaves the friction out"
         )
     if name in NOT_NAMED:
         return NOT_NAMED[name]

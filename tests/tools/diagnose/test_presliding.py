@@ -1,0 +1,123 @@
+"""Friction that is strained before it slides: its columns against a closed form, and a record that has it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from brace.dataset import Dataset, load_dataset
+from brace.diagnose.diagnosis import Diagnosis
+from brace.diagnose.loading.fit import Fit, fit
+from brace.diagnose.loading.run import diagnose_loading
+from brace.diagnose.loading.space import space_of, trust_of
+from brace.diagnose.loading.troubles.presliding import STRAINS, friction_n_mm, presliding_columns, sliding_rad
+from brace.diagnose.options import Options, silent
+from brace.identify.record import Record, levers, load_record
+from brace.model import LimbModel, load_limb
+from brace.native.plant_batch import number_index, reference_planar_many
+from handmade import loading_record
+
+LEVEL_N_MM, STRAIN_RAD = 60.0, 1.5e-3
+
+
+def bent_before_it_slides(way_rad: np.ndarray, run: np.ndarray) -> np.ndarray:
+    """Dahl's torque along a way, in closed form between two readings: it goes to the level as an exponential."""
+    torque, out = 0.0, np.empty(way_rad.size)
+    for row, at in enumerate(way_rad):
+        begins = row == 0 or run[row] != run[row - 1]
+        step = at if begins else at - way_rad[row - 1]
+        end = np.sign(step) * LEVEL_N_MM
+        torque = end + ((0.0 if begins else torque) - end) * np.exp(-abs(step) / STRAIN_RAD)
+        out[row] = torque
+    return out
+
+
+def way_and_push(data: Dataset, limb: LimbModel, joint: str) -> tuple[np.ndarray, np.ndarray]:
+    """The joint's way without friction, by the record's own forces, and the forces for a torque of 1 that holds it
+    back (K J c; the tip is held), 2 x rows."""
+    lengths = (limb.number("geometry.femur_mm"), limb.number("geometry.tibia_mm"))
+    arms = levers(*lengths, data["theta1_rad"], data["theta2_rad"])[joint]
+    yields = limb.number(f"joint.{joint}.compliance_rad_per_n_mm")
+    index, numbers = number_index(), np.zeros(len(number_index()))
+    for key, place in index.items():
+        numbers[place] = limb.number(key) if key != "change.link" else 1.0
+    angles = np.stack([data["theta1_rad"], data["theta2_rad"]], axis=1)
+    xx, xz, zz = reference_planar_many(numbers[None], angles[None])[0, :, :3].T
+    way = yields * np.sum(arms * np.stack([data["fx_n"], data["fz_n"]]), axis=0)
+    return way, yields * np.stack([xx * arms[0] + xz * arms[1], xz * arms[0] + zz * arms[1]])
+
+
+def rubbing(folder: Path, limb: Path, joint: str) -> Dataset:
+    """A record of the limb with such friction in one joint."""
+    data = load_dataset(loading_record(folder, limb, values={}))
+    way, push = way_and_push(data, load_limb(limb), joint)
+    held = push * bent_before_it_slides(way, data["run"])
+    return data.with_columns({"fx_n": data["fx_n"] + held[0], "fz_n": data["fz_n"] + held[1]})
+
+
+@pytest.fixture(scope="module", params=["tibia"])
+def found(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> tuple[str, Diagnosis]:
+    """The joint, and the diagnosis."""
+    limb = Path(__file__).parents[3] / "tools" / "brace" / "data" / "paper-limb.toml"
+    data = rubbing(tmp_path_factory.mktemp("rubbing") / "record", limb, request.param)
+    return request.param, diagnose_loading(data, load_limb(limb), Options(processes=1), silent)
+
+
+def test_it_is_named_at_its_joint(found: tuple[str, Diagnosis]) -> None:
+    """As friction of either kind: the catalogue's, whose law is sharper, may come as near."""
+    joint, diagnosis = found
+    assert diagnosis.verdict == "effect"
+    (effect,) = diagnosis.effects
+    assert effect.name in ("presliding_friction", "coulomb_friction") and effect.where == f"joint.{joint}"
+    assert not diagnosis.data_faults
+
+
+def test_the_model_gets_no_law_that_it_lacks(found: tuple[str, Diagnosis]) -> None:
+    """Neither friction nor compliances that would make up for it: K is the believed limb's within its trust."""
+    joint, diagnosis = found
+    (effect,) = diagnosis.effects
+    if effect.name == "presliding_friction":
+        assert diagnosis.model.number(f"joint.{joint}.coulomb_n_mm") == 0.0
+        assert "limb.toml leaves the friction out" in diagnosis.sentence
+        assert any(f"coulomb_friction@joint.{joint}" in members for members in diagnosis.indistinguishable)
+
+
+@pytest.fixture
+def plain(tmp_path: Path, paper_limb: Path) -> tuple[Record, Fit]:
+    """A sound limb's record and the refitted limb."""
+    record = load_record(load_dataset(loading_record(tmp_path / "record", paper_limb, values={})))
+    space = space_of(trust_of(load_limb(paper_limb), turns=True), ())
+    return record, fit(record, space, space.mean)
+
+
+def test_elements_slide_at_their_strain(plain: tuple[Record, Fit]) -> None:
+    """A triangle of a way: the stiffest element never slides and follows it; a weak one is a loop of constant height,
+    whose work over the way is its strain, less what it is bent by at each turn."""
+    record, _ = plain
+    starts = np.flatnonzero(np.diff(record.dataset["run"], prepend=-1))
+    place = np.arange(record.rows) - np.repeat(starts, np.diff(np.append(starts, record.rows)))
+    long = int(place.max()) + 1
+    way = np.interp(place / long, [0.0, 0.25, 0.75, 1.0], [0.0, 1.0, -1.0, 0.0])
+    held = sliding_rad(record, way)
+    most = float(np.abs(way).max())
+    assert np.abs(held).max(axis=0) == pytest.approx(most * np.array(STRAINS), rel=1e-9)
+    weakest = held[:, -1]
+    back = (place > 0.35 * long) & (place < 0.7 * long)
+    assert weakest[back] == pytest.approx(np.full(int(back.sum()), -most * STRAINS[-1]))
+
+
+def test_columns_push_against_the_way(plain: tuple[Record, Fit]) -> None:
+    """Friction takes work: the tip's force is larger on the way out, so that the loop runs the right way round."""
+    record, fitted = plain
+    angles = np.stack([record.dataset["theta1_rad"], record.dataset["theta2_rad"]], axis=1)
+    xx, xz, zz = reference_planar_many(fitted.model[None], angles[None])[0, :, :3].T
+    stiffness = np.stack([np.stack([xx, xz]), np.stack([xz, zz])], axis=2)
+    moved = np.stack([record.dataset["dx_mm"], record.dataset["dz_mm"]])
+    begins = np.diff(record.dataset["run"], prepend=-1) != 0
+    steps = np.where(begins, moved, np.diff(moved, axis=1, prepend=0.0))
+    for joint in ("femur", "tibia"):
+        columns = presliding_columns(record, fitted, joint, stiffness)
+        work = np.einsum("frs,fr->s", columns[:2], steps)
+        assert np.all(work[-4:] > 0.0)
+        assert np.all(friction_n_mm(record, fitted, joint)[-4:] > 0.0)
