@@ -1,6 +1,6 @@
 """Runs the foreign benchmark: makes the cases, seals the answers, diagnoses every case, judges, writes the page.
 
-usage: foreign.py [--development] [--parts joint,loading,measured] [--only TEXT] [--cases N] [--no-baselines]
+usage: foreign.py [--development] [--parts joint,loading,ringing,measured] [--only TEXT] [--cases N] [--no-baselines]
        [--seed S] [--out FOLDER]
 An interrupted run goes on where it was; a changed tool starts anew. --only: cases whose `group/kind` holds the text.
 --cases: the first N in the order of their names, which the seed draws. Each part keeps its rows in foreign.json, and
@@ -31,6 +31,9 @@ from run import in_turn, read  # noqa: E402
 from verdicts import Word, judge  # noqa: E402
 
 
+PARTS = ("joint", "loading", "ringing", "measured")
+
+
 def job(job: tuple[str, str, str]) -> str:
     """One diagnosis."""
     root, results, name = Path(job[0]), Path(job[1]), job[2]
@@ -55,7 +58,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--foreign", action="store_true", help="this benchmark; what ./dev blind passes on")
     parser.add_argument("--development", action="store_true", help="the development seed")
-    parser.add_argument("--parts", default="joint,loading,measured", help="which of them")
+    parser.add_argument("--parts", default=",".join(PARTS), help="which of them")
     parser.add_argument("--only", default="", help="cases whose group/kind holds this text")
     parser.add_argument("--cases", type=int, help="so many of the plan, the first in the order of their names")
     parser.add_argument("--seed", type=int, help="another seed")
@@ -90,9 +93,10 @@ def main() -> int:
     beside: list[Word] = []
     if not options.no_baselines:
         rival = root / f"baselines-{baselines_here.version()}-{sets.sources_hash()[:6]}"
-        jobs = [(str(root), str(rival), name) for name in names]
+        rivalled = [case.name for case in wanted if case.part != "ringing"]
+        jobs = [(str(root), str(rival), name) for name in rivalled]
         in_turn("baselines", baselines_here.job, jobs, options.processes)
-        beside = judged(root, rival, names)
+        beside = judged(root, rival, rivalled)
     public, where = {}, measured.folder()
     if "measured" in parts and where is None:
         print("no measured sets: BRACE_REAL_DATA does not name a folder", file=sys.stderr)
@@ -101,14 +105,14 @@ def main() -> int:
     if sets.seal_of(root) != seal:
         raise RuntimeError("the seal changed during the run")
     command = "./dev blind --foreign" + (" --development" if options.development else "")
-    command += f" --parts {options.parts}" if set(parts) != {"joint", "loading", "measured"} else ""
+    command += f" --parts {options.parts}" if set(parts) != set(PARTS) else ""
     command += f" --only {options.only}" if options.only else ""
     command += f" --cases {options.cases}" if options.cases else ""
     how = {"command": command, "seed": seed, "tool": diagnoser.version()}
     sealed = {"set": {"dev": "development"}.get(label, label), "seal_sha256": seal, "generator": sets.sources_hash()}
     out = options.out or (sets.BUILD if test and not options.only else results)
     done = kept.read(out / "foreign.json")
-    for part in ("joint", "loading"):
+    for part in ("joint", "loading", "ringing"):
         here = [w for w in words if w.truth["part"] == part]
         if here:
             size = {"cases": len(here), "of_plan": sum(case.part == part for case in planned)}

@@ -17,9 +17,11 @@ class Plan:
     sound: int = 0
     troubled: int = 0
     beside: int = 0  # a trouble and an effect
+    ringing: int = 0  # limbs that ring, one effect each
+    wandering: int = 0  # sound limbs that ring, a sensor whose zero wanders
 
 
-DEVELOPMENT = Plan(2, 2, 8, 5, 4, 2)
+DEVELOPMENT = Plan(2, 2, 8, 5, 4, 2, 30, 10)
 # Of healthy records with a trouble 300 and of outsiders 170: one wrong name in a hundred can be distinguished from five.
-TEST = Plan(25, 20, 60, 60, 30, 10)
+TEST = Plan(25, 20, 60, 60, 30, 10, 150, 100)
 SUBSET = Plan(joint=1, evidence=1)

@@ -14,12 +14,14 @@ from typing import Any
 import instruments
 import joints
 import numpy as np
+import ringing
 from actuator import write
 from diagnoser import PROJECT as PROJECT
 from files import limb_text, meta_text, write_dataset
 from generate import PARTS, SEAL, listing
 from generate import seal_of as seal_of
 from plans import Plan
+from words import FRICTION
 
 HERE = Path(__file__).resolve().parent
 # Effects that are hidden beside a trouble, by their number in tests/judges/blind/effects.py: both springs, the base, a link,
@@ -45,7 +47,9 @@ class Case:
 
     @property
     def part(self) -> str:
-        """joint or loading."""
+        """joint, loading or ringing."""
+        if self.group == "ringing":
+            return "ringing"
         return "loading" if self.group in ("sound", "troubled", "beside") else "joint"
 
     @property
@@ -55,7 +59,8 @@ class Case:
 
     def write(self, out: Path) -> None:
         """cases/NAME as a tool may see it, answers/NAME/truth.json."""
-        truth = self._loading(out) if self.part == "loading" else self._joint(out)
+        makers = {"joint": self._joint, "loading": self._loading, "ringing": self._ringing}
+        truth = makers[self.part](out)
         truth = {
             "id": self.name,
             "group": self.group,
@@ -80,6 +85,18 @@ class Case:
         return {"part": self.part, "effects": effects, "cls": [],
                 "outside": made.outside, "trouble": made.trouble, "evidence": made.evidence, "size": made.size,
                 "left_out": made.left_out, "swing_rad": swing, "about": made.about}  # fmt: skip
+
+    def _ringing(self, out: Path) -> dict[str, Any]:
+        made = (ringing.sound if self.kind == "wandering" else ringing.single)(self.seed, self.number)
+        ringing.write(made, out / "cases" / self.name)
+        name, _, where = made.truth["effect"].partition("@")
+        alike = list(made.truth["alike"])
+        if name in FRICTION:
+            alike += [f"{one}@{where}" for one in FRICTION]
+        about = {key: made.truth[key] for key in ("s", "size", "law", "bristle_rad") if key in made.truth}
+        effects = [{"name": name, "where": where}] if name else []
+        return {"part": self.part, "effects": effects, "cls": sorted(set(alike)), "trouble": "", "outside": "",
+                "evidence": "", "about": about}  # fmt: skip
 
     def _loading(self, out: Path) -> dict[str, Any]:
         trouble = "" if self.kind == "sound" else self.kind
@@ -107,6 +124,8 @@ def cases(seed: int, plan: Plan) -> list[Case]:
         ("sound", "sound", plan.sound),
         *(("troubled", kind, plan.troubled) for kind in instruments.TROUBLES),
         *(("beside", kind, plan.beside) for kind in instruments.TROUBLES),
+        ("ringing", "single", plan.ringing),
+        ("ringing", "wandering", plan.wandering),
     ]
     found = [Case(seed, group, kind, n) for group, kind, count in wanted for n in range(count)]
     return sorted(found, key=lambda case: case.name)
@@ -114,7 +133,7 @@ def cases(seed: int, plan: Plan) -> list[Case]:
 
 def sources_hash() -> str:
     """What made the cases: this folder's makers and what they use of the two others."""
-    names = ["actuator.c", "actuator.py", "joints.py", "instruments.py", "sets.py"]
+    names = ["actuator.c", "actuator.py", "joints.py", "instruments.py", "sets.py", "ringing.c", "ringing.py"]
     paths = [HERE / name for name in names]
     for folder, files in (
         ("blind", ("designs", "effects", "detect", "files", "plant", "generate")),

@@ -66,3 +66,7 @@ OUTSIDERS: dict[str, May] = {
     "viscosity": May(("viscosity", "viscous_friction"), ("unknown",), r"visc|speed", True,
                      "a shape; the spring is the believed one, so that naming nothing is right"),
 }  # fmt: skip
+
+# Friction in a loading record: of a law with or without a way before it slides. A record of readings at rest cannot show
+# which, so that either name is right.
+FRICTION = ("coulomb_friction", "presliding_friction")
