@@ -56,3 +56,19 @@ def test_words_and_sums_among_the_readings_are_counted(brace: Brace, tmp_path: P
     done = brace("import", path, *AXIS, "--out", tmp_path / "out")
     assert done.code == 0 and "3 lines among or below the readings left out" in done.err, done.err
     assert load_dataset(tmp_path / "out")["run"].max() == 1
+
+
+@pytest.mark.parametrize(("mark", "left_out"), [("-99.99", 3), ("88.88", 0), ("99.9", 3), ("-9.9", 0)])
+def test_nines_that_are_repeated_far_from_all_others_are_no_readings(
+    brace: Brace, tmp_path: Path, mark: str, left_out: int
+) -> None:
+    """-99.99 was a reading, called a slipped decimal point. Forces of this run stay below 25 N."""
+    r = Record(poses=POSES_DEG[:1], axes="x", repeats=1)
+    assert np.abs(r["fx"]).max() < 25.0
+    lines = {
+        at: ",".join([shown(r[name])[at] for name in ("t", "theta1", "theta2", "dx")] + [mark]) for at in (3, 6, 11)
+    }
+    done = brace("import", one_run(tmp_path, lines), *AXIS, "--out", tmp_path / "out")
+    assert done.code == 0, done.err
+    assert load_dataset(tmp_path / "out").rows == len(PATH) - left_out
+    assert (f"3 of {len(PATH)} rows left out: 'F [N]': {mark} (3)" in done.err) == (left_out > 0), done.err

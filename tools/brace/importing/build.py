@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import math
+import re
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -202,7 +203,7 @@ def _numbers(part: Part, use: ColumnUse, cells: Sequence[str], target: str) -> t
             why="its entries are distances from reading to reading, or no times",
             next_step='sum them up in your file; or is = "ignore", and --set dwell=4s if they are even',
         )
-    values = _without_marks(values)
+    values = _without_marks(values, _quantity(target))
     values = unwrapped(values, float(use.wrap or 0.0))
     unread = np.array([math.isnan(value) and not numerals.is_missing(cell) for value, cell in zip(values, cells)])
     unit = UNITS.get(use.unit) or unit_of(use.unit, _quantity(target))
@@ -240,17 +241,29 @@ def _clocks(part: Part, use: ColumnUse, cells: Sequence[str]) -> np.ndarray:
     return np.asarray(values + np.cumsum(np.concatenate([[0.0], np.where(np.diff(values) < -day / 2, day, 0.0)])))
 
 
+_NINES = re.compile(r"9{3,}|9{2,}\.9+")  # a program's number for 'nothing read', as wide as its field
+_MARK_REPEATS = 3
+_MARK_OF = frozenset(("force", "torque", "length"))  # 99.9 deg are an angle that a posture may have
 _MARKS = (9999.0, 99999.0, 999999.0, 9999999.0, 999.0, 999.9, 9999.9, 99999.9, 32767.0, 65535.0)
 
 
-def _without_marks(values: np.ndarray) -> np.ndarray:
-    """NaN where a program wrote -9999 or 1e38 for 'nothing read': far beyond all other entries."""
+def _without_marks(values: np.ndarray, quantity: str) -> np.ndarray:
+    """NaN where a program wrote -9999, -99.99 or 1e38 for 'nothing read': far beyond all other entries. Nines of any
+    width count where they are repeated."""
+    sizes = np.abs(values)
     with np.errstate(invalid="ignore"):
-        marks = np.isin(np.abs(values), _MARKS) | (np.abs(values) > 1e30)
-    others = np.abs(values[~marks & np.isfinite(values)])
-    if not marks.any() or not others.size or others.max() <= 0.0:
+        marks = np.isin(sizes, _MARKS) | (sizes > 1e30)
+    nines = np.zeros(len(values), bool)
+    if quantity in _MARK_OF:
+        largest, counts = np.unique(sizes[np.isfinite(sizes) & ~marks], return_counts=True)
+        at = largest.size - 1
+        if at >= 0 and counts[at] >= _MARK_REPEATS and _NINES.fullmatch(f"{largest[at]:.10g}"):
+            nines = sizes == largest[at]
+    others = sizes[~marks & ~nines & np.isfinite(values)]
+    if not (marks | nines).any() or not others.size or others.max() <= 0.0:
         return values
-    return np.asarray(np.where(marks & (np.abs(values) > 20.0 * others.max()), math.nan, values))
+    far = (marks & (sizes > 20.0 * others.max())) | (nines & (sizes > 3.0 * others.max()))
+    return np.asarray(np.where(far, math.nan, values))
 
 
 def _stacked(tables: Sequence[Table], mapping: MappingTable, notes: list[str]) -> dict[str, np.ndarray]:
