@@ -72,3 +72,16 @@ def test_nines_that_are_repeated_far_from_all_others_are_no_readings(
     assert done.code == 0, done.err
     assert load_dataset(tmp_path / "out").rows == len(PATH) - left_out
     assert (f"3 of {len(PATH)} rows left out: 'F [N]': {mark} (3)" in done.err) == (left_out > 0), done.err
+
+
+def test_a_hip_that_passes_zero_cuts_no_run(brace: Brace, tmp_path: Path) -> None:
+    """An encoder that reads 359.98 and 0.01 deg by turns made a run of each reading."""
+    r = Record(poses=POSES_DEG[:1], axes="x", repeats=1)
+    lines = {
+        at: ",".join([t, ("359.98", "0.01")[at % 2], *(shown(r[n])[at] for n in ("theta2", "dx", "fx"))])
+        for at, t in enumerate(shown(r["t"]))
+    }
+    done = brace("import", one_run(tmp_path, lines), *AXIS, "--out", tmp_path / "out")
+    assert done.code == 0 and "theta1_rad leaps by a whole turn" in done.err, done.err
+    data = load_dataset(tmp_path / "out")
+    assert data["run"].max() == 1 and np.abs(data["theta1_rad"]).max() < 1e-3

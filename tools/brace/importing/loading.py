@@ -12,7 +12,7 @@ from brace.ground.units import unit_of
 from brace.importing.along import Columns, axis_of, displacements, forces
 from brace.importing.mapping import MappingTable
 from brace.importing.part import Table
-from brace.importing.runs import ANGLE_JUMP_RAD, boundaries, numbers_of_poses
+from brace.importing.runs import ANGLE_JUMP_RAD, boundaries, numbers_of_poses, without_turns
 
 SAME_RAD = 1e-3
 HELD_RAD = 0.06  # a commanded angle that is read back moves by so much at most while the limb is loaded
@@ -131,6 +131,13 @@ def _piece(table: Table, mapping: MappingTable, notes: list[str]) -> Columns:
     out: Columns = {name: columns[name] for name in (*OPTIONAL, "temp_degc") if name in columns}
     for name in ("theta1_rad", "theta2_rad"):
         out[name] = columns[name] if name in columns else np.full(rows, _constant(table, mapping, name))
+        out[name], turns = without_turns(out[name])
+        if turns:
+            times = "once" if turns == 1 else f"{turns} times"
+            notes.append(
+                f"{table.part.places[0]}: {name} leaps by a whole turn {times}: the same angle, taken as going on from "
+                "the reading before"
+            )
     if "temp_degc" not in out and (degc := mapping.constant(table.part.places, "temp_degc")) and degc.value != "?":
         out["temp_degc"] = np.full(rows, _constant(table, mapping, "temp_degc"))
     out["t_s"] = columns["t_s"] if "t_s" in columns else _constant(table, mapping, "dwell_s") * np.arange(rows)

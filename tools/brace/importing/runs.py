@@ -8,6 +8,19 @@ import numpy as np
 
 NEAR_ZERO_RATIO = 0.06  # of the largest displacement: the tip is back where it began
 ANGLE_JUMP_RAD = 0.01  # between readings: another pose
+LEAP_RAD = 0.1  # from a whole turn: no joint goes round so far from one reading to the next
+
+
+def without_turns(angle_rad: np.ndarray) -> tuple[np.ndarray, int]:
+    """The angles, [rad], without leaps of nearly a whole turn from reading to reading (359.9 deg and 0.1 deg are one
+    posture), brought back as a whole so that their middle is the angle nearest to zero; and the number of leaps."""
+    steps = np.diff(angle_rad)
+    turns = np.where(np.abs(np.abs(steps) - 2.0 * math.pi) < LEAP_RAD, np.sign(steps), 0.0)
+    if not turns.any():
+        return angle_rad, 0
+    going_on = angle_rad - 2.0 * math.pi * np.concatenate([[0.0], np.cumsum(turns)])
+    whole = round(float(np.median(going_on)) / (2.0 * math.pi))
+    return going_on - 2.0 * math.pi * whole, int(np.count_nonzero(turns))
 
 
 def boundaries(d_mm: np.ndarray, given: np.ndarray) -> np.ndarray:
