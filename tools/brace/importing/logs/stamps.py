@@ -9,6 +9,7 @@ from collections.abc import Mapping
 import numpy as np
 
 OTHER_CLOCK_S = 10.0  # two topics' delays further apart than this are two clocks, and no delays
+AHEAD_S = 0.01  # no message is logged before its sample was taken; synchronised clocks agree within some milliseconds
 TOLD_S = 1e-4  # smaller differences change nothing
 _SECONDS = ("sec", "secs", "seconds")
 _NANOSECONDS = ("nanosec", "nsec", "nsecs", "nanoseconds", "nanos")
@@ -53,6 +54,14 @@ def chosen(topics: Mapping[str, tuple[np.ndarray, np.ndarray]]) -> tuple[frozens
         told.append(
             f"the stamps of the messages are of several clocks (they differ from the times of the log: {listed}): the "
             "times of the log are used"
+        )
+        return frozenset(), told
+    ahead = {topic: -median for topic, median in medians.items() if median < -AHEAD_S}
+    if ahead and len(topics) > 1:
+        listed = ", ".join(f"{topic} by {_time(early)}" for topic, early in ahead.items())
+        told.append(
+            f"messages are in the log before their stamps ({listed}): those stamps are of a clock that is ahead, by "
+            "nobody knows how much; the times of the log are used for all topics"
         )
         return frozenset(), told
     for topic, delay in delays.items():
