@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import datetime
 import re
 import zipfile
 from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
 import pytest
 from command_bench import Outcome
-from foreign_files import Record, excel, workbook
+from foreign_files import PATH, POSES_DEG, Record, excel, workbook
 
 from brace.dataset import load_dataset
 
@@ -70,3 +72,45 @@ def test_damaged_workbooks_are_refused_in_a_sentence(brace: Brace, tmp_path: Pat
     for path in (cut, binary):
         refused = brace("import", path, "--yes", "--out", tmp_path / "out")
         assert refused.code == 3 and re.search("try: .*save it as .xlsx", refused.err), refused.err
+
+
+def _with_dates_and_merged_poses(path: Path, hide: bool = False) -> Path:
+    """Pose and axis stand once for each run, in merged cells; the times are dates across midnight."""
+    import openpyxl
+
+    r = Record(poses=POSES_DEG[:1])
+    book = openpyxl.Workbook()
+    sheet = book.active
+    sheet.append(["Time", "run", "axis", "theta1 [deg]", "theta2 [deg]", "dx [mm]", "dz [mm]", "Fx [N]", "Fz [N]"])
+    begun = datetime.datetime(2026, 3, 1, 23, 58, 0)
+    for row in range(r.rows):
+        run = row // len(PATH)
+        first = [run + 1, r["axis"][row], r["theta1"][row], r["theta2"][row]] if row % len(PATH) == 0 else [None] * 4
+        clock = begun + datetime.timedelta(seconds=float(r["t"][row]))
+        sheet.append([clock, *first, *(float(r[name][row]) for name in ("dx", "dz", "fx", "fz"))])
+        if hide and run == 1:
+            sheet.row_dimensions[row + 2].hidden = True
+    for first_row in range(2, r.rows + 2, len(PATH)):
+        for letter in "BCDE":
+            sheet.merge_cells(f"{letter}{first_row}:{letter}{first_row + len(PATH) - 1}")
+    book.save(path)
+    return path
+
+
+def test_merged_cells_and_dates(brace: Brace, tmp_path: Path) -> None:
+    """A merged cell counted for its first row alone; a date was a number of an unknown unit."""
+    path = _with_dates_and_merged_poses(tmp_path / "merged.xlsx")
+    done = brace("import", path, "--yes", "--out", tmp_path / "out")
+    assert done.code == 0 and "merged cells count for each of their rows" in done.err, done.err
+    r, data = Record(poses=POSES_DEG[:1]), load_dataset(tmp_path / "out")
+    assert data["t_s"] == pytest.approx(r["t"], abs=1e-6) and data["run"].max() == r.rows // len(PATH)
+    assert data["fx_n"] == pytest.approx(r["fx"], abs=1e-6)
+    assert data["theta1_rad"] == pytest.approx(np.radians(r["theta1"]), abs=1e-6)
+
+
+def test_hidden_rows_are_asked(brace: Brace, tmp_path: Path) -> None:
+    """A filter's hidden rows counted as readings, without a word."""
+    path = _with_dates_and_merged_poses(tmp_path / "hidden.xlsx", hide=True)
+    asked = brace("import", path, "--yes", "--out", tmp_path / "out")
+    assert asked.code == 2 and f"{len(PATH)} rows with readings are hidden, the first is row 19" in asked.err, asked.err
+    assert not (tmp_path / "out").exists()

@@ -14,8 +14,8 @@ from typing import TypeAlias
 from brace.ground.errors import BadFileError, UsageError
 from brace.ground.files import DATA_LIMIT_BYTES, read_bytes
 from brace.importing import numerals
-from brace.importing.numerals import DAY_S
 from brace.importing.part import Part
+from brace.importing.sheet_layout import Layout, layout_of
 from brace.importing.table_in_lines import (
     CELLS_MOST, COLUMNS_MOST, ROWS_MOST, Line, decimal_sign, parts, refuse_large, width_of,
 )  # fmt: skip
@@ -79,10 +79,44 @@ def read(path: Path, *, sheet: str = "", decimal: str = "") -> list[Part]:
         )
     name, rows = next(iter(tables.items()))
     rows = _with_formulas(data, name, rows)
+    layout = layout_of(data, name)
+    _refuse_hidden(path, rows, layout)
+    rows, merged = _with_merged(rows, layout)
     texts = [cell for row in rows for cell in row if isinstance(cell, str)]
     sign = decimal or decimal_sign(path, texts)
     how = "Excel workbook" + (", decimal comma in its texts" if sign == "," else "")
+    how += f", {merged} merged cells count for each of their rows" if merged else ""
     return parts(path, _lines(rows, sign), decimal=".", how=how, sheet=name)
+
+
+def _refuse_hidden(path: Path, rows: Sequence[Row], layout: Layout) -> None:
+    """Rows of readings that a filter or a person has hidden: whether they count is nobody's guess."""
+    hidden = [number for number, row in enumerate(rows, start=1) if number in layout.hidden and _has_readings(row)]
+    if hidden:
+        raise UsageError(
+            f"{len(hidden)} rows with readings are hidden, the first is row {hidden[0]}",
+            where=str(path),
+            why="a filter or a person has hidden them, and nothing says whether they belong to the test",
+            next_step="delete them, or show them (clear the filter), and save the workbook",
+        )
+
+
+def _has_readings(row: Row) -> bool:
+    return sum(1 for cell in row if isinstance(cell, (int, float)) and not isinstance(cell, bool)) >= 2
+
+
+def _with_merged(rows: list[Row], layout: Layout) -> tuple[list[Row], int]:
+    """A cell that is merged over three or more rows stands for each of them; of two, it may be a name. And how many."""
+    out = [list(row) for row in rows]
+    filled = 0
+    for first, last, column in layout.merged:
+        if last - first < 2 or last > len(out) or column >= len(out[first - 1]) or out[first - 1][column] is None:
+            continue
+        filled += 1
+        for row in out[first:last]:
+            row += [None] * (column + 1 - len(row))
+            row[column] = out[first - 1][column] if row[column] is None else row[column]
+    return [tuple(row) for row in out] if filled else rows, filled
 
 
 def _sheets(path: Path, data: bytes) -> dict[str, list[Row]]:
@@ -194,8 +228,7 @@ def _text(cell: object) -> str:
     if isinstance(cell, float):
         return repr(cell)
     if isinstance(cell, datetime.datetime):
-        day = cell.date().toordinal() * DAY_S
-        return repr(day + (cell - datetime.datetime.combine(cell.date(), datetime.time())).total_seconds())
+        return cell.replace(tzinfo=None).isoformat(sep=" ")
     if isinstance(cell, datetime.time):
         return cell.isoformat()
     if isinstance(cell, datetime.timedelta):
