@@ -85,3 +85,12 @@ def test_a_hip_that_passes_zero_cuts_no_run(brace: Brace, tmp_path: Path) -> Non
     assert done.code == 0 and "theta1_rad leaps by a whole turn" in done.err, done.err
     data = load_dataset(tmp_path / "out")
     assert data["run"].max() == 1 and np.abs(data["theta1_rad"]).max() < 1e-3
+
+
+def test_a_matrix_as_matlab_shows_it_is_refused(brace: Brace, tmp_path: Path) -> None:
+    """Its numbers want a factor that stands in a line of its own; it was passed over without a word."""
+    path = one_run(tmp_path, {})
+    header, *rows = path.read_text().splitlines()
+    path.write_text("\n".join([header, "   1.0e+03 *", "", *rows]) + "\n")
+    refused = brace("import", path, *AXIS, "--out", tmp_path / "out")
+    assert refused.code == 3 and "a factor of all numbers below it: 1.0e+03 *" in refused.err, refused.err

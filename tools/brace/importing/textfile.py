@@ -46,6 +46,7 @@ def read(path: Path, *, decimal: str = "", separator: str = "") -> list[Part]:
     refuse_large(path, data.count(b"\n") + data.count(b"\r") - data.count(b"\r\n"), _widest(data))
     text, encoding = _decoded(data, path)
     lines = _whole_lines(re.split(r"\r\n|\n|\r", text))
+    _refuse_factor(path, lines)
     start = 0
     if found := re.fullmatch(r"\"?sep=(.)\"?", lines[0].strip("\ufeff ")):
         separator, start = separator or found.group(1), 1
@@ -62,6 +63,21 @@ def read(path: Path, *, decimal: str = "", separator: str = "") -> list[Part]:
         cut = _names_with_blanks(cut)
     how = f"{encoding}, {SEPARATORS.get(chosen, repr(chosen))} between columns"
     return [joined(part) for part in parts(path, cut, decimal=decimal, how=how)]
+
+
+_FACTOR = re.compile(r"\s*1\.0+e[-+]?\d+\s*\*\s*", re.IGNORECASE)
+
+
+def _refuse_factor(path: Path, lines: Sequence[str]) -> None:
+    """MATLAB shows a matrix with a factor of all its numbers in a line of its own."""
+    for number, line in enumerate(lines, start=1):
+        if "*" in line and _FACTOR.fullmatch(line):
+            raise BadFileError(
+                f"a factor of all numbers below it: {line.strip()}",
+                where=f"{path}:{number}",
+                why="this is what MATLAB shows on its screen: the numbers are rounded, and are not those of the test",
+                next_step="in MATLAB: writetable(T, 'record.csv'), or writematrix",
+            )
 
 
 def _widest(data: bytes) -> int:
