@@ -57,6 +57,13 @@ REFUSED = {
 }
 
 
+def test_a_xacro_file_is_named(brace: Brace, tmp_path: Path) -> None:
+    robot = _robot(tmp_path / "leg.urdf", YAW, HIP, KNEE, FOOT)
+    robot.write_text(robot.read_text().replace("0.15 0 0", "${shank} 0 0"))
+    refused = brace("new", "--out", tmp_path / "o.toml", "--urdf", robot, *SPACE)
+    assert refused.code == 3 and "this is a xacro file" in refused.err, refused.err
+
+
 @pytest.mark.parametrize("words", REFUSED)
 def test_another_shape_is_refused_in_space_by_name(brace: Brace, tmp_path: Path, words: str) -> None:
     pytest.importorskip("mujoco")

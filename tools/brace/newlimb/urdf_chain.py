@@ -97,6 +97,11 @@ def _parsed(path: Path) -> tuple[object, set[str]]:
             next_step="pip install mujoco",
         ) from None
     text = read_text(path, TOML_LIMIT_BYTES, WHAT)
+    if "<xacro:" in text or "${" in text:
+        raise refused(
+            path, "this is a xacro file, from which a URDF is made", "it has xacro's macros or ${...}",
+            f"xacro {path.name} > robot.urdf, and give robot.urdf",
+        )  # fmt: skip
     try:
         robot = ElementTree.fromstring(text)
         for link in robot.iter("link"):  # shapes and their meshes play no part
