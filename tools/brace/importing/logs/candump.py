@@ -83,7 +83,7 @@ def _of_candump(path: Path, data: bytes) -> tuple[list[Frame], list[str]]:
         raise BadFileError(
             "this is what candump shows on a screen",
             where=str(path),
-            why="its times are missing or relative, and it has no form that programs agree on",
+            why="it shows times as candump was asked to (-t a, d, z, A), or none, in no form that programs read",
             next_step="record anew with candump -l can0 (or -L), and give the .log file",
         )
     data, remarks = _without_remarks(data)
