@@ -26,8 +26,8 @@ NO_RESULTS = (
 FORMULAS_FAILED = 'its formulas failed; is = "ignore" if it was not measured'
 NO_NUMBERS = 'its entries are no numbers ({}): write them as such; is = "ignore" if it was not measured'
 NO_CLOCK = (
-    "its entries neither rise nor fall over the file: they are distances from reading to reading. Sum them up in your "
-    'file; or is = "ignore", and --set dwell=4s if they are even'
+    "its entries neither rise nor fall over the file: they are distances from reading to reading (sum them up in your "
+    'file), or the rows are out of order (sort them by time); or is = "ignore", and --set dwell=4s if they are even'
 )
 CLOCKS = 'two clocks that do not agree: is = "t_s" for when the sample was taken, is = "ignore" for the other'
 TWO_MEANINGS = "{} has two meanings: {}"
