@@ -94,3 +94,13 @@ def test_a_matrix_as_matlab_shows_it_is_refused(brace: Brace, tmp_path: Path) ->
     path.write_text("\n".join([header, "   1.0e+03 *", "", *rows]) + "\n")
     refused = brace("import", path, *AXIS, "--out", tmp_path / "out")
     assert refused.code == 3 and "a factor of all numbers below it: 1.0e+03 *" in refused.err, refused.err
+
+
+def test_names_with_line_breaks_in_every_column(brace: Brace, tmp_path: Path) -> None:
+    """A header of ten lines was given up after six, and the file was said to name no columns."""
+    path = one_run(tmp_path, {})
+    header, *rows = path.read_text().splitlines()
+    quoted = ",".join('"' + name.replace(" ", "\n\n") + '"' for name in header.split(","))
+    path.write_text("\n".join([quoted, *rows]) + "\n")
+    done = brace("import", path, *AXIS, "--out", tmp_path / "out")
+    assert done.code == 0 and load_dataset(tmp_path / "out").rows == len(PATH), done.err

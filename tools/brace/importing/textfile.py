@@ -99,7 +99,9 @@ def _whole_lines(lines: list[str]) -> list[str]:
     for at in range(min(len(out), HEADER_LINES)):
         if out[at].count('"') % 2 == 0:
             continue
-        for end in range(at + 1, min(len(out), at + 6)):
+        for end in range(at + 1, min(len(out), at + HEADER_LINES)):
+            if sum(numerals.is_number(cell) for cell in re.split(r"[;,\t| ]", out[end])) >= 2:
+                break  # readings: the quote was no name's
             whole = " ".join(out[at : end + 1])
             if whole.count('"') % 2 == 0:
                 out[at : end + 1] = [whole, *[""] * (end - at)]
