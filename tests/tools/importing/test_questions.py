@@ -4,6 +4,7 @@ asked."""
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable
 from pathlib import Path
 
@@ -278,3 +279,25 @@ def test_the_table_of_kinds_is_what_the_questions_say() -> None:
     }
     for kind, (said, key) in questions.KINDS.items():
         assert said in used and key in COLUMN_KEYS, kind
+
+
+@pytest.mark.parametrize("in_a_row", [False, True])
+def test_a_name_and_a_bracket_that_contradict_are_asked(brace: Brace, tmp_path: Path, in_a_row: bool) -> None:
+    """The bracket was taken without a word: a factor of a thousand, if the name is right."""
+    r = Record(poses=POSES_DEG[:1], axes="x", repeats=1)
+    head = ["t_s,theta1_deg,theta2_deg,dx_um,Fx", "s,deg,deg,mm,N"] if in_a_row else [
+        "t [s],theta1 [deg],theta2 [deg],dx_um [mm],Fx [N]"
+    ]  # fmt: skip
+    cells = [shown(r[name]) for name in ("t", "theta1", "theta2")]
+    cells += [shown(1e3 * r["dx"]), shown(r["fx"])]
+    path, mapping = tmp_path / "a.csv", tmp_path / "m.toml"
+    path.write_text(text(head, cells, ","), encoding="utf-8")
+    asked = brace("import", path, "--set", "axis=x", "--yes", "--out", tmp_path / "out")
+    assert asked.code == 2 and not (tmp_path / "out").exists(), asked.err
+    assert "in which unit? 'um [mm]' has two meanings: unit = \"um\" or unit = \"mm\"" in asked.err, asked.err
+    assert re.search(r"has 1 open question\b", asked.err), asked.err
+    brace("import", path, "--set", "axis=x", "--draft", mapping)
+    mapping.write_text(mapping.read_text().replace('unit = "?"', 'unit = "um"'))
+    done = brace("import", path, "--mapping", mapping, "--out", tmp_path / "out")
+    assert done.code == 0, done.err
+    assert load_dataset(tmp_path / "out")["dx_mm"] == pytest.approx(r["dx"], abs=1e-5)

@@ -157,3 +157,17 @@ def test_thousands_are_groups_of_three_digits(text: str, decimal: str, value: fl
     """3,8 with a decimal point was 38."""
     read = numerals.number(text, decimal)
     assert math.isnan(read) if value is None else read == value
+
+
+@pytest.mark.parametrize(
+    ("name", "row", "units"),
+    [
+        ("dx_um [mm]", "", "um mm"), ("Fx_mN [N]", "", "mN N"), ("theta1_deg (rad)", "", "deg rad"), ("Fz kN [N]", "", "kN N"),
+        ("dx_um", "mm", "um mm"), ("dx [um]", "mm", "um mm"), ("dx_mm [mm]", "", ""), ("Weg in [mm]", "", ""),
+        ("Fx_min [N]", "", ""), ("dx_rel [mm]", "", ""), ("theta1_deg [\u00b0]", "", ""),
+    ],
+)  # fmt: skip
+def test_a_name_that_says_two_units_has_both(name: str, row: str, units: str) -> None:
+    read = names.read(name, row)
+    assert [each.text for each in read.meanings] == units.split()
+    assert (read.unit is None) == bool(units)

@@ -14,7 +14,7 @@ import numpy as np
 
 from brace.ground.errors import BadFileError
 from brace.ground.units import OWN, UNITS, unit_of
-from brace.importing import numerals
+from brace.importing import names, numerals
 from brace.importing.loading import assembled as assembled_loading
 from brace.importing.logs.can_formats import are_distances
 from brace.importing.logs.one_clock import settled
@@ -172,7 +172,8 @@ def _refuse_other_unit(part: Part, index: int, use: ColumnUse) -> None:
     """A mapping knows columns by their names; a unit in a row of its own may be another in the next file."""
     stated = unit_of(part.units[index]) if part.units and part.log is None else None
     meant = unit_of(use.unit, _quantity(use.targets[0])) if use.unit else None
-    if stated is not None and meant is not None and stated != meant:
+    in_doubt = part.units and meant in names.read(part.names[index], part.units[index]).meanings
+    if stated is not None and meant is not None and stated != meant and not in_doubt:
         raise BadFileError(
             f"column {use.name!r} is in {stated.text} by the file's row of units, and in {meant.text} by the mapping",
             where=part.where,

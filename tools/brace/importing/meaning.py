@@ -76,7 +76,7 @@ def target_of(name: Name, kind: str) -> tuple[str, str]:
         return OPEN, _either(name)
     of_kind = {"joint_test": _of_joint_test, "stiffness_table": _of_table}.get(kind, _of_loading)
     target, why = of_kind(name, quantity)
-    if "current" in words and name.unit is None and name.unit_text:
+    if "current" in words and name.unit is None and name.unit_text and not name.meanings:
         return IGNORE, f"an electric current, {name.unit_text}"
     if target in (IGNORE, OPEN) or not TARGETS[kind].get(target) or "eigen" in words:
         return target, why

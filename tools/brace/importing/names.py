@@ -14,6 +14,8 @@ _LAST_BRACKETS = re.compile(r"[\[({<]([^\])}>]*)[\])}>]\s*$")
 _BEHIND = re.compile(r"(?:\s+in\s+|\s*/\s*|,\s*|\s+)([^\s,/]+(?:[ *\u00b7][^\s,/]+)?(?:/[a-z]+)?)\s*$")
 _TAIL = re.compile(r"_([A-Za-z\u00b0\u00b5\u03bc]+(?:_mm|_m|_per_mm|_per_m)?)$")
 
+_IN = re.compile(r"\s+in$", re.IGNORECASE)  # Weg in [mm]: no inches
+
 LABVIEW_TIME = "x_value"  # of its .lvm files: neither a place nor along x
 _CAMEL = re.compile(r"(?<=[a-zA-Z0-9])([A-Z][a-z]*)$")  # tSec, thetaFemurDeg, forceXN
 _CAMEL_UNITS = {"Sec": "s", "Ms": "ms", "Deg": "deg", "Rad": "rad", "Mm": "mm", "N": "N", "Lbf": "lbf", "Inch": "in",
@@ -105,10 +107,14 @@ _GERMAN = re.compile(r"winkel|gelenk|knie|h\u00fcft|hueft|schenkel|drehung|drehg
 
 @functools.lru_cache(maxsize=4096)
 def read(name: str, units_row: str = "") -> Name:
-    """The name's meanings; its unit from the row of units, else from the name."""
+    """The name's meanings; its unit from the row of units, else from the name. Where two units of one quantity are said,
+    both are its unit's meanings."""
     bare, unit, text = _without_unit(name)
+    told, told_text = (unit, text) if units_row else (None, "")
     if units_row:
         unit, text = unit_of(units_row), units_row
+    elif unit is not None and _BRACKETS.search(name):
+        _, told, told_text = _without_unit(_IN.sub("", bare.rstrip(" _")))
     if bare.strip().lower() == LABVIEW_TIME:
         return Name(frozenset({"time"}), unit, None, "", text)
     words, number, entry = _meanings(bare)
@@ -117,6 +123,8 @@ def read(name: str, units_row: str = "") -> Name:
         both = (UNITS["deg"],)
     if "temperature" in words and "angle" not in words and unit is not None and unit.text == "deg":
         unit, both = None, (UNITS["degC"], UNITS["degF"])
+    if unit is not None and told is not None and told != unit and told.quantity == unit.quantity:
+        text, both, unit = f"{told_text} [{text}]", (told, unit), None  # dx_um [mm]: neither is the better word
     fit = [each for each in both if each.quantity in words] if len(both) > 1 else list(both)
     if len(fit) == 1:
         unit, both = fit[0], ()
