@@ -16,6 +16,8 @@ import pytest
 from command_bench import Outcome
 from foreign_files import workbook
 
+from brace.dataset import load_dataset
+
 Brace = Callable[..., Outcome]
 MEMORY_MOST_KB = 500_000
 PROCESSOR_MOST_S = 5.0
@@ -23,23 +25,23 @@ SHEET = b'<worksheet xmlns="http://schemas.openxmlformats.org/spreadsheetml/2006
 END = b"</sheetData></worksheet>"
 
 
-def refused(path: Path, words: str) -> None:
+def refused(path: Path, words: str, *options: str, code: int = 3) -> None:
     """In a process of its own: what it prints, its processor time, its memory."""
     peak = path.parent / "peak"  # of this process alone: getrusage counts what its parent held, too
-    code = (
+    program = (
         "import atexit, pathlib, sys; from brace.cli import main\n"
         f"atexit.register(lambda: pathlib.Path({str(peak)!r}).write_text(pathlib.Path('/proc/self/status').read_text()))\n"
         "sys.exit(main())"
     )
     process = subprocess.Popen(
-        [sys.executable, "-c", code, "import", str(path), "--yes", "--out", str(path.parent / "out")],
+        [sys.executable, "-c", program, "import", str(path), *options, "--yes", "--out", str(path.parent / "out")],
         stderr=subprocess.PIPE,
     )
     assert process.stderr is not None
     said = process.stderr.read().decode()
     _, status, usage = os.wait4(process.pid, 0)
     process.returncode = os.waitstatus_to_exitcode(status)
-    assert process.returncode == 3 and words in said and "try:" in said and len(said.splitlines()) == 3, said
+    assert process.returncode == code and words in said and "try:" in said and len(said.splitlines()) == 3, said
     peak_kb = int(peak.read_text().partition("VmHWM:")[2].split()[0])
     assert peak_kb < MEMORY_MOST_KB and usage.ru_utime + usage.ru_stime < PROCESSOR_MOST_S, (peak_kb, usage)
 
@@ -127,3 +129,58 @@ def test_columns_take_time_in_proportion(brace: Brace, tmp_path: Path) -> None:
         took.append(time.process_time() - before)
         assert asked.code == 2, asked.err[-500:]
     assert took[1] < 20.0 * took[0], took
+
+
+MESSAGES = 1000
+
+
+@pytest.fixture(scope="module")
+def vehicle(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
+    """A log of 8,000 signals, all of them forces by their unit, and the rig's own message among them."""
+    pytest.importorskip("cantools")
+    folder = tmp_path_factory.mktemp("vehicle")
+    log, dbc = folder / "v.log", folder / "v.dbc"
+    lines = ['VERSION ""', "NS_ :", "BS_:", "BU_: RIG"]
+    for number in range(1, MESSAGES + 1):
+        lines.append(f"BO_ {number} M{number}: 8 RIG")
+        lines += [f' SG_ S{at} : {8 * at}|8@1- (1,0) [0|0] "N" RIG' for at in range(8)]
+    lines.append("BO_ 1500 RIGDATA: 8 RIG")
+    for at, (name, unit) in enumerate((("Fz", "N"), ("PosZ", "mm"), ("Hip", "deg"), ("Knee", "deg"))):
+        lines.append(f' SG_ {name} : {16 * at}|16@1- (0.01,0) [0|0] "{unit}" RIG')
+    dbc.write_text("\n".join(lines) + "\n")
+    frames = []
+    for at in range(30 * MESSAGES):
+        frames.append(f"({0.001 * at:.6f}) can0 {at % MESSAGES + 1:03X}#0102030405060708")
+        if at % 100 == 0:
+            z = [0, 50, 100, 150, 100, 50][at // 100 % 6]
+            data = b"".join(value.to_bytes(2, "little") for value in (2 * z, z, 5730, 8021))
+            frames.append(f"({0.001 * at + 0.0005:.6f}) can0 5DC#{data.hex()}")
+    log.write_text("\n".join(frames) + "\n")
+    return log, dbc
+
+
+def test_a_log_of_thousands_of_signals_asks_which(vehicle: tuple[Path, Path]) -> None:
+    """Each of them was a question."""
+    log, dbc = vehicle
+    refused(log, "more than 500 signals of this log are taken", "--dbc", str(dbc), code=2)
+
+
+def test_of_thousands_of_signals_those_that_are_named_are_taken(
+    brace: Brace, vehicle: tuple[Path, Path], tmp_path: Path
+) -> None:
+    log, dbc = vehicle
+    given = (log, "--dbc", dbc, "--set", "axis=z", "--yes", "--out", tmp_path / "out")
+    begun = time.process_time()
+    done = brace("import", *given, "--signals", "RIGDATA")
+    assert done.code == 0 and time.process_time() - begun < PROCESSOR_MOST_S, done.err
+    assert "8000 signals are left out by --signals" in done.err, done.err
+    data = load_dataset(tmp_path / "out")
+    assert len(data["fz_n"]) == 300 and data["fz_n"] == pytest.approx(2.0 * data["dz_mm"], abs=1e-6)
+    strange = brace("import", *given, "--signals", "RIGDATA.*", "--signals", "Fx")
+    assert strange.code == 2 and "no signal of this log is called Fx" in strange.err, strange.err
+
+
+def test_signals_of_a_table_are_not_chosen(brace: Brace, tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text("t [s],dx [mm],Fx [N]\n0,0,0\n1,1,2\n2,2,4\n3,1,2\n")
+    asked = brace("import", tmp_path / "a.csv", "--signals", "Fx", "--yes", "--out", tmp_path / "out")
+    assert asked.code == 2 and "--signals, and no file is a log" in asked.err, asked.err

@@ -51,6 +51,10 @@ def add(commands: Subcommands) -> None:
         "--dbc", type=common.path, action="append", default=[], metavar="FILE.dbc",
         help="decodes the CAN frames of a log; once for each database",
     )  # fmt: skip
+    parser.add_argument(
+        "--signals", action="append", default=[], metavar="NAME",
+        help="of a log: takes these alone; a message, a topic, or a signal's name, where * stands for any letters",
+    )  # fmt: skip
     parser.add_argument("--sheet", default="", metavar="NAME", help="of a workbook")
     parser.add_argument("--decimal", choices=(".", ","), default="", help="the decimal sign; default: by the numbers")
     parser.add_argument(
@@ -109,7 +113,7 @@ def run(arguments: argparse.Namespace) -> int:
     _check_usage(arguments)
     parts = read_all(
         arguments.files, sheet=arguments.sheet, decimal=arguments.decimal, separator=arguments.separator or "",
-        databases=arguments.dbc,
+        databases=arguments.dbc, signals=arguments.signals,
     )
     inputs = [*sources(parts), *arguments.dbc, *([arguments.mapping] if arguments.mapping else [])]
     if arguments.mapping:

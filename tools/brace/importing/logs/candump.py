@@ -13,6 +13,7 @@ from brace.ground.files import DATA_LIMIT_BYTES, read_bytes
 from brace.importing.logs import can_formats, our_frames
 from brace.importing.logs.collect import Collector
 from brace.importing.logs.dbc import Databases, Frame, decode
+from brace.importing.logs.wanted import Wanted
 from brace.importing.signal import Log
 
 _LINE = re.compile(rb"\((?:\d+\.\d+|\d{4}-\d\d-\d\d[ T][\d:.]+)\)\s+\S+\s+[0-9A-Fa-f]{3,8}#")
@@ -46,7 +47,7 @@ def _without_remarks(data: bytes) -> tuple[bytes, int]:
     return _REMARK.subn(b"", data)
 
 
-def read(path: Path, databases: Sequence[Path]) -> Log:
+def read(path: Path, databases: Sequence[Path], wanted: Wanted) -> Log:
     """The signals of a log. Our own controllers' frames need no database."""
     data = read_bytes(path, DATA_LIMIT_BYTES, "log")
     told: list[str] = []
@@ -66,11 +67,11 @@ def read(path: Path, databases: Sequence[Path]) -> Log:
             why="what the bytes of a frame mean stands in the bus' DBC file",
             next_step="--dbc FILE.dbc (once for each database)",
         )
-    collector = Collector(path)
+    collector = Collector(path, wanted)
     notes = decode(path, frames, known, collector) + collector.notes() + [
         f"decoded by {name}, sha256 {digest}" for name, digest in known.sums.items()
     ]
-    notes += told
+    notes += told + wanted.notes()
     ours = f"our controllers {', '.join(map(str, nodes))}" if nodes else ""
     by = " and ".join(text for text in (known.how, ours) if text)
     return Log(collector.signals(), f"{program}, decoded by {by}", tuple(notes))

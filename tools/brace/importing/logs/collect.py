@@ -9,6 +9,7 @@ import numpy as np
 
 from brace.ground.errors import BadFileError
 from brace.importing.logs import stamps
+from brace.importing.logs.wanted import Wanted
 from brace.importing.signal import Signal
 
 JUMP_BACK_S = 1.0  # within it, entries of several senders may be written out of order
@@ -17,8 +18,8 @@ JUMP_BACK_S = 1.0  # within it, entries of several senders may be written out of
 class Collector:
     """Adds readings, gives signals."""
 
-    def __init__(self, path: Path) -> None:
-        self._path = path
+    def __init__(self, path: Path, wanted: Wanted) -> None:
+        self._path, self.wanted = path, wanted
         self._readings: dict[str, tuple[str, str, list[float], list[float], list[float]]] = {}
         self._entries: dict[str, tuple[list[float], list[float]]] = {}  # of each stamped source
         self._latest_s = -float("inf")
@@ -48,6 +49,8 @@ class Collector:
         """One reading of a signal."""
         entry = self._readings.get(name)
         if entry is None:
+            if not self.wanted.takes(source, name):
+                return
             entry = self._readings[name] = (source, unit, [], [], [])
         entry[2].append(time_s)
         entry[3].append(value)

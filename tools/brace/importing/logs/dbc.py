@@ -101,6 +101,7 @@ class _Reader:
     def __init__(self, path: Path, databases: Databases, collector: Collector) -> None:
         self._path, self._databases, self._collector = path, databases, collector
         self._seen: set[tuple[int, bool]] = set()
+        self._wanted: dict[tuple[int, bool], bool] = {}
         self._channels: dict[tuple[int, bool], object] = {}
         self._unknown: Counter[str] = Counter()
         self._broken: Counter[str] = Counter()
@@ -130,6 +131,8 @@ class _Reader:
         if entry.only is not None and not entry.only:
             self._computed = True
             return
+        if not self._is_wanted(key, entry):
+            return
         try:
             values = entry.message.decode(bytes(frame.data), decode_choices=False)
         except Exception as error:  # cantools raises classes of three packages for a frame that is too short
@@ -138,6 +141,12 @@ class _Reader:
         for name, value in values.items() if isinstance(values, dict) else ():
             if isinstance(value, (int, float)) and (entry.only is None or name in entry.only):
                 self._one(entry, name, float(value), frame.timestamp)
+
+    def _is_wanted(self, key: tuple[int, bool], entry: _Entry) -> bool:
+        if key not in self._wanted:
+            names = [f"{entry.name}.{s.name}" for s in entry.message.signals if not entry.only or s.name in entry.only]
+            self._wanted[key] = self._collector.wanted.takes_any(entry.name, names)
+        return self._wanted[key]
 
     def _one(self, entry: _Entry, name: str, value: float, time_s: float) -> None:
         signal = entry.message.get_signal_by_name(name)

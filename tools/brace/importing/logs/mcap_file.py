@@ -9,13 +9,14 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from brace.ground.errors import BadFileError, MissingLibraryError
+from brace.ground.errors import BadFileError, BraceError, MissingLibraryError
 from brace.importing.logs import mcap_records, our_frames
 from brace.importing.logs.collect import Collector
 from brace.importing.logs.dbc import Databases, decode
 from brace.importing.logs.fields import LIST_MOST, numbers
 from brace.importing.logs.ros_units import unit_of_field
 from brace.importing.logs.stamps import stamp_s
+from brace.importing.logs.wanted import Wanted
 from brace.importing.signal import Log, Signal
 
 if TYPE_CHECKING:
@@ -52,16 +53,16 @@ class _Frame:
         self.channel: object = entry.get("bus", "")
 
 
-def read(path: Path, databases: Sequence[Path]) -> Log:
+def read(path: Path, databases: Sequence[Path], wanted: Wanted) -> Log:
     """The signals of a log. Refuses one of which no topic can be read."""
-    return _Reading(path, databases).log()
+    return _Reading(path, databases, wanted).log()
 
 
 class _Reading:
-    def __init__(self, path: Path, databases: Sequence[Path]) -> None:
-        self._path = path
+    def __init__(self, path: Path, databases: Sequence[Path], wanted: Wanted) -> None:
+        self._path, self._wanted = path, wanted
         self._databases = Databases(databases)
-        self._collector = Collector(path)
+        self._collector = Collector(path, wanted)
         self._decoders: dict[int, Decoder | None] = {}
         self._unread: dict[str, str] = {}  # topic: why
         self._no_numbers: dict[str, bool] = {}
@@ -79,7 +80,7 @@ class _Reading:
             )
             if nodes:
                 self._databases.with_ours(nodes)
-            of_frames = Collector(self._path)  # the frames' clock runs beside that of the topics
+            of_frames = Collector(self._path, self._wanted)  # the frames' clock runs beside that of the topics
             notes += decode(self._path, self._frames, self._databases, of_frames) + of_frames.notes()
             by = ", CAN frames decoded by " + " and ".join(
                 text for text in (self._databases.how, "our own database" if nodes else "") if text
@@ -87,6 +88,7 @@ class _Reading:
             notes += [f"decoded by {name}, sha256 {digest}" for name, digest in self._databases.sums.items()]
             signals = of_frames.signals()
         signals += self._collector.signals()
+        notes += self._wanted.notes()
         for topic, why in self._unread.items():
             notes.append(f"topic {topic} is left out: {why}")
         broken = [
@@ -123,7 +125,7 @@ class _Reading:
                         count += 1
                 except RecordLengthLimitExceeded as error:
                     raise mcap_records.too_large(self._path, str(error)) from None
-                except BadFileError:
+                except BraceError:
                     raise
                 except Exception as error:  # the libraries that unpack chunks have classes of their own
                     if count and not file.read(1):
