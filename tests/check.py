@@ -101,12 +101,32 @@ def new_lines(since: str) -> dict[str, set[int] | None]:
     return lines
 
 
+def formatted_by_clang(paths: Iterable[Path]) -> list[str]:
+    """Those of the files that .clang-format is for: C and C++ that no generator writes, and no samples of bad form."""
+    return [
+        str(path)
+        for path in paths
+        if path.suffix in ALL_LINES and (ROOT / path).is_file() and not path.is_relative_to("tests/discipline/samples")
+        if "do not edit" not in "".join((ROOT / path).read_text().splitlines(keepends=True)[:3])
+    ]
+
+
+def clang_format(files: list[str]) -> bool:
+    """Whether they are as .clang-format says; prints what is not, and how to mend it."""
+    tool = Path(sys.executable).parent / "clang-format"
+    if not files or run(str(tool), "--dry-run", "-Werror", *files):
+        return True
+    print("try: .venv/bin/clang-format -i FILE...")
+    return False
+
+
 def check_format(since: str) -> bool:
-    """ruff on all Python; lengths, and trailing blanks of the lines that changed."""
+    """ruff on all Python; lengths, trailing blanks and C's format of what changed."""
     wide = long_lines(since)
     print("\n".join(wide) + "\n" * bool(wide), end="")
     ruff = run(sys.executable, "-m", "ruff", "check", "--quiet", "--config", "tools/pyproject.toml", "tools", "tests")
-    return run("git", "diff", "--check", since) and ruff and not wide
+    c = clang_format(formatted_by_clang(changed_files(since)))
+    return run("git", "diff", "--check", since) and ruff and c and not wide
 
 
 def check_types(changed: Iterable[Path]) -> bool:

@@ -23,5 +23,10 @@ static void fault(void)
 extern void (*const vectors[16])(void);
 __attribute__((section(".vectors"))) void (*const vectors[16])(void) = {
     (void (*)(void))0x20400000u, /* stack: the end of RAM, growing down */
-    reset, fault, fault, fault, fault, fault,
+    reset,
+    fault,
+    fault,
+    fault,
+    fault,
+    fault,
 };

@@ -13,8 +13,8 @@ int main(int argc, char **argv)
         status = brace_client_read(limb, BRACE_PART_ALL, 2000, &now);
         if (status == BRACE_CLIENT_OK && now.k_is_valid) {
             printf("k_xx %.4f k_xz %.4f k_zz %.4f N/mm, softest %.4f N/mm, stiff axis %.4f rad, flags 0x%02x\n",
-                   now.k_xx_n_per_mm, now.k_xz_n_per_mm, now.k_zz_n_per_mm, now.lambda_min_n_per_mm,
-                   now.stiff_axis_rad, (unsigned)now.flags);
+                   now.k_xx_n_per_mm, now.k_xz_n_per_mm, now.k_zz_n_per_mm, now.lambda_min_n_per_mm, now.stiff_axis_rad,
+                   (unsigned)now.flags);
         } else if (status == BRACE_CLIENT_OK) {
             printf("K not valid: faults 0x%x\n", (unsigned)now.faults);
         }

@@ -42,7 +42,13 @@ static void systick(void)
 extern void (*const vectors[16])(void);
 __attribute__((section(".vectors"))) void (*const vectors[16])(void) = {
     (void (*)(void))0x20400000u, /* the stack: the end of RAM */
-    reset, fault, fault, fault, fault, fault, [15] = systick,
+    reset,
+    fault,
+    fault,
+    fault,
+    fault,
+    fault,
+    [15] = systick,
 };
 
 /* --- time ------------------------------------------------------------------------------------------------------ */

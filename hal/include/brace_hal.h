@@ -111,10 +111,10 @@ typedef enum {
 /* What a processor fault leaves behind, in memory that a reset does not clear. */
 typedef struct {
     uint32_t exception;                       /* number of the exception: 3 hard, 4 memory, 5 bus, 6 usage fault */
-    uint32_t pc, lr, psr, sp;                 /* where it happened, who had called, the processor's state, the stack */
-    uint32_t cfsr, hfsr, mmfar, bfar;         /* the processor's own registers on the cause */
-    uint32_t uptime_us;                       /* by now_us */
-    uint32_t count;                           /* crashes since power came on */
+    uint32_t pc, lr, psr, sp; /* where it happened, who had called, the processor's state, the stack */
+    uint32_t cfsr, hfsr, mmfar, bfar; /* the processor's own registers on the cause */
+    uint32_t uptime_us; /* by now_us */
+    uint32_t count; /* crashes since power came on */
 } brace_crash_record_t;
 
 /* --------------------------------------------------------------------------------------- who may -- */
@@ -123,16 +123,16 @@ enum { BRACE_HAL_KEY_BYTES = 16 };
 
 /* What key_read finds. */
 enum {
-    BRACE_HAL_KEY_NONE = 0,   /* the board has none yet */
+    BRACE_HAL_KEY_NONE = 0, /* the board has none yet */
     BRACE_HAL_KEY_LOCKED = 1, /* one that nothing takes away or replaces */
-    BRACE_HAL_KEY_OPEN = 2    /* one that another program on this board can replace */
+    BRACE_HAL_KEY_OPEN = 2 /* one that another program on this board can replace */
 };
 
 /* What a joint may be commanded at most, whatever its parameters say; of the board's own file. INFINITY: no bound. */
 typedef struct {
     float torque_most_n_mm;
     float angle_least_rad, angle_most_rad; /* true joint angle */
-    float speed_most_rad_per_s;            /* of what the firmware itself adds to the set-point */
+    float speed_most_rad_per_s; /* of what the firmware itself adds to the set-point */
 } brace_hal_ceiling_t;
 
 /* --------------------------------------------------------------------------------------------- door -- */

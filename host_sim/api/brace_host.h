@@ -77,8 +77,8 @@ int32_t brace_reference_tip(const brace_plant_model_t *model, size_t count, cons
 
 /* The posture at r [mm] from the femur axis, in direction phi [rad]. knee_up != 0 takes the branch with
  * theta2 >= 0, else its mirror image. theta_rad: theta1, theta2. returns also E_UNREACHABLE. */
-int32_t brace_reference_posture(const brace_plant_model_t *model, double r_mm, double phi_rad,
-                                int32_t knee_up, double *theta_rad);
+int32_t brace_reference_posture(const brace_plant_model_t *model, double r_mm, double phi_rad, int32_t knee_up,
+                                double *theta_rad);
 
 /* -------------------------------------------------------------------------------- reference, loaded -- */
 /* The limb under load, at finite displacements: the rest state (a minimum of spring energy minus work of force and
@@ -204,7 +204,7 @@ typedef struct {
     const double *theta2_rad;
     const double *t_s;
     const double *temp_degc; /* may be null: the model's reference temperature */
-    const double *dx_mm;     /* imposed displacement of the tip */
+    const double *dx_mm; /* imposed displacement of the tip */
     const double *dz_mm;
     const int32_t *free_axis; /* may be null; 0: both axes imposed, 1: x is free, 2: z is free, its force 0 */
     /* may be null, then preload_z_n is, too. Else the force on the limb's tip at each run's first row: the tip rests in
@@ -217,8 +217,8 @@ typedef struct {
 typedef struct {
     double *fx_n; /* the sensor's reading of the force on the limb, before resolution and noise */
     double *fz_n;
-    double *enc1_rad;  /* joint deflection on the output side (elastic, backlash and creep), positive */
-    double *enc2_rad;  /* counter-clockwise, so that a positive enc2 opens the knee (theta2 falls) */
+    double *enc1_rad; /* joint deflection on the output side (elastic, backlash and creep), positive */
+    double *enc2_rad; /* counter-clockwise, so that a positive enc2 opens the knee (theta2 falls) */
     double *base_x_mm; /* how far the base moved, without its rotation */
     double *base_z_mm;
 } brace_loading_reading_t;
@@ -281,28 +281,28 @@ typedef struct {
     size_t config_count;
     const double *theta1_rad; /* commanded, one per configuration; any finite angle */
     const double *theta2_rad; /* the same */
-    int32_t axes;           /* 1 x, 2 z, 3 both */
-    int32_t repeats;        /* [1, 1000] */
+    int32_t axes; /* 1 x, 2 z, 3 both */
+    int32_t repeats; /* [1, 1000] */
     int32_t steps_per_side; /* [1, 10000] */
     int32_t cyclic;
     int32_t transverse_free; /* 1: the tip is free across the run's axis; 0: held, as in the paper */
-    int32_t zeroed;          /* 0 never, 1 per run: the run's first reading is subtracted from all of its readings */
-    int32_t shuffled;        /* 1: runs come in random order (from the seed); 0: one configuration after another */
+    int32_t zeroed; /* 0 never, 1 per run: the run's first reading is subtracted from all of its readings */
+    int32_t shuffled; /* 1: runs come in random order (from the seed); 0: one configuration after another */
     int32_t small_displacements; /* as in brace_loading_rows_t */
     int32_t held_at_rest;
-    double step_mm;          /* (0, 100] */
-    double preload_x_mm;     /* [-1000, 1000] displacement from which every step of a run counts */
-    double preload_z_mm;     /* [-1000, 1000] */
-    double dwell_s;         /* [0, 1e6] time between readings */
-    double pause_s;         /* [0, 1e6] time between runs, in addition to dwell_s */
+    double step_mm; /* (0, 100] */
+    double preload_x_mm; /* [-1000, 1000] displacement from which every step of a run counts */
+    double preload_z_mm; /* [-1000, 1000] */
+    double dwell_s; /* [0, 1e6] time between readings */
+    double pause_s; /* [0, 1e6] time between runs, in addition to dwell_s */
     double temp_start_degc; /* [-273.15, 1e4]; temperature = start + rise * (1 - exp(-(t - start_s) / time constant)) */
-    double temp_rise_degc;  /* [-1e4, 1e4] */
+    double temp_rise_degc; /* [-1e4, 1e4] */
     double temp_time_constant_s; /* (0, inf) */
-    double noise_n;              /* [0, 1e6] one sigma of each force reading, before rounding */
-    double resolution_n;         /* [0, 1e6] readings are rounded to multiples of it; 0: not rounded */
-    double range_n;              /* (0, inf]: readings are clipped to +-this */
-    double encoder_noise_rad;    /* [0, 1e6] one sigma */
-    double base_noise_mm;        /* [0, 1e6] one sigma */
+    double noise_n; /* [0, 1e6] one sigma of each force reading, before rounding */
+    double resolution_n; /* [0, 1e6] readings are rounded to multiples of it; 0: not rounded */
+    double range_n; /* (0, inf]: readings are clipped to +-this */
+    double encoder_noise_rad; /* [0, 1e6] one sigma */
+    double base_noise_mm; /* [0, 1e6] one sigma */
     uint64_t seed; /* the same seed gives the same noise on every machine */
     double start_s; /* [0, 1e9] time of the first reading; the temperature's course begins there too */
 } brace_rig_design_t;
@@ -345,16 +345,16 @@ int32_t brace_rig_play(const brace_rig_design_t *design, const brace_plant_model
  * first reading. k: count x 4: k_xx k_xz k_zx k_zz [N/mm], not made symmetric; written on success only.
  * returns as brace_plant_loading; E_RANGE for steps outside their range. */
 int32_t brace_rig_slopes(const brace_plant_model_t *model, size_t count, const double *theta1_rad,
-                         const double *theta2_rad, double step_mm, int32_t steps_per_side,
-                         int32_t least_squares, double *k);
+                         const double *theta2_rad, double step_mm, int32_t steps_per_side, int32_t least_squares,
+                         double *k);
 
 /* Fig. 12's number [mm], from the cyclic test along the axis (0 x, 1 z) with the tip free across it: the displacement
  * at which the force comes back to zero after unloading from +n, minus that after -n. Backlash alone gives gap times
  * lever along the axis; friction adds to it. (With the tip held across the axis, backlash without friction shifts
  * nothing and only lowers the slope.) Angles, steps_per_side and step_mm as above; shift_mm is written on success only.
  * returns the same; E_RANGE also when the force does not come back to zero, or for another axis. */
-int32_t brace_rig_zero_force_shift(const brace_plant_model_t *model, double theta1_rad, double theta2_rad,
-                                   int32_t axis, double step_mm, int32_t steps_per_side, double *shift_mm);
+int32_t brace_rig_zero_force_shift(const brace_plant_model_t *model, double theta1_rad, double theta2_rad, int32_t axis,
+                                   double step_mm, int32_t steps_per_side, double *shift_mm);
 
 /* ---------------------------------------------------------------------------------------------- keys -- */
 

@@ -56,10 +56,10 @@ typedef struct {
     int32_t has_force_sensor;
     int32_t has_link_encoder;
     double temp_start_degc, temp_rise_degc, temp_time_constant_s; /* as the rig's */
-    const uint8_t *block;            /* the controller's parameter block; null: the controller finds an empty memory */
+    const uint8_t *block; /* the controller's parameter block; null: the controller finds an empty memory */
     uint32_t block_bytes;
-    const char *nvm_path;            /* file of its memory; null: the memory ends with the node */
-    int32_t block_replaces;          /* 0: the block is stored only if the file has none yet; 1: always */
+    const char *nvm_path; /* file of its memory; null: the memory ends with the node */
+    int32_t block_replaces; /* 0: the block is stored only if the file has none yet; 1: always */
     const char *console, *modbus_line, *slcan_line; /* URLs of serial ports, brace_hal_posix.h; null: no port */
     const char *modbus_tcp;
     /* Joints by Dynamixel servos, through the driver that boards use: "sim", simulated MX-106 between this limb and the
@@ -67,9 +67,9 @@ typedef struct {
      * servos have no simulated limb behind them, and no force sensor; nobody moves them but the controller's own tests,
      * and only where their torque is on. */
     const char *servos;
-    uint8_t servo_id[3];             /* of coxa, femur, tibia */
-    int32_t servos_hold;             /* real servos without torque are commanded to hold where they stand */
-    const uint8_t *key;              /* 16 bytes: the controller is guarded; null: it is a bench (docs/security.md) */
+    uint8_t servo_id[3]; /* of coxa, femur, tibia */
+    int32_t servos_hold; /* real servos without torque are commanded to hold where they stand */
+    const uint8_t *key; /* 16 bytes: the controller is guarded; null: it is a bench (docs/security.md) */
     /* how long whoever moves the limb may be silent, in the simulation's time; 0: 0.13 */
     double owner_silence_s;
 } brace_node_limb_t;
@@ -79,7 +79,7 @@ void brace_node_limb_default(brace_node_limb_t *limb);
 
 typedef enum {
     BRACE_NODE_PART_NONE = 0,
-    BRACE_NODE_PART_LIMB = 1,  /* detail: a brace_host_status_t */
+    BRACE_NODE_PART_LIMB = 1, /* detail: a brace_host_status_t */
     BRACE_NODE_PART_BLOCK = 2, /* detail: a brace_status_t */
     BRACE_NODE_PART_MEMORY = 3, /* from here on, detail: a BRACE_POSIX_E_... */
     BRACE_NODE_PART_CAN = 4,
@@ -133,18 +133,18 @@ int32_t brace_node_posture(brace_node_t *node, int32_t limb, double at_s, double
 int32_t brace_node_contact(brace_node_t *node, int32_t limb, double hold_n_per_mm, const brace_node_press_t *press);
 
 typedef enum {
-    BRACE_NODE_FAULT_ENCODER_STUCK = 0,  /* joint: the motor's angle keeps its last reading */
-    BRACE_NODE_FAULT_SENSOR_DEAD = 1,    /* joint: no sample comes */
-    BRACE_NODE_FAULT_SENSOR_NAN = 2,     /* joint: samples are NaN */
+    BRACE_NODE_FAULT_ENCODER_STUCK = 0, /* joint: the motor's angle keeps its last reading */
+    BRACE_NODE_FAULT_SENSOR_DEAD = 1, /* joint: no sample comes */
+    BRACE_NODE_FAULT_SENSOR_NAN = 2, /* joint: samples are NaN */
     BRACE_NODE_FAULT_CURRENT_OFFSET = 3, /* joint; value [N mm] is added to the torque samples */
-    BRACE_NODE_FAULT_FORCE_DEAD = 4,     /* the force sensor does not answer */
-    BRACE_NODE_FAULT_FORCE_OFFSET = 5,   /* value [N] is added to both axes */
-    BRACE_NODE_FAULT_NVM_FAILS = 6,      /* the memory refuses to write and to erase */
-    BRACE_NODE_FAULT_NVM_FORGETS = 7,    /* writing and erasing do nothing */
+    BRACE_NODE_FAULT_FORCE_DEAD = 4, /* the force sensor does not answer */
+    BRACE_NODE_FAULT_FORCE_OFFSET = 5, /* value [N] is added to both axes */
+    BRACE_NODE_FAULT_NVM_FAILS = 6, /* the memory refuses to write and to erase */
+    BRACE_NODE_FAULT_NVM_FORGETS = 7, /* writing and erasing do nothing */
     BRACE_NODE_FAULT_BUS_OFF = 8,
-    BRACE_NODE_FAULT_TICK_LATE = 9,      /* value [ms]: the time between ticks */
-    BRACE_NODE_FAULT_TIP_LOST = 10,      /* the contact lets go, and afterwards holds the tip where it then is */
-    BRACE_NODE_FAULT_CRASH = 11,         /* the controller crashes once when the fault begins, and starts again */
+    BRACE_NODE_FAULT_TICK_LATE = 9, /* value [ms]: the time between ticks */
+    BRACE_NODE_FAULT_TIP_LOST = 10, /* the contact lets go, and afterwards holds the tip where it then is */
+    BRACE_NODE_FAULT_CRASH = 11, /* the controller crashes once when the fault begins, and starts again */
     BRACE_NODE_FAULT_COUNT = 12
 } brace_node_fault_t;
 
@@ -161,26 +161,26 @@ int32_t brace_node_snapshot(brace_node_t *node, int32_t limb, brace_snapshot_t *
 
 /* The true state, which no controller sees. In the joints' own senses: coxa, femur, tibia. */
 typedef struct {
-    double set_rad[3];        /* set-points, with the controller's offsets */
+    double set_rad[3]; /* set-points, with the controller's offsets */
     double motor_rad[3];
-    double link_rad[3];       /* true joint angles: motor, zero offset, deflection and play */
-    double torque_n_mm[3];    /* torque of the motor */
-    double load_n_mm[3];      /* load that the gap transmits: the motor's torque on the link */
-    int32_t flank[3];         /* flank that carries, +1 or -1; 0: the gap is open, or there is no load */
+    double link_rad[3]; /* true joint angles: motor, zero offset, deflection and play */
+    double torque_n_mm[3]; /* torque of the motor */
+    double load_n_mm[3]; /* load that the gap transmits: the motor's torque on the link */
+    int32_t flank[3]; /* flank that carries, +1 or -1; 0: the gap is open, or there is no load */
     double force_x_n, force_y_n, force_z_n; /* force of the contact on the tip; y across the limb's plane */
     int32_t has_coxa_joint;
     double temp_degc;
-    int32_t solved;           /* the solver found the rest state */
+    int32_t solved; /* the solver found the rest state */
 } brace_node_truth_t;
 int32_t brace_node_truth(brace_node_t *node, int32_t limb, brace_node_truth_t *truth);
 
 typedef struct {
     uint64_t time_us;
-    uint64_t ticks;            /* ticks of all limbs */
-    uint32_t watchdog_resets;  /* watchdog resets of all limbs */
-    uint32_t late_wakes;       /* how often brace_node_run woke more than 1 ms late */
+    uint64_t ticks; /* ticks of all limbs */
+    uint32_t watchdog_resets; /* watchdog resets of all limbs */
+    uint32_t late_wakes; /* how often brace_node_run woke more than 1 ms late */
     uint64_t worst_late_us;
-    uint64_t slipped_us;       /* time given up after having been late by more than 50 ms */
+    uint64_t slipped_us; /* time given up after having been late by more than 50 ms */
     uint32_t can_clients;
     uint64_t can_sent, can_received; /* frames of all limbs */
 } brace_node_stats_t;
@@ -189,10 +189,10 @@ void brace_node_stats(brace_node_t *node, brace_node_stats_t *stats);
 /* A servo of a limb whose joints are servos, as its driver knows it, and what the driver has counted. joint: 0-2.
  * Returns 0, or -3: no such limb, or its joints are no servos. */
 typedef struct {
-    int32_t state;          /* a brace_servo_state_t */
+    int32_t state; /* a brace_servo_state_t */
     uint32_t model, hardware_error;
-    uint32_t samples, lost, doubted, refused, restarts;           /* of this servo */
-    uint32_t requests, answers, damaged, skipped_bytes, foreign;  /* of the line */
+    uint32_t samples, lost, doubted, refused, restarts; /* of this servo */
+    uint32_t requests, answers, damaged, skipped_bytes, foreign; /* of the line */
 } brace_node_servo_t;
 int32_t brace_node_servo(brace_node_t *node, int32_t limb, int32_t joint, brace_node_servo_t *servo);
 

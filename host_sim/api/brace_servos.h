@@ -54,9 +54,9 @@ void brace_servos_break(brace_servos_t *servos, int32_t servo, uint8_t hardware_
 void brace_servos_damage(brace_servos_t *servos, double share);
 
 typedef struct {
-    uint64_t heard, answered;  /* packets */
-    uint64_t damaged;          /* by brace_servos_damage */
-    uint64_t collisions;       /* the master sent while a servo answered */
+    uint64_t heard, answered; /* packets */
+    uint64_t damaged; /* by brace_servos_damage */
+    uint64_t collisions; /* the master sent while a servo answered */
 } brace_servos_counts_t;
 void brace_servos_counts(const brace_servos_t *servos, brace_servos_counts_t *counts);
 

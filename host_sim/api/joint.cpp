@@ -61,8 +61,7 @@ brace_host_status_t play_one(const brace_plant_model_t &model, const brace_joint
 
 } // namespace
 
-extern "C" int32_t brace_plant_joint(const brace_plant_model_t *model, const brace_joint_rows_t *rows,
-                                     double *out)
+extern "C" int32_t brace_plant_joint(const brace_plant_model_t *model, const brace_joint_rows_t *rows, double *out)
 {
     if (model == nullptr || rows == nullptr || out == nullptr) {
         return BRACE_HOST_E_NULL;

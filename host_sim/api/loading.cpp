@@ -42,9 +42,8 @@ brace_host_status_t check_loading_rows(const brace_loading_rows_t &rows)
 namespace {
 
 constexpr double *brace_loading_reading_t::*kColumns[] = {
-    &brace_loading_reading_t::fx_n,      &brace_loading_reading_t::fz_n,
-    &brace_loading_reading_t::enc1_rad,  &brace_loading_reading_t::enc2_rad,
-    &brace_loading_reading_t::base_x_mm, &brace_loading_reading_t::base_z_mm,
+    &brace_loading_reading_t::fx_n,     &brace_loading_reading_t::fz_n,      &brace_loading_reading_t::enc1_rad,
+    &brace_loading_reading_t::enc2_rad, &brace_loading_reading_t::base_x_mm, &brace_loading_reading_t::base_z_mm,
 };
 
 constexpr int32_t kNotPlayed = 1; // no status: those are 0 and below
@@ -99,8 +98,8 @@ extern "C" int32_t brace_plant_loading(const brace_plant_model_t *model, const b
 }
 
 extern "C" int32_t brace_plant_loading_many(const brace_plant_model_t *models, size_t model_count,
-                                            const brace_loading_rows_t *rows,
-                                            const brace_loading_reading_t *readings, int32_t *status)
+                                            const brace_loading_rows_t *rows, const brace_loading_reading_t *readings,
+                                            int32_t *status)
 {
     if (models == nullptr || rows == nullptr || readings == nullptr) {
         return BRACE_HOST_E_NULL;
@@ -120,9 +119,9 @@ extern "C" int32_t brace_plant_loading_many(const brace_plant_model_t *models, s
         outcome[m] = sound_model ? BRACE_HOST_E_SINGULAR : BRACE_HOST_E_PARAMETER;
         // Limbs that differ by their sensors only rest alike.
         for (size_t n = m; rests && n < model_count; ++n) {
-            const bool alike = n == m
-                               || (brace::api::rest_alike(models[m], models[n])
-                                   && brace::plant::first_fault(models[n]) == nullptr);
+            const bool alike =
+                n == m
+                || (brace::api::rest_alike(models[m], models[n]) && brace::plant::first_fault(models[n]) == nullptr);
             if (alike) {
                 const size_t unsolved = loading.read(models[n], brace::api::part_of(*readings, n * rows->count));
                 outcome[n] = unsolved == 0 ? BRACE_HOST_OK : BRACE_HOST_E_NO_CONVERGENCE;

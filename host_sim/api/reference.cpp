@@ -17,8 +17,8 @@ using brace::api::limb_of;
 using brace::reference::Limb;
 using brace::reference::Posture;
 
-brace_host_status_t check(const brace_plant_model_t *model, size_t count, const double *theta1,
-                          const double *theta2, const double *out)
+brace_host_status_t check(const brace_plant_model_t *model, size_t count, const double *theta1, const double *theta2,
+                          const double *out)
 {
     if (model == nullptr || theta1 == nullptr || theta2 == nullptr || out == nullptr) {
         return BRACE_HOST_E_NULL;
@@ -30,8 +30,7 @@ brace_host_status_t check(const brace_plant_model_t *model, size_t count, const 
 }
 
 /* Writes a row for every posture, or none: if one of them has no K, out is untouched. */
-template <size_t Entries, typename RowAt>
-int32_t all_rows(size_t count, double *out, RowAt row_at)
+template <size_t Entries, typename RowAt> int32_t all_rows(size_t count, double *out, RowAt row_at)
 {
     std::vector<std::array<double, Entries>> rows(count);
     for (size_t i = 0; i < count; ++i) {
@@ -47,8 +46,8 @@ int32_t all_rows(size_t count, double *out, RowAt row_at)
 
 } // namespace
 
-extern "C" int32_t brace_reference_planar(const brace_plant_model_t *model, size_t count,
-                                          const double *theta1_rad, const double *theta2_rad, double *out)
+extern "C" int32_t brace_reference_planar(const brace_plant_model_t *model, size_t count, const double *theta1_rad,
+                                          const double *theta2_rad, double *out)
 {
     const brace_host_status_t status = check(model, count, theta1_rad, theta2_rad, out);
     if (status != BRACE_HOST_OK) {
@@ -83,9 +82,8 @@ extern "C" int32_t brace_reference_planar_many(const brace_plant_model_t *models
     return worst;
 }
 
-extern "C" int32_t brace_reference_spatial(const brace_plant_model_t *model, size_t count,
-                                           const double *theta0_rad, const double *theta1_rad,
-                                           const double *theta2_rad, double *out)
+extern "C" int32_t brace_reference_spatial(const brace_plant_model_t *model, size_t count, const double *theta0_rad,
+                                           const double *theta1_rad, const double *theta2_rad, double *out)
 {
     if (theta0_rad == nullptr) {
         return BRACE_HOST_E_NULL;
@@ -103,9 +101,8 @@ extern "C" int32_t brace_reference_spatial(const brace_plant_model_t *model, siz
     });
 }
 
-extern "C" int32_t brace_reference_tip(const brace_plant_model_t *model, size_t count,
-                                       const double *theta0_rad, const double *theta1_rad,
-                                       const double *theta2_rad, double *out)
+extern "C" int32_t brace_reference_tip(const brace_plant_model_t *model, size_t count, const double *theta0_rad,
+                                       const double *theta1_rad, const double *theta2_rad, double *out)
 {
     if (theta0_rad == nullptr) {
         return BRACE_HOST_E_NULL;
@@ -118,8 +115,7 @@ extern "C" int32_t brace_reference_tip(const brace_plant_model_t *model, size_t 
         return BRACE_HOST_E_NOT_FINITE;
     }
     for (size_t i = 0; i < count; ++i) {
-        const auto tip =
-            brace::reference::tip_mm(lengths_of(*model), theta0_rad[i], {theta1_rad[i], theta2_rad[i]});
+        const auto tip = brace::reference::tip_mm(lengths_of(*model), theta0_rad[i], {theta1_rad[i], theta2_rad[i]});
         for (int axis = 0; axis < 3; ++axis) {
             out[3 * i + axis] = static_cast<double>(tip[axis]);
         }

@@ -139,8 +139,7 @@ void write(const brace_loaded_space_case_t &given, const Result &from, brace_loa
 }
 
 // Both structs hold doubles only.
-template <typename Struct>
-double *numbers(Struct &doubles)
+template <typename Struct> double *numbers(Struct &doubles)
 {
     static_assert(sizeof(Struct) % sizeof(double) == 0);
     return reinterpret_cast<double *>(&doubles);
@@ -159,11 +158,11 @@ int32_t answer(const brace_plant_model_t &model, const brace::reference::Limb &l
     }
     const Question asked = question_of(model, given);
     Result result;
-    const Outcome outcome = what == Given::force
-                                ? under_force(limb, asked.posture, asked.weights, asked.force_n, asked.with_coxa,
-                                              parts, result)
-                                : under_displacement(limb, asked.posture, asked.weights, asked.displacement_mm,
-                                                     asked.with_coxa, parts, result);
+    const Outcome outcome =
+        what == Given::force
+            ? under_force(limb, asked.posture, asked.weights, asked.force_n, asked.with_coxa, parts, result)
+            : under_displacement(limb, asked.posture, asked.weights, asked.displacement_mm, asked.with_coxa, parts,
+                                 result);
     if (outcome == Outcome::found) {
         write(given, result, row);
     }

@@ -55,8 +55,8 @@ extern "C" int32_t brace_rig_slopes(const brace_plant_model_t *model, size_t cou
     const SlopeRule rule = least_squares != 0 ? SlopeRule::LeastSquares : SlopeRule::MeanOfRatios;
     std::vector<std::array<double, 4>> measured(count);
     for (size_t i = 0; i < count; ++i) {
-        const brace_host_status_t status = brace::rig::measure_stiffness(
-            *model, theta1_rad[i], theta2_rad[i], step_mm, steps_per_side, rule, measured[i]);
+        const brace_host_status_t status = brace::rig::measure_stiffness(*model, theta1_rad[i], theta2_rad[i], step_mm,
+                                                                         steps_per_side, rule, measured[i]);
         if (status != BRACE_HOST_OK) {
             return status;
         }
@@ -67,9 +67,8 @@ extern "C" int32_t brace_rig_slopes(const brace_plant_model_t *model, size_t cou
     return BRACE_HOST_OK;
 }
 
-extern "C" int32_t brace_rig_zero_force_shift(const brace_plant_model_t *model, double theta1_rad,
-                                              double theta2_rad, int32_t axis, double step_mm,
-                                              int32_t steps_per_side, double *shift_mm)
+extern "C" int32_t brace_rig_zero_force_shift(const brace_plant_model_t *model, double theta1_rad, double theta2_rad,
+                                              int32_t axis, double step_mm, int32_t steps_per_side, double *shift_mm)
 {
     if (model == nullptr || shift_mm == nullptr) {
         return BRACE_HOST_E_NULL;
@@ -77,13 +76,11 @@ extern "C" int32_t brace_rig_zero_force_shift(const brace_plant_model_t *model, 
     if (!std::isfinite(theta1_rad) || !std::isfinite(theta2_rad)) {
         return BRACE_HOST_E_NOT_FINITE;
     }
-    if (axis < 0 || axis > 1 || !(step_mm > 0.0 && step_mm <= 100.0) || steps_per_side < 1
-        || steps_per_side > 10000) {
+    if (axis < 0 || axis > 1 || !(step_mm > 0.0 && step_mm <= 100.0) || steps_per_side < 1 || steps_per_side > 10000) {
         return BRACE_HOST_E_RANGE;
     }
     if (brace::plant::first_fault(*model) != nullptr) {
         return BRACE_HOST_E_PARAMETER;
     }
-    return brace::rig::zero_force_shift(*model, theta1_rad, theta2_rad, axis, step_mm, steps_per_side,
-                                        *shift_mm);
+    return brace::rig::zero_force_shift(*model, theta1_rad, theta2_rad, axis, step_mm, steps_per_side, *shift_mm);
 }

@@ -13,8 +13,7 @@ struct brace_servos : Line {
     using Line::Line;
 };
 
-namespace
-{
+namespace {
 
 constexpr double kCountsPerRad = 4096.0 / (2.0 * 3.14159265358979323846);
 constexpr double kVelocity_rad_per_s = 0.229 * 2.0 * 3.14159265358979323846 / 60.0;

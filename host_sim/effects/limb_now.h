@@ -10,8 +10,7 @@
 
 namespace brace::effects {
 
-template <class... Effects>
-struct ChangesBy {
+template <class... Effects> struct ChangesBy {
     static bool act(const Model &model) { return (Effects::acts(model) || ...); }
 
     static void of_joint(const Model &model, const Conditions &conditions, int joint, Joint &now)
@@ -25,8 +24,7 @@ struct ChangesBy {
     }
 
 private:
-    template <class Effect, class Call>
-    static void call_if_acts(const Model &model, const Call &call)
+    template <class Effect, class Call> static void call_if_acts(const Model &model, const Call &call)
     {
         if (Effect::acts(model)) {
             call();

@@ -11,8 +11,7 @@ namespace brace::effects::thermal_softening {
 // The factor stays above zero, because no temperature makes a spring push the wrong way.
 inline double factor(const Model &model, double temp_degc)
 {
-    const double linear =
-        1.0 + model.thermal.joint_compliance_per_degc * (temp_degc - model.thermal.reference_degc);
+    const double linear = 1.0 + model.thermal.joint_compliance_per_degc * (temp_degc - model.thermal.reference_degc);
     return std::max(linear, 1e-3);
 }
 

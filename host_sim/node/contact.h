@@ -6,8 +6,7 @@
 
 #include "plant/joint_law.h"
 
-namespace brace::node
-{
+namespace brace::node {
 
 // A free tip is held by almost nothing: 1e-3 N a metre.
 inline constexpr double kFree_n_per_mm = 1e-6;

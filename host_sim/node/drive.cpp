@@ -5,15 +5,11 @@
 #include <array>
 #include <cmath>
 
-namespace brace::node
-{
-namespace
-{
+namespace brace::node {
+namespace {
 
-template <int N>
-using Vector = Eigen::Matrix<double, N, 1>;
-template <int N>
-using Matrix = Eigen::Matrix<double, N, N>;
+template <int N> using Vector = Eigen::Matrix<double, N, 1>;
+template <int N> using Matrix = Eigen::Matrix<double, N, N>;
 
 constexpr int kSweeps = 60;
 
@@ -78,9 +74,8 @@ void step_motors(const brace_node_drive_t *drive, double dt_s, const Vector<N> &
             if (limited[i]) {
                 continue;
             }
-            const double wanted =
-                drive[i].servo_n_mm_per_rad * (set_rad[i] - motor[i].angle_rad - dt_s * speed[i])
-                - damping(drive[i]) * speed[i];
+            const double wanted = drive[i].servo_n_mm_per_rad * (set_rad[i] - motor[i].angle_rad - dt_s * speed[i])
+                                  - damping(drive[i]) * speed[i];
             motor[i].torque_n_mm = std::clamp(wanted, -motor[i].limit_n_mm, motor[i].limit_n_mm);
             limited[i] = motor[i].torque_n_mm != wanted;
             again |= limited[i];

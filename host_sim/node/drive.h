@@ -8,8 +8,7 @@ extern "C" {
 #include "api/brace_node.h"
 }
 
-namespace brace::node
-{
+namespace brace::node {
 
 struct Motor {
     double angle_rad = 0.0;

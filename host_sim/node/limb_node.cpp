@@ -13,10 +13,8 @@ extern "C" {
 #include "brace/store.h"
 }
 
-namespace brace::node
-{
-namespace
-{
+namespace brace::node {
+namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
@@ -46,12 +44,11 @@ const char *url_or_none(const char *url)
 } // namespace
 
 LimbNode::LimbNode(const brace_node_limb_t &limb, std::uint64_t seed)
-    : plant_(limb.plant), drive_{limb.drive[0], limb.drive[1], limb.drive[2]},
-      force_noise_n_(limb.force_noise_n), temp_start_degc_(limb.temp_start_degc),
-      temp_rise_degc_(limb.temp_rise_degc), temp_time_constant_s_(limb.temp_time_constant_s),
-      has_link_encoder_(limb.has_link_encoder != 0), has_coxa_joint_(node::has_coxa_joint(limb.plant)),
-      hold_n_per_mm_(limb.hold_n_per_mm), noise_(seed), limb_(plant_),
-      app_(std::make_unique<brace_app_t>())
+    : plant_(limb.plant), drive_{limb.drive[0], limb.drive[1], limb.drive[2]}, force_noise_n_(limb.force_noise_n),
+      temp_start_degc_(limb.temp_start_degc), temp_rise_degc_(limb.temp_rise_degc),
+      temp_time_constant_s_(limb.temp_time_constant_s), has_link_encoder_(limb.has_link_encoder != 0),
+      has_coxa_joint_(node::has_coxa_joint(limb.plant)), hold_n_per_mm_(limb.hold_n_per_mm), noise_(seed),
+      limb_(plant_), app_(std::make_unique<brace_app_t>())
 {
     setpoints.start({limb.theta_rad[0], limb.theta_rad[1], limb.theta_rad[2]});
     for (std::size_t i = 0; i < motor_.size(); ++i) {
@@ -86,8 +83,7 @@ brace_node_failure_t LimbNode::open(const brace_node_limb_t &limb, brace_posix_b
                   brace_posix_stream_open(&posix_.stream[BRACE_SERIAL_MODBUS], url_or_none(limb.modbus_line)))
         || refuse(BRACE_NODE_PART_SLCAN_LINE,
                   brace_posix_stream_open(&posix_.stream[BRACE_SERIAL_SLCAN], url_or_none(limb.slcan_line)))
-        || refuse(BRACE_NODE_PART_MODBUS_TCP,
-                  brace_posix_modbus_open(&posix_.modbus, url_or_none(limb.modbus_tcp)))) {
+        || refuse(BRACE_NODE_PART_MODBUS_TCP, brace_posix_modbus_open(&posix_.modbus, url_or_none(limb.modbus_tcp)))) {
         return failure;
     }
     if (limb.servos != nullptr && refuse(BRACE_NODE_PART_SERVOS, servos_.open(limb, has_coxa_joint_))) {
@@ -125,8 +121,7 @@ bool LimbNode::store_block(const brace_node_limb_t &limb, bool memory_is_new, br
     }
     auto wanted = std::make_unique<brace_parameters_t>();
     auto found = std::make_unique<brace_parameters_t>();
-    std::int32_t status =
-        brace_parameters_unpack(limb.block, limb.block_bytes, wanted.get(), nullptr, nullptr);
+    std::int32_t status = brace_parameters_unpack(limb.block, limb.block_bytes, wanted.get(), nullptr, nullptr);
     if (status == BRACE_OK) {
         auto store = std::make_unique<brace_store_t>();
         (void)brace_store_start(store.get(), &hal_, found.get());
@@ -184,9 +179,8 @@ void LimbNode::tick(std::uint64_t now_us)
     const double *late_ms = faults.value(BRACE_NODE_FAULT_TICK_LATE);
     const std::uint32_t period_us = brace_app_parameters(app_.get())->controller.tick_us;
     due_us_ = now_us
-              + (late_ms != nullptr
-                     ? static_cast<std::uint64_t>(1e3 * (*late_ms > 0.0 ? *late_ms : kDefaultLate_ms))
-                     : period_us);
+              + (late_ms != nullptr ? static_cast<std::uint64_t>(1e3 * (*late_ms > 0.0 ? *late_ms : kDefaultLate_ms))
+                                    : period_us);
 }
 
 void LimbNode::poll()
@@ -290,8 +284,8 @@ void LimbNode::move_limb(double t_s, double dt_s)
     if (has_coxa_joint_) {
         step_motors<3>(drive_.data(), dt_s, {set_rad(0), set_rad(1), set_rad(2)}, load, stiffness, motor_.data());
     } else {
-        step_motors<2>(&drive_[1], dt_s, {set_rad(1), set_rad(2)}, load.tail<2>(),
-                       stiffness.bottomRightCorner<2, 2>(), &motor_[1]);
+        step_motors<2>(&drive_[1], dt_s, {set_rad(1), set_rad(2)}, load.tail<2>(), stiffness.bottomRightCorner<2, 2>(),
+                       &motor_[1]);
     }
     (void)limb_.settle(motors_rad(), t_s, temp_degc(t_s), pressed_);
 }
@@ -310,8 +304,7 @@ void LimbNode::sample()
         const brace_node_drive_t &drive = drive_[static_cast<std::size_t>(joint)];
         const Motor &motor = motor_[static_cast<std::size_t>(joint)];
         const double *offset_n_mm = faults.value(BRACE_NODE_FAULT_CURRENT_OFFSET, joint);
-        const double read_n_mm = motor.torque_n_mm + drive.torque_bias_n_mm
-                                 + drive.torque_noise_n_mm * noise_.normal()
+        const double read_n_mm = motor.torque_n_mm + drive.torque_bias_n_mm + drive.torque_noise_n_mm * noise_.normal()
                                  + (offset_n_mm != nullptr ? *offset_n_mm : 0.0);
         brace_hal_joint_t &read = sample_[static_cast<std::size_t>(joint)];
         const double step_rad = drive.angle_step_rad;
@@ -359,8 +352,7 @@ std::int32_t LimbNode::joint_read(void *context, std::int32_t joint_index, brace
     return BRACE_HAL_OK;
 }
 
-std::int32_t LimbNode::joint_command(void *context, std::int32_t joint_index,
-                                     const brace_hal_joint_command_t *command)
+std::int32_t LimbNode::joint_command(void *context, std::int32_t joint_index, const brace_hal_joint_command_t *command)
 {
     LimbNode &node = *static_cast<LimbNode *>(context);
     if (!node.is_fitted(joint_index)) {
@@ -372,9 +364,8 @@ std::int32_t LimbNode::joint_command(void *context, std::int32_t joint_index,
     if (!std::isfinite(command->offset_rad) || !(command->torque_limit_n_mm >= 0.0f)) {
         return BRACE_HAL_E_RANGE;
     }
-    node.command_[static_cast<std::size_t>(joint_index)] = {static_cast<double>(command->offset_rad),
-                                                            static_cast<double>(command->torque_limit_n_mm),
-                                                            node.now_us_, true};
+    node.command_[static_cast<std::size_t>(joint_index)] = {
+        static_cast<double>(command->offset_rad), static_cast<double>(command->torque_limit_n_mm), node.now_us_, true};
     return BRACE_HAL_OK;
 }
 

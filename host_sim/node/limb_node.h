@@ -15,11 +15,9 @@ extern "C" {
 #include "brace_hal_posix.h"
 }
 
-namespace brace::node
-{
+namespace brace::node {
 
-class LimbNode
-{
+class LimbNode {
 public:
     LimbNode(const brace_node_limb_t &limb, std::uint64_t seed);
     ~LimbNode();

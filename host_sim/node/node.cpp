@@ -73,8 +73,7 @@ struct brace_node {
     }
 };
 
-namespace
-{
+namespace {
 
 bool in_range(double value, double low, double high)
 {
@@ -111,8 +110,8 @@ std::int32_t fault_of(const brace_node_limb_t &limb)
     return sound ? BRACE_HOST_OK : BRACE_HOST_E_RANGE;
 }
 
-brace_node_failure_t build(brace_node &node, const brace_node_limb_t *limbs, std::int32_t count,
-                           const char *can, std::uint64_t seed)
+brace_node_failure_t build(brace_node &node, const brace_node_limb_t *limbs, std::int32_t count, const char *can,
+                           std::uint64_t seed)
 {
     for (std::int32_t i = 0; i < count; ++i) {
         if (const std::int32_t fault = fault_of(limbs[i]); fault != BRACE_HOST_OK) {
@@ -273,12 +272,12 @@ extern "C" int32_t brace_node_contact(brace_node_t *node, int32_t limb, double h
     return BRACE_HOST_OK;
 }
 
-extern "C" int32_t brace_node_fault(brace_node_t *node, int32_t limb, int32_t fault, int32_t joint,
-                                    double value, double at_s, double for_s)
+extern "C" int32_t brace_node_fault(brace_node_t *node, int32_t limb, int32_t fault, int32_t joint, double value,
+                                    double at_s, double for_s)
 {
     LimbNode *one = node != nullptr ? node->limb(limb) : nullptr;
-    if (one == nullptr || fault < 0 || fault >= BRACE_NODE_FAULT_COUNT || !std::isfinite(value)
-        || !(at_s >= 0.0) || !(for_s >= 0.0)
+    if (one == nullptr || fault < 0 || fault >= BRACE_NODE_FAULT_COUNT || !std::isfinite(value) || !(at_s >= 0.0)
+        || !(for_s >= 0.0)
         || (brace::node::is_of_a_joint(fault) && (joint < (one->has_coxa_joint() ? 0 : 1) || joint > 2))
         || (fault == BRACE_NODE_FAULT_TICK_LATE && !in_range(value, 0.0, 1e4))) {
         return BRACE_HOST_E_RANGE;
@@ -310,9 +309,11 @@ extern "C" int32_t brace_node_servo(brace_node_t *node, int32_t limb, int32_t jo
     brace_servo_counters_t line{};
     brace_dynamixel_report(found->servos(), joint, &reported);
     brace_dynamixel_counters(found->servos(), &line);
-    *servo = {reported.state, reported.model, reported.hardware_error, reported.samples, reported.lost,
-              reported.doubted, reported.refused, reported.restarts, line.requests, line.answers, line.damaged,
-              line.skipped_bytes, line.foreign};
+    *servo = {reported.state,   reported.model,    reported.hardware_error,
+              reported.samples, reported.lost,     reported.doubted,
+              reported.refused, reported.restarts, line.requests,
+              line.answers,     line.damaged,      line.skipped_bytes,
+              line.foreign};
     return 0;
 }
 

@@ -7,10 +7,8 @@
 #include <ctime>
 #include <pthread.h>
 
-namespace brace::node
-{
-namespace
-{
+namespace brace::node {
+namespace {
 
 constexpr std::int64_t kGiveUp_us = 50000;
 constexpr std::int64_t kLate_us = 1000;
@@ -33,8 +31,7 @@ void Pace::wait_for(std::uint64_t sim_us)
 {
     const std::int64_t due_us = zero_us_ + static_cast<std::int64_t>(sim_us);
     if (due_us > wall_us()) {
-        const timespec until{static_cast<time_t>(due_us / 1000000),
-                             static_cast<long>(due_us % 1000000) * 1000};
+        const timespec until{static_cast<time_t>(due_us / 1000000), static_cast<long>(due_us % 1000000) * 1000};
         while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {
         }
     }

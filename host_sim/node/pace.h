@@ -3,11 +3,9 @@
 
 #include <cstdint>
 
-namespace brace::node
-{
+namespace brace::node {
 
-class Pace
-{
+class Pace {
 public:
     void start(std::uint64_t sim_us);
 
@@ -25,8 +23,7 @@ private:
 };
 
 // Blocks all signals in this thread while it lives, because another thread waits for them.
-class SignalsBlocked
-{
+class SignalsBlocked {
 public:
     SignalsBlocked();
     ~SignalsBlocked();

@@ -6,10 +6,8 @@
 #include "effects/joint_zero_offset.h"
 #include "node/contact.h"
 
-namespace brace::node
-{
-namespace
-{
+namespace brace::node {
+namespace {
 
 using effects::kCoxa;
 using effects::kFemur;
@@ -22,8 +20,7 @@ using plant::LimbState;
 const Vector3d kSense = {1.0, 1.0, -1.0}; // of theta0, theta1 and theta2, counter-clockwise being positive
 
 // A limb's place on the axes of its world, and back.
-template <class World>
-plant::Vector<World::kAxes> on_axes_of(const Vector3d &place)
+template <class World> plant::Vector<World::kAxes> on_axes_of(const Vector3d &place)
 {
     if constexpr (World::kAxes == 2) {
         return {place.x(), place.z()};
@@ -67,9 +64,7 @@ bool has_coxa_joint(const plant::Model &model)
     return yields;
 }
 
-PressedLimb::PressedLimb(const plant::Model &model) : model_(model), state_(state_of(model_))
-{
-}
+PressedLimb::PressedLimb(const plant::Model &model) : model_(model), state_(state_of(model_)) {}
 
 Vector3d PressedLimb::unbent_rad(const Vector3d &motor_rad) const
 {

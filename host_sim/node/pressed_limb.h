@@ -8,8 +8,7 @@
 
 #include "plant/limb_state.h"
 
-namespace brace::node
-{
+namespace brace::node {
 
 // A limb has a coxa joint when something yields across its plane.
 bool has_coxa_joint(const plant::Model &model);
@@ -26,16 +25,15 @@ struct Pressed {
     bool solved = true;
 };
 
-class PressedLimb
-{
+class PressedLimb {
 public:
     explicit PressedLimb(const plant::Model &model);
     PressedLimb(const PressedLimb &) = delete;
     PressedLimb &operator=(const PressedLimb &) = delete;
 
     // Holds the tip at press_mm from its unloaded place at these motor angles. 0 stiffness: the tip is free.
-    void take_hold(const Eigen::Vector3d &motor_rad, double hold_n_per_mm, const Eigen::Vector3d &press_mm,
-                   double t_s, double temp_degc);
+    void take_hold(const Eigen::Vector3d &motor_rad, double hold_n_per_mm, const Eigen::Vector3d &press_mm, double t_s,
+                   double temp_degc);
 
     // Finds the rest state. False: nothing yields in some direction.
     bool settle(const Eigen::Vector3d &motor_rad, double t_s, double temp_degc, Pressed &pressed);

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-namespace brace::node
-{
+namespace brace::node {
 
 void Setpoints::start(const std::array<double, 3> &theta_rad)
 {

@@ -8,12 +8,10 @@ extern "C" {
 #include "api/brace_node.h"
 }
 
-namespace brace::node
-{
+namespace brace::node {
 
 // Set-points that move from one posture to the next at the drives' rate.
-class Setpoints
-{
+class Setpoints {
 public:
     void start(const std::array<double, 3> &theta_rad);
     void add(double at_s, double theta1_rad, double theta2_rad);
@@ -31,8 +29,7 @@ private:
     std::size_t next_ = 0;
 };
 
-class Faults
-{
+class Faults {
 public:
     void add(int fault, int joint, double value, double at_s, double for_s);
     void step(double t_s);

@@ -3,10 +3,8 @@
 #include <cmath>
 #include <cstring>
 
-namespace brace::node
-{
-namespace
-{
+namespace brace::node {
+namespace {
 
 constexpr double kMiddle_rad = 3.14159265358979323846; // where a servo reads 2048
 constexpr std::uint32_t kBaud = 3'000'000;

@@ -13,11 +13,9 @@ extern "C" {
 #include "brace_hal_posix.h"
 }
 
-namespace brace::node
-{
+namespace brace::node {
 
-class ServoJoints
-{
+class ServoJoints {
 public:
     ServoJoints() = default;
     ~ServoJoints();

@@ -3,20 +3,16 @@
 namespace brace::plant {
 namespace {
 
-template <class Number>
-using Vec = Eigen::Matrix<Number, 2, 1>;
-template <class Number>
-using Mat = Eigen::Matrix<Number, 2, 2>;
+template <class Number> using Vec = Eigen::Matrix<Number, 2, 1>;
+template <class Number> using Mat = Eigen::Matrix<Number, 2, 2>;
 
-template <class Number>
-Vec<Number> quarter_turn(const Vec<Number> &v)
+template <class Number> Vec<Number> quarter_turn(const Vec<Number> &v)
 {
     return {-v.y(), v.x()};
 }
 
 // A body's turn, from half its angle: what a small turn moves keeps all its digits.
-template <class Number>
-struct Turn {
+template <class Number> struct Turn {
     void by(const Number &angle_rad)
     {
         Number half_sin, half_cos;
@@ -31,8 +27,7 @@ struct Turn {
 };
 
 // What a body yields, seen from the robot.
-template <class Number>
-struct Yielding {
+template <class Number> struct Yielding {
     Yielding(const BodyOf<Number> &body, const Turn<Number> &turn)
     {
         const Number cos_2 = 1.0 - 2.0 * turn.sin * turn.sin;
@@ -52,8 +47,7 @@ struct Yielding {
     Number xx, xz, zz;
 };
 
-template <class Number>
-void add_square(Mat<Number> &sum, const Number &factor, const Number &x, const Number &z)
+template <class Number> void add_square(Mat<Number> &sum, const Number &factor, const Number &x, const Number &z)
 {
     sum(0, 0) += factor * x * x;
     sum(0, 1) += factor * x * z;
@@ -91,7 +85,8 @@ void CondensedOf<Number>::linearise(const StructureOf<Number> &structure,
     for (std::size_t i = count_; i-- > 0;) {
         const BodyOf<Number> &body = structure.body[i];
         const Turn<Number> &turn = turns[i];
-        const auto let_yield = [&]() __attribute__((always_inline)) {
+        const auto let_yield = [&]() __attribute__((always_inline))
+        {
             const Yielding<Number> spring(body, turn);
             const Vec<Number> turned_force = quarter_turn(force_n);
             const Vec<Number> stretch = spring.stretch_mm(force_n);
@@ -199,8 +194,7 @@ void CondensedOf<double>::about(const Structure &structure, const std::array<Joi
     linearise(structure, joint, shape);
 }
 
-template <>
-void CondensedOf<double>::follow(const Change<2> &change, const Shape &shape, Followed &followed) const
+template <> void CondensedOf<double>::follow(const Change<2> &change, const Shape &shape, Followed &followed) const
 {
     go(change, shape, followed);
 }

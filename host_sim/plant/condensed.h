@@ -21,8 +21,7 @@
 namespace brace::plant {
 
 // Number: double for one limb, Lanes for four that have the same bodies.
-template <class Number>
-class CondensedOf {
+template <class Number> class CondensedOf {
 public:
     using Shape = ShapeOf<Number, 2, kMostBodies>;
     using Followed = FollowedOf<Number, 2, kMostBodies>;
@@ -39,12 +38,12 @@ public:
 private:
     struct Hinge {
         int joint;
-        Number curvature_n_mm_per_rad;       // W_phiphi before the elimination
-        Eigen::Matrix<Number, 2, 1> lever_mm;     // W_phiy
+        Number curvature_n_mm_per_rad; // W_phiphi before the elimination
+        Eigen::Matrix<Number, 2, 1> lever_mm; // W_phiy
         std::array<Number, 2> by_turn_n_mm_per_rad;
         Number torque_n_mm;
         Number turn_per_torque; // c / p
-        Number lacks_rad;       // turn to rest while nothing else changes
+        Number lacks_rad; // turn to rest while nothing else changes
     };
 
     void linearise(const StructureOf<Number> &structure, const std::array<JointHingeOf<Number>, 2> &joint,
@@ -57,8 +56,8 @@ private:
 };
 
 template <>
-void CondensedOf<double>::about(const StructureOf<double> &structure,
-                                const std::array<JointHingeOf<double>, 2> &joint, const Shape &shape);
+void CondensedOf<double>::about(const StructureOf<double> &structure, const std::array<JointHingeOf<double>, 2> &joint,
+                                const Shape &shape);
 template <>
 void CondensedOf<double>::follow(const ChangeOf<double, 2> &change, const Shape &shape, Followed &followed) const;
 template <>

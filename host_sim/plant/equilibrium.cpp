@@ -9,8 +9,7 @@ namespace brace::plant {
 namespace {
 
 // A number of each joint.
-template <int N>
-using Each = std::array<double, N>;
+template <int N> using Each = std::array<double, N>;
 
 constexpr int kMaxSteps = 200;
 constexpr int kMaxSearch = 80;
@@ -18,19 +17,16 @@ constexpr double kGoodBalance_n = 1e-10;
 constexpr double kPromisedBalance_n = 1e-9;
 constexpr double kRounding = 1e-15; // relative, of a sum of a few products
 constexpr double kLeastCurvature = 1e-12;
-constexpr double kDamping =
-    1e-9; // of each spring: keeps a joint within its play, where nothing pushes back, solvable
+constexpr double kDamping = 1e-9; // of each spring: keeps a joint within its play, where nothing pushes back, solvable
 
 // Slope of the energy without friction, and its curvature but for M.
-template <int N>
-struct Slope {
+template <int N> struct Slope {
     Each<N> torque_n_mm{};
     Matrix<N> curvature = Matrix<N>::Zero();
     Vector<N> force_n;
 };
 
-template <int N>
-Slope<N> slope_at(const RestProblem<N> &problem, const Each<N> &deflection)
+template <int N> Slope<N> slope_at(const RestProblem<N> &problem, const Each<N> &deflection)
 {
     Vector<N> displacement = problem.displacement_mm;
     for (int i = 0; i < problem.joint_count; ++i) {
@@ -40,22 +36,21 @@ Slope<N> slope_at(const RestProblem<N> &problem, const Each<N> &deflection)
     slope.force_n = problem.stiffness_n_per_mm * displacement;
     for (int i = 0; i < problem.joint_count; ++i) {
         const JointUnknown<N> &joint = problem.joint[i];
-        slope.torque_n_mm[i] = spring_torque_n_mm(joint.law, deflection[i]) - joint.load_n_mm
-                               - joint.lever_mm.dot(slope.force_n);
+        slope.torque_n_mm[i] =
+            spring_torque_n_mm(joint.law, deflection[i]) - joint.load_n_mm - joint.lever_mm.dot(slope.force_n);
         const Vector<N> pushed = problem.stiffness_n_per_mm * joint.lever_mm;
         for (int j = 0; j < problem.joint_count; ++j) {
             slope.torque_n_mm[i] += problem.by_loads_n_mm_per_rad(i, j) * deflection[j];
             slope.curvature(i, j) = problem.joint[j].lever_mm.dot(pushed);
         }
-        slope.curvature(i, i) += spring_stiffness_n_mm_per_rad(joint.law, deflection[i])
-                                 + kDamping / joint.law.compliance_rad_per_n_mm;
+        slope.curvature(i, i) +=
+            spring_stiffness_n_mm_per_rad(joint.law, deflection[i]) + kDamping / joint.law.compliance_rad_per_n_mm;
     }
     return slope;
 }
 
 // The sign of each joint's motion, and so the sign of friction's slope; 0 where friction holds the joint.
-template <int N>
-Each<N> moving_sign(const RestProblem<N> &problem, const Each<N> &deflection, const Each<N> &torque)
+template <int N> Each<N> moving_sign(const RestProblem<N> &problem, const Each<N> &deflection, const Each<N> &torque)
 {
     Each<N> sign{};
     for (int i = 0; i < problem.joint_count; ++i) {
@@ -72,8 +67,7 @@ Each<N> moving_sign(const RestProblem<N> &problem, const Each<N> &deflection, co
 
 // Joints that move the tip almost alike leave a valley with almost no curvature along it; the curvature there is raised
 // to the least that rounding allows to divide by.
-template <int N>
-struct Pivots {
+template <int N> struct Pivots {
     Matrix<N> lower; // ones on its diagonal
     Vector<N> pivot; // of the joints that move
     bool positive = true;
@@ -148,16 +142,14 @@ Each<N> direction_of(const RestProblem<N> &problem, const Each<N> &deflection, c
 }
 
 // The energy along a direction from a point, up to the first place where a joint's friction would change its sign.
-template <int N>
-class Line {
+template <int N> class Line {
 public:
     Line(const RestProblem<N> &problem, const Each<N> &from, const Each<N> &direction, const Each<N> &sign)
         : problem_(problem), from_(from), direction_(direction), sign_(sign)
     {
         for (int i = 0; i < problem.joint_count; ++i) {
             const double moved = from[i] - problem.joint[i].before_rad;
-            if (rubs(problem.joint[i].law) && moved * direction[i] < 0.0
-                && -moved / direction[i] < end_) {
+            if (rubs(problem.joint[i].law) && moved * direction[i] < 0.0 && -moved / direction[i] < end_) {
                 end_ = -moved / direction[i];
                 turning_ = i;
             }
@@ -185,8 +177,7 @@ public:
         here = slope_at<N>(problem_, point);
         double sum = 0.0;
         for (int i = 0; i < problem_.joint_count; ++i) {
-            sum += direction_[i]
-                   * (here.torque_n_mm[i] + sign_[i] * friction_n_mm(problem_.joint[i].law, point[i]));
+            sum += direction_[i] * (here.torque_n_mm[i] + sign_[i] * friction_n_mm(problem_.joint[i].law, point[i]));
         }
         return sum;
     }
@@ -202,8 +193,7 @@ private:
 
 // How far to go along the line: all of Newton's step if that is good, else to the least energy on the line. `start` is
 // the slope at its beginning; `here` is the slope at the place that is returned.
-template <int N>
-double length_of(const Line<N> &line, double start, Slope<N> &here)
+template <int N> double length_of(const Line<N> &line, double start, Slope<N> &here)
 {
     double high = std::min(1.0, line.end());
     double high_slope = line.slope(high, here);
@@ -238,9 +228,8 @@ double length_of(const Line<N> &line, double start, Slope<N> &here)
 }
 
 // How far from rest a point is, and how far rounding puts a point that is at rest.
-template <int N>
-struct Balance {
-    Each<N> torque_n_mm{};     // unbalance, with friction
+template <int N> struct Balance {
+    Each<N> torque_n_mm{}; // unbalance, with friction
     double unbalance_n = 0.0; // the largest unbalance over the longest lever
     double rounding_n = 0.0;
     double rounding_at_stops_n = 0.0; // the same if each joint were at the edge of its backlash
@@ -278,8 +267,7 @@ Balance<N> balance_at(const RestProblem<N> &problem, const Each<N> &deflection, 
 
 } // namespace
 
-template <int N>
-void find_rest(const RestProblem<N> &problem, RestState<N> &state)
+template <int N> void find_rest(const RestProblem<N> &problem, RestState<N> &state)
 {
     Each<N> deflection = state.deflection_rad;
     Slope<N> slope = slope_at<N>(problem, deflection);
@@ -290,8 +278,7 @@ void find_rest(const RestProblem<N> &problem, RestState<N> &state)
             state.deflection_rad = deflection;
             state.force_n = slope.force_n;
             state.unbalance_n = balance.unbalance_n;
-            state.solved =
-                balance.unbalance_n <= std::max(kPromisedBalance_n, 8.0 * balance.rounding_at_stops_n);
+            state.solved = balance.unbalance_n <= std::max(kPromisedBalance_n, 8.0 * balance.rounding_at_stops_n);
             return;
         }
         for (int i = 0; i < problem.joint_count; ++i) {

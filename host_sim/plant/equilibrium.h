@@ -17,32 +17,28 @@
 namespace brace::plant {
 
 // N: axes along which the tip moves, and at most as many joints: 2 in the plane, 3 in space.
-template <int N>
-struct JointUnknown {
-    Vector<N> lever_mm;       // tip displacement per deflection
-    JointLaw law;             // compliance > 0
-    double load_n_mm;         // torque on the joint besides that of the tip force
-    double before_rad;        // deflection at which friction holds it
+template <int N> struct JointUnknown {
+    Vector<N> lever_mm; // tip displacement per deflection
+    JointLaw law; // compliance > 0
+    double load_n_mm; // torque on the joint besides that of the tip force
+    double before_rad; // deflection at which friction holds it
 };
 
-template <int N>
-struct RestProblem {
-    Matrix<N> stiffness_n_per_mm;                         // stiffness of the structure
-    Matrix<N> by_loads_n_mm_per_rad = Matrix<N>::Zero();  // M
+template <int N> struct RestProblem {
+    Matrix<N> stiffness_n_per_mm; // stiffness of the structure
+    Matrix<N> by_loads_n_mm_per_rad = Matrix<N>::Zero(); // M
     Vector<N> displacement_mm;
     int joint_count;
     std::array<JointUnknown<N>, N> joint;
 };
 
-template <int N>
-struct RestState {
+template <int N> struct RestState {
     std::array<double, N> deflection_rad; // in: where to start; out: at rest
     Vector<N> force_n;
     double unbalance_n; // largest unbalanced torque over the longest lever
-    bool solved;        // unbalance within 1e-9 N, or within rounding where that is more
+    bool solved; // unbalance within 1e-9 N, or within rounding where that is more
 };
 
-template <int N>
-void find_rest(const RestProblem<N> &problem, RestState<N> &state);
+template <int N> void find_rest(const RestProblem<N> &problem, RestState<N> &state);
 
 } // namespace brace::plant

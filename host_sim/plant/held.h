@@ -9,8 +9,7 @@
 
 namespace brace::plant {
 
-template <int N>
-constexpr int kAllFree = (1 << N) - 1;
+template <int N> constexpr int kAllFree = (1 << N) - 1;
 
 // The sum of the products of two eigenvalues each.
 inline double pairs(const Eigen::Matrix3d &matrix)
@@ -33,8 +32,7 @@ inline double least_share(const Eigen::Matrix3d &compliance)
 }
 
 // K of the held tip: no force acts along a free axis.
-template <int N>
-Matrix<N> stiffness_held(const Matrix<N> &compliance, int free_axis)
+template <int N> Matrix<N> stiffness_held(const Matrix<N> &compliance, int free_axis)
 {
     if (free_axis == 0) {
         return compliance.inverse();
@@ -68,8 +66,7 @@ inline int negative_eigenvalues(const Eigen::Matrix3d &compliance)
 }
 
 // How many of a compliance's directions, among those held, push the wrong way.
-template <int N>
-int negatives(const Matrix<N> &compliance, int free_axis)
+template <int N> int negatives(const Matrix<N> &compliance, int free_axis)
 {
     if (free_axis == kAllFree<N>) {
         return 0;

@@ -26,8 +26,7 @@ double torque_at(const JointLaw &law, double deflection_rad, double reversal_rad
     state.friction_share =
         effects::coulomb_friction::turned_share(state.friction_share, state.instant_rad - before, reversal_rad);
     const double spring = spring_torque_n_mm(law, state.instant_rad);
-    return spring
-           + state.friction_share * effects::coulomb_friction::most_n_mm(law, spring);
+    return spring + state.friction_share * effects::coulomb_friction::most_n_mm(law, spring);
 }
 
 // How far friction is strained where a test starts at this torque: friction carries what the spring does not carry.
@@ -56,8 +55,8 @@ double deflection_under(const JointLaw &law, double torque_n_mm, JointState &sta
     const auto spring_n_mm = [&](double sense) {
         return effects::coulomb_friction::spring_while_moving_n_mm(law, torque_n_mm, sense);
     };
-    state.instant_rad = std::clamp(state.instant_rad, least_deflection(law, spring_n_mm(1.0)),
-                                   most_deflection(law, spring_n_mm(-1.0)));
+    state.instant_rad =
+        std::clamp(state.instant_rad, least_deflection(law, spring_n_mm(1.0)), most_deflection(law, spring_n_mm(-1.0)));
     return state.instant_rad + state.delayed_rad;
 }
 
@@ -76,8 +75,8 @@ void play_joint(const Model &model, const brace_joint_rows_t &rows, const JointR
             state = {};
         } else if (creeps) {
             const double approach = effects::creep::approach(model, rows.t_s[i] - rows.t_s[i - 1]);
-            state.delayed_rad = effects::creep::delayed_rad(model, state.delayed_rad,
-                                                            elastic_rad(law, state.instant_rad), approach);
+            state.delayed_rad =
+                effects::creep::delayed_rad(model, state.delayed_rad, elastic_rad(law, state.instant_rad), approach);
         }
         if (i == 0 || changes) {
             const double temp_degc = rows.temp_degc != nullptr ? rows.temp_degc[i] : model.thermal.reference_degc;
@@ -88,10 +87,10 @@ void play_joint(const Model &model, const brace_joint_rows_t &rows, const JointR
         } else {
             if (starts) {
                 state.instant_rad = rows.input[i] + offset;
-                state.friction_share = rows.start_torque_n_mm == nullptr
-                                           ? 0.0 // relaxed
-                                           : start_share(law, state.instant_rad,
-                                                         rows.start_torque_n_mm[i] - reading.torque_offset_n_mm);
+                state.friction_share =
+                    rows.start_torque_n_mm == nullptr
+                        ? 0.0 // relaxed
+                        : start_share(law, state.instant_rad, rows.start_torque_n_mm[i] - reading.torque_offset_n_mm);
             }
             out[i] = torque_at(law, rows.input[i] + offset, reading.reversal_rad, state) + reading.torque_offset_n_mm;
         }

@@ -13,7 +13,6 @@ struct JointReading {
 
 // Inputs must be sound (see api/joint.cpp). The reading takes the place of rows.reversal_rad. Writes rows.count
 // entries.
-void play_joint(const effects::Model &model, const brace_joint_rows_t &rows, const JointReading &reading,
-                double *out);
+void play_joint(const effects::Model &model, const brace_joint_rows_t &rows, const JointReading &reading, double *out);
 
 } // namespace brace::plant

@@ -9,8 +9,7 @@
 
 namespace brace::plant {
 
-template <int N, class Rest>
-class KnownRests {
+template <int N, class Rest> class KnownRests {
 public:
     void clear() { count_ = 0; }
 

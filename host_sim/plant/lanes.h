@@ -39,14 +39,35 @@ static_assert(kLanes == 4, "constants, and is_there, name four lanes");
 static_assert(!std::is_trivially_copyable_v<Lanes>, "it would be handed over in registers");
 
 // What formulas for one limb or four need beside the arithmetic.
-inline double larger(double a, double b) { return std::max(a, b); }
-inline double magnitude(double a) { return std::fabs(a); }
-inline double one_if_negative(double a) { return a < 0.0 ? 1.0 : 0.0; }
-inline bool is_there(double a) { return a != 0.0; }
+inline double larger(double a, double b)
+{
+    return std::max(a, b);
+}
+inline double magnitude(double a)
+{
+    return std::fabs(a);
+}
+inline double one_if_negative(double a)
+{
+    return a < 0.0 ? 1.0 : 0.0;
+}
+inline bool is_there(double a)
+{
+    return a != 0.0;
+}
 
-inline Lanes larger(const Lanes &a, const Lanes &b) { return Lanes(a.at < b.at ? b.at : a.at); }
-inline Lanes magnitude(const Lanes &a) { return Lanes(a.at > 0.0 ? a.at : 0.0 - a.at); }
-inline Lanes one_if_negative(const Lanes &a) { return Lanes(a.at < 0.0 ? Lanes(1.0).at : Lanes(0.0).at); }
+inline Lanes larger(const Lanes &a, const Lanes &b)
+{
+    return Lanes(a.at < b.at ? b.at : a.at);
+}
+inline Lanes magnitude(const Lanes &a)
+{
+    return Lanes(a.at > 0.0 ? a.at : 0.0 - a.at);
+}
+inline Lanes one_if_negative(const Lanes &a)
+{
+    return Lanes(a.at < 0.0 ? Lanes(1.0).at : Lanes(0.0).at);
+}
 inline bool is_there(const Lanes &a) // in any lane
 {
     return a.at[0] != 0.0 || a.at[1] != 0.0 || a.at[2] != 0.0 || a.at[3] != 0.0;
@@ -56,13 +77,12 @@ inline bool is_there(const Lanes &a) // in any lane
 // rounding.
 constexpr double kSeries_rad = 0.5;
 
-template <class Number>
-void series(const Number &a, Number &sin, Number &cos)
+template <class Number> void series(const Number &a, Number &sin, Number &cos)
 {
     static constexpr double kSin[] = {-1.0 / 1307674368000.0, 1.0 / 6227020800.0, -1.0 / 39916800.0, 1.0 / 362880.0,
-                               -1.0 / 5040.0,          1.0 / 120.0,        -1.0 / 6.0};
-    static constexpr double kCos[] = {-1.0 / 87178291200.0, 1.0 / 479001600.0, -1.0 / 3628800.0, 1.0 / 40320.0,
-                               -1.0 / 720.0,         1.0 / 24.0,        -0.5};
+                                      -1.0 / 5040.0,          1.0 / 120.0,        -1.0 / 6.0};
+    static constexpr double kCos[] = {
+        -1.0 / 87178291200.0, 1.0 / 479001600.0, -1.0 / 3628800.0, 1.0 / 40320.0, -1.0 / 720.0, 1.0 / 24.0, -0.5};
     const Number square = a * a;
     Number by_sin = kSin[0], by_cos = kCos[0];
     for (std::size_t i = 1; i < std::size(kSin); ++i) {
@@ -96,7 +116,6 @@ inline void sin_cos(const Lanes &a, Lanes &sin, Lanes &cos)
 
 } // namespace brace::plant
 
-template <>
-struct Eigen::NumTraits<brace::plant::Lanes> : Eigen::GenericNumTraits<brace::plant::Lanes> {
+template <> struct Eigen::NumTraits<brace::plant::Lanes> : Eigen::GenericNumTraits<brace::plant::Lanes> {
     enum { RequireInitialization = 0, ReadCost = 1, AddCost = 1, MulCost = 1 };
 };

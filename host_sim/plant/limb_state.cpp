@@ -71,8 +71,7 @@ bool LimbState<World>::move_to(double theta1_rad, double theta2_rad, const effec
 }
 
 // Without load no hinge's turn changes what the others do: a joint's spring adds its lever's square to the compliance.
-template <class World>
-void LimbState<World>::find_unloaded()
+template <class World> void LimbState<World>::find_unloaded()
 {
     typename World::Condensed unloaded;
     unloaded.about(without_loads(structure_), std::array<JointHinge, N>{}, typename World::Condensed::Shape{});
@@ -81,8 +80,7 @@ void LimbState<World>::find_unloaded()
 }
 
 // A joint that is more than a spring is an unknown, unless it is rigid and without backlash.
-template <class World>
-bool LimbState<World>::prepare()
+template <class World> bool LimbState<World>::prepare()
 {
     is_condensed_ = false;
     known_.clear();
@@ -117,8 +115,7 @@ bool LimbState<World>::prepare()
     return true;
 }
 
-template <class World>
-void LimbState<World>::start_run(bool creep_gone, double contact_mm_per_n)
+template <class World> void LimbState<World>::start_run(bool creep_gone, double contact_mm_per_n)
 {
     prepared_ = prepared_ && contact_mm_per_n == contact_mm_per_n_;
     contact_mm_per_n_ = contact_mm_per_n;
@@ -133,8 +130,7 @@ void LimbState<World>::start_run(bool creep_gone, double contact_mm_per_n)
     }
 }
 
-template <class World>
-void LimbState<World>::let_creep(double dt_s)
+template <class World> void LimbState<World>::let_creep(double dt_s)
 {
     if (dt_s != creep_dt_s_) {
         creep_dt_s_ = dt_s;
@@ -147,19 +143,17 @@ void LimbState<World>::let_creep(double dt_s)
     is_condensed_ = false;
 }
 
-template <class World>
-auto LimbState<World>::joint_hinges() const -> std::array<JointHinge, N>
+template <class World> auto LimbState<World>::joint_hinges() const -> std::array<JointHinge, N>
 {
     std::array<JointHinge, N> joint;
     for (std::size_t k = 0; k < N; ++k) {
-        joint[k] = is_unknown_[k] ? JointHinge{0.0, turn_of(k)}
-                                  : JointHinge{law_[k].compliance_rad_per_n_mm, delayed_rad_[k]};
+        joint[k] =
+            is_unknown_[k] ? JointHinge{0.0, turn_of(k)} : JointHinge{law_[k].compliance_rad_per_n_mm, delayed_rad_[k]};
     }
     return joint;
 }
 
-template <class World>
-auto LimbState<World>::take_change(const Tangent<N> &tangent) -> Change<N>
+template <class World> auto LimbState<World>::take_change(const Tangent<N> &tangent) -> Change<N>
 {
     const double series_mm_per_n = contact_mm_per_n_ + stops_mm_per_n_;
     Mat compliance = tangent.compliance_mm_per_n;
@@ -230,8 +224,7 @@ bool LimbState<World>::balance_joints(const Tangent<N> &tangent, const Mat &comp
     return state.solved;
 }
 
-template <class World>
-void LimbState<World>::went_to(const typename World::Condensed::Followed &followed)
+template <class World> void LimbState<World>::went_to(const typename World::Condensed::Followed &followed)
 {
     rest_.shape = followed.shape;
     rest_.torque_n_mm = followed.torque_n_mm;
@@ -247,8 +240,7 @@ void LimbState<World>::went_to(const typename World::Condensed::Followed &follow
 }
 
 // Small displacements count from the unloaded limb, wherever it was.
-template <class World>
-void LimbState<World>::begin_linear()
+template <class World> void LimbState<World>::begin_linear()
 {
     if (displacements_ == Displacements::small && search_.seeks()) {
         rest_.shape = {};
@@ -257,8 +249,7 @@ void LimbState<World>::begin_linear()
 
 // Goes on to where rest would be if the limb went on as it came. It saves a step of Newton's method. A joint that
 // friction holds stays where it is. false: the tip does not go on along its way, or too far.
-template <class World>
-bool LimbState<World>::foresee(const Vec &target_mm)
+template <class World> bool LimbState<World>::foresee(const Vec &target_mm)
 {
     if (!has_earlier_) {
         return false;
@@ -280,8 +271,7 @@ bool LimbState<World>::foresee(const Vec &target_mm)
 }
 
 // Begins to lead the tip to the target.
-template <class World>
-void LimbState<World>::begin_search(const Vec &target_mm, int free_axis)
+template <class World> void LimbState<World>::begin_search(const Vec &target_mm, int free_axis)
 {
     for (int axis = 0; axis < N; ++axis) {
         if ((free_axis >> axis & 1) != 0) {
@@ -296,8 +286,7 @@ void LimbState<World>::begin_search(const Vec &target_mm, int free_axis)
 }
 
 // Steps alone to the end.
-template <class World>
-void LimbState<World>::seek()
+template <class World> void LimbState<World>::seek()
 {
     while (seeks()) {
         if (!is_condensed_) {
@@ -310,8 +299,7 @@ void LimbState<World>::seek()
     }
 }
 
-template <class World>
-bool LimbState<World>::hang()
+template <class World> bool LimbState<World>::hang()
 {
     begin_search(search_.reached_mm(), kAllFree<N>);
     seek();
@@ -320,28 +308,24 @@ bool LimbState<World>::hang()
     return search_.solved();
 }
 
-template <class World>
-bool LimbState<World>::has_unknowns() const
+template <class World> bool LimbState<World>::has_unknowns() const
 {
     return std::any_of(is_unknown_.begin(), is_unknown_.end(), [](bool is_unknown) { return is_unknown; });
 }
 
-template <class World>
-bool LimbState<World>::remembers() const
+template <class World> bool LimbState<World>::remembers() const
 {
     return effects::remembers_readings(now_, World::kFirstJoint);
 }
 
-template <class World>
-auto LimbState<World>::hold_tip(const Vec &displacement_mm, int free_axis) -> LimbRest<N>
+template <class World> auto LimbState<World>::hold_tip(const Vec &displacement_mm, int free_axis) -> LimbRest<N>
 {
     begin_hold(displacement_mm, free_axis);
     seek();
     return end_hold();
 }
 
-template <class World>
-void LimbState<World>::begin_hold(const Vec &displacement_mm, int free_axis)
+template <class World> void LimbState<World>::begin_hold(const Vec &displacement_mm, int free_axis)
 {
     tip_mm_ = effects::contact_play::dragged_mm<N>(model_, tip_mm_, displacement_mm);
     const Vec target_mm = origin_mm_ + tip_mm_;
@@ -362,8 +346,7 @@ void LimbState<World>::begin_hold(const Vec &displacement_mm, int free_axis)
     }
 }
 
-template <class World>
-auto LimbState<World>::end_hold() -> LimbRest<N>
+template <class World> auto LimbState<World>::end_hold() -> LimbRest<N>
 {
     const bool solved = search_.solved();
     if (leads_on_) {
@@ -382,8 +365,7 @@ auto LimbState<World>::end_hold() -> LimbRest<N>
     return rest;
 }
 
-template <class World>
-auto LimbState<World>::torque_per_motor_turn() const -> Mat
+template <class World> auto LimbState<World>::torque_per_motor_turn() const -> Mat
 {
     std::array<JointHinge, N> joint{};
     for (std::size_t k = 0; k < N; ++k) {

@@ -40,8 +40,7 @@ struct InSpace {
     using Condensed = SpaceCondensed;
 };
 
-template <int N>
-struct LimbRest {
+template <int N> struct LimbRest {
     Vector<N> force_n;                          // on the limb's tip
     std::array<double, N> joint_deflection_rad; // elastic, play and creep
     std::array<double, N> joint_torque_n_mm;    // of all loads beyond a joint about it, where it is now
@@ -49,8 +48,7 @@ struct LimbRest {
     bool solved;
 };
 
-template <class World>
-class LimbState {
+template <class World> class LimbState {
     static constexpr int N = World::kAxes;
     using Vec = Vector<N>;
     using Mat = Matrix<N>;
@@ -128,9 +126,9 @@ private:
     unsigned structures_found_ = 0;
     Vec weight_n_ = Vec::Zero(); // of all its bodies
     Mat joints_rigid_mm_per_n_ = Mat::Zero(); // its compliance without load and with rigid joints
-    std::array<Vec, N> unloaded_lever_mm_{};  // of the joints
-    double softest_mm_per_n_ = 0.0;           // trace of its compliance without load
-    double stops_mm_per_n_ = 0.0;             // yields in series, where all else is rigid while joints stick
+    std::array<Vec, N> unloaded_lever_mm_{}; // of the joints
+    double softest_mm_per_n_ = 0.0; // trace of its compliance without load
+    double stops_mm_per_n_ = 0.0; // yields in series, where all else is rigid while joints stick
     std::array<JointLaw, N> law_{}; // the compliance of a rigid joint with backlash is its stop's
     std::array<bool, N> is_unknown_{}; // joints that are more than springs; they are the unknowns of a RestProblem
 
@@ -138,18 +136,18 @@ private:
     Search<N, Rest> search_;
     Step step_{}; // that is being taken
     KnownRests<N, Rest> known_; // at this posture and with these joints
-    bool is_new_ = false;       // nothing known was at the target
+    bool is_new_ = false; // nothing known was at the target
     // Where the tip was held before it came to where rest_ holds it, at this posture and in this run.
     Vec earlier_mm_ = Vec::Zero();
     Rest earlier_;
     bool has_earlier_ = false;
     bool leads_on_ = false; // the hold leads the tip to another place
     typename World::Condensed condensed_;
-    bool is_condensed_ = false;            // condensed_ is that of the unloaded limb
-    Vec origin_mm_ = Vec::Zero();          // from where displacements count
-    Vec tip_mm_ = Vec::Zero();             // where the contact has dragged the tip
-    std::array<double, N> before_rad_{};   // rest_.instant_rad at the last reading
-    std::array<double, N> delayed_rad_{};  // creep
+    bool is_condensed_ = false; // condensed_ is that of the unloaded limb
+    Vec origin_mm_ = Vec::Zero(); // from where displacements count
+    Vec tip_mm_ = Vec::Zero(); // where the contact has dragged the tip
+    std::array<double, N> before_rad_{}; // rest_.instant_rad at the last reading
+    std::array<double, N> delayed_rad_{}; // creep
     double creep_dt_s_ = -1.0, creep_approach_ = 0.0;
 };
 

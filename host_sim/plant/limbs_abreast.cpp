@@ -5,16 +5,14 @@
 namespace brace::plant {
 namespace {
 
-template <class One, class Four>
-void put(std::size_t lane, const One &from, Four &to)
+template <class One, class Four> void put(std::size_t lane, const One &from, Four &to)
 {
     for (Eigen::Index i = 0; i < from.size(); ++i) {
         to(i).at[lane] = from(i);
     }
 }
 
-template <class Four, class One>
-void copy(std::size_t lane, const Four &from, One &to)
+template <class Four, class One> void copy(std::size_t lane, const Four &from, One &to)
 {
     for (Eigen::Index i = 0; i < from.size(); ++i) {
         to(i) = from(i).at[lane];

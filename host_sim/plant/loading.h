@@ -31,7 +31,7 @@ private:
     struct Run {
         std::size_t first, end;
         std::size_t earlier; // first row of the run that went this way before; `first` where none did
-        bool same_pace;      // and took the same time from row to row
+        bool same_pace; // and took the same time from row to row
     };
 
     // A limb in a row of a run, which begins with what its rig did.
@@ -65,7 +65,7 @@ private:
     std::vector<Run> runs_;
     std::vector<LimbRest<2>> rests_;
     Limbs now_;
-    Limbs last_;         // whose rests they are, if known_
+    Limbs last_; // whose rests they are, if known_
     bool known_ = false;
     bool remembers_pace_ = false;
 };

@@ -16,8 +16,7 @@ struct Step {
     bool stable;       // it goes to a minimum of the energy
 };
 
-template <int N, class Rest>
-class Search {
+template <int N, class Rest> class Search {
 public:
     using Vec = Vector<N>;
 
@@ -93,8 +92,8 @@ private:
     enum class Outcome { goes_on, settled, lost };
 
     static constexpr int kMostSteps = 12;
-    static constexpr double kGoodMove_n = 1e-10;     // a step that moves less is the last
-    static constexpr double kPromisedMove_n = 1e-9;  // it may move so much where rounding keeps it from becoming less
+    static constexpr double kGoodMove_n = 1e-10; // a step that moves less is the last
+    static constexpr double kPromisedMove_n = 1e-9; // it may move so much where rounding keeps it from becoming less
     static constexpr double kShortestPart = 1.0 / 64.0; // of the way to a displacement
 
     void begin_part()
@@ -121,8 +120,7 @@ private:
             return Outcome::lost;
         }
         // Each step squares what is left, so the next one moves less than in proportion.
-        if (step.moved_n <= kGoodMove_n
-            || (before > 0 && step.moved_n * step.moved_n <= kGoodMove_n * last_moved_n)) {
+        if (step.moved_n <= kGoodMove_n || (before > 0 && step.moved_n * step.moved_n <= kGoodMove_n * last_moved_n)) {
             return ended;
         }
         if (before > 2 && step.moved_n > 0.5 * last_moved_n) {

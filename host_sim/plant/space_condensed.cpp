@@ -179,8 +179,7 @@ void SpaceCondensed::follow(const Change<3> &change, const SpaceShape &shape, Fo
         const bool is_joint = hinge.joint != kElastic;
         const double kept_rad = is_joint ? change.turn_rad[k] : 0.0;
         const double more_n_mm = hinge.lever_mm.dot(change.force_n) + hinge.by_turn_n_mm_per_rad.dot(kept)
-                                 + hinge.by_phi_n_mm_per_rad.dot(turned_rad)
-                                 + hinge.curvature_n_mm_per_rad * kept_rad;
+                                 + hinge.by_phi_n_mm_per_rad.dot(turned_rad) + hinge.curvature_n_mm_per_rad * kept_rad;
         const double sprung_rad = hinge.lacks_rad + hinge.turn_per_torque * more_n_mm;
         turned_rad += (kept_rad + sprung_rad) * hinge.axis;
         followed.shape.turn_rad[static_cast<std::size_t>(body_of_[i])] += kept_rad + sprung_rad;

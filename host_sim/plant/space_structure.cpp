@@ -148,8 +148,9 @@ void add_link(const Model &model, int index, const Line &line, double weight_n, 
         }
         weigh_to(1.0);
     }
-    builder.slides(end_mm, ellipsoid * (link.axial_mm_per_n * square(elastic_along) + bending * square(elastic_up)
-                                        + link.lateral_mm_per_n * square(kLeft)));
+    builder.slides(end_mm, ellipsoid
+                               * (link.axial_mm_per_n * square(elastic_along) + bending * square(elastic_up)
+                                  + link.lateral_mm_per_n * square(kLeft)));
     builder.hinge(along, end_mm, ellipsoid * link.torsion_rad_per_n_mm);
 }
 

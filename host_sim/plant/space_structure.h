@@ -19,10 +19,10 @@ namespace brace::plant {
 constexpr int kMostSpaceBodies = 1 + 3 * (2 + 5 * kBeamParts + 2);
 
 struct SpaceBody {
-    int joint;                 // that its hinge is: 0 coxa, 1 femur joint, 2 knee, or kElastic
-    Eigen::Vector3d axis;      // of the hinge; all directions are those of the limb without deflection
+    int joint; // that its hinge is: 0 coxa, 1 femur joint, 2 knee, or kElastic
+    Eigen::Vector3d axis; // of the hinge; all directions are those of the limb without deflection
     double hinge_rad_per_n_mm; // of an elastic hinge; 0: there is none
-    bool yields;               // at its root, within the hinge
+    bool yields; // at its root, within the hinge
     Eigen::Matrix3d mm_per_n;
     Eigen::Vector3d extent_mm; // from its hinge to that of the next body
     double weight_n;

@@ -115,9 +115,9 @@ void find_structure(const Model &model, Displacements displacements, double thet
     structure.body_count = 0;
     structure.base_mm_per_n = effects::base_compliance::along_mm_per_n(model);
     structure.reach_mm = length.femur_mm + length.tibia_mm;
-    structure.joint_load_n_mm = small ? effects::gravity::torques_n_mm(model, length.femur_mm * femur_axis,
-                                                                       length.tibia_mm * tibia_axis)
-                                      : Vector2d::Zero();
+    structure.joint_load_n_mm =
+        small ? effects::gravity::torques_n_mm(model, length.femur_mm * femur_axis, length.tibia_mm * tibia_axis)
+              : Vector2d::Zero();
     const double base_turning = effects::base_compliance::turning_rad_per_n_mm(model);
     if (base_turning > 0.0) {
         add(structure, kElastic, base_turning);

@@ -33,33 +33,31 @@ constexpr int kElastic = -1; // a hinge that is no joint: of the base or of a be
 
 enum class Yields { nowhere, at_root, at_end };
 
-template <class Number>
-struct BodyOf {
+template <class Number> struct BodyOf {
     using Vec = Eigen::Matrix<Number, 2, 1>;
 
-    int joint;                 // that its hinge is: 0 femur joint, 1 knee, or kElastic
+    int joint; // that its hinge is: 0 femur joint, 1 knee, or kElastic
     Number hinge_rad_per_n_mm; // of an elastic hinge. A joint's spring depends on the temperature: it is not in here
-    Vec extent_mm;             // from its hinge to its end, in the robot's frame
-    Number weight_n;           // pulls along `down` at `weight_arm_mm` from its hinge
+    Vec extent_mm; // from its hinge to its end, in the robot's frame
+    Number weight_n; // pulls along `down` at `weight_arm_mm` from its hinge
     Vec weight_arm_mm;
-    Number end_weight_n;    // pulls along `down` at its end, behind what yields there
-    Yields yields;          // by this compliance in the body's own frame:
-    Number mean_mm_per_n;   // half of its trace
+    Number end_weight_n; // pulls along `down` at its end, behind what yields there
+    Yields yields; // by this compliance in the body's own frame:
+    Number mean_mm_per_n; // half of its trace
     Vec deviation_mm_per_n; // (xx - zz) / 2 and xz
 };
 using Body = BodyOf<double>;
 
-template <class Number>
-struct StructureOf {
+template <class Number> struct StructureOf {
     using Vec = Eigen::Matrix<Number, 2, 1>;
 
     int body_count;
     std::array<BodyOf<Number>, kMostBodies> body;
     std::array<int, 2> joint_body; // the bodies behind femur joint and knee
-    Vec base_mm_per_n;             // along x and z
-    Vec down;                      // where weights pull to; shorter than 1 where the limb's plane leans
-    Vec joint_load_n_mm;           // torque on the joints besides that of the bodies' weights and the tip force
-    Number reach_mm;               // of the straight limb
+    Vec base_mm_per_n; // along x and z
+    Vec down; // where weights pull to; shorter than 1 where the limb's plane leans
+    Vec joint_load_n_mm; // torque on the joints besides that of the bodies' weights and the tip force
+    Number reach_mm; // of the straight limb
 };
 using Structure = StructureOf<double>;
 

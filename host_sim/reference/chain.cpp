@@ -40,8 +40,7 @@ VectorXd stiffnesses(const Chain &chain)
 // H = scale diag(k) - G as L diag(delta) L' with L_ij = c_i . w_j below its diagonal of ones.
 class Factor {
 public:
-    Factor(const VectorXd &k, double scale, const Loaded &loaded)
-        : c_(&loaded.c), w_(3, k.size()), delta_(k.size())
+    Factor(const VectorXd &k, double scale, const Loaded &loaded) : c_(&loaded.c), w_(3, k.size()), delta_(k.size())
     {
         Matrix3d sum = Matrix3d::Zero(); // of delta_j w_j w_j'
         for (Index j = 0; j < k.size(); ++j) {
@@ -171,8 +170,7 @@ bool descend(const Chain &chain, const VectorXd &k, const Vector3d &force_n, Res
         const VectorXd uphill = k.cwiseProduct(rest.q) - rest.loaded.load;
         const VectorXd change = factor.solve(-uphill);
         const double slope = uphill.dot(change);
-        const double size =
-            std::max(change.lpNorm<Eigen::Infinity>(), (rest.loaded.tip_by_q * change).norm());
+        const double size = std::max(change.lpNorm<Eigen::Infinity>(), (rest.loaded.tip_by_q * change).norm());
         // Places are known to their last bit only, however little they move.
         const double rounding_n_mm = kRounding * (forces_n_mm + k.dot(rest.q.cwiseAbs2()));
         double turned = 0.0; // by all hinges together
@@ -219,8 +217,7 @@ bool settle_held(const Chain &chain, const Directions &directions, const VectorX
         const VectorXd missing = directions.transpose() * (wanted_mm - rest.placed.tip - rest.loaded.tip_by_q * alone);
         const VectorXd more_force = compliance.fullPivLu().solve(missing);
         const VectorXd change = alone + factor.solve(by_force * more_force);
-        const double size =
-            std::max(change.lpNorm<Eigen::Infinity>(), (rest.loaded.tip_by_q * change).norm());
+        const double size = std::max(change.lpNorm<Eigen::Infinity>(), (rest.loaded.tip_by_q * change).norm());
         if (!(size < std::numeric_limits<double>::max()) || (step > 3 && size > last)) {
             // What is left is rounding, or it runs away.
             return last <= 100.0 * kAtRest && factor.negatives() + negatives(-compliance) == directions.cols();

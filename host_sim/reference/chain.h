@@ -24,21 +24,21 @@ using Matrix3d = Eigen::Matrix3d;
 
 struct Spring {
     bool hinge;
-    Vector3d axis;  // of a hinge, or direction of a slide: a unit vector at no deflection
+    Vector3d axis; // of a hinge, or direction of a slide: a unit vector at no deflection
     Vector3d point; // of a hinge, at no deflection [mm]
     double stiffness; // N mm/rad or N/mm, > 0
 };
 
 struct Weight {
     std::size_t after; // how many springs carry it: the first `after` of the chain
-    Vector3d point;    // at no deflection [mm]
+    Vector3d point; // at no deflection [mm]
     Vector3d force_n;
 };
 
 struct Chain {
     std::vector<Spring> springs;
     std::vector<Weight> weights; // ordered by `after`
-    Vector3d tip;                // at no deflection [mm]
+    Vector3d tip; // at no deflection [mm]
 };
 
 // Columns span the directions in which the tip yields: x and z in the plane, all three in space.
@@ -51,7 +51,7 @@ Vector3d eigenvalues(const Small &matrix, double padding);
 // The chain at some deflections.
 struct Placed {
     std::vector<Vector3d> axis, point; // of each spring, now
-    std::vector<Vector3d> weight;      // places of the weights, now
+    std::vector<Vector3d> weight; // places of the weights, now
     Vector3d tip;
 };
 
@@ -64,9 +64,9 @@ double energy_n_mm(const Chain &chain, const Placed &placed, const Eigen::Vector
 
 // What spring forces, tip force and weights do at every spring, and the two factors of G.
 struct Loaded {
-    Eigen::VectorXd load;             // sum_m dx_m/dq . f_m: moment about a hinge, force along a slide
-    Eigen::Matrix3Xd tip_by_q;        // J
-    Eigen::Matrix3Xd z, c;            // G_ij = z_i . c_j for i <= j
+    Eigen::VectorXd load; // sum_m dx_m/dq . f_m: moment about a hinge, force along a slide
+    Eigen::Matrix3Xd tip_by_q; // J
+    Eigen::Matrix3Xd z, c; // G_ij = z_i . c_j for i <= j
 };
 
 Loaded load(const Chain &chain, const Placed &placed, const Vector3d &force_n);
@@ -75,8 +75,8 @@ struct RestState {
     Eigen::VectorXd q;
     Placed placed;
     Loaded loaded;
-    Vector3d force_n;       // of the ground on the tip
-    Small compliance;       // in the given directions
+    Vector3d force_n; // of the ground on the tip
+    Small compliance; // in the given directions
     double buckling_factor; // infinity: none
 };
 

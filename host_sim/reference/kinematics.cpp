@@ -7,10 +7,8 @@ namespace brace::reference {
 Vector3 tip_mm(const Lengths &lengths, Real theta0_rad, const Posture &posture)
 {
     const Real tibia_angle = posture.theta1_rad - posture.theta2_rad;
-    const Real out =
-        lengths.femur_mm * std::cos(posture.theta1_rad) + lengths.tibia_mm * std::cos(tibia_angle);
-    const Real up =
-        lengths.femur_mm * std::sin(posture.theta1_rad) + lengths.tibia_mm * std::sin(tibia_angle);
+    const Real out = lengths.femur_mm * std::cos(posture.theta1_rad) + lengths.tibia_mm * std::cos(tibia_angle);
+    const Real up = lengths.femur_mm * std::sin(posture.theta1_rad) + lengths.tibia_mm * std::sin(tibia_angle);
     const Real from_yaw = lengths.coxa_mm + out;
     return {from_yaw * std::cos(theta0_rad), from_yaw * std::sin(theta0_rad), up};
 }

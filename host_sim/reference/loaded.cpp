@@ -213,8 +213,7 @@ Outcome solve_one(const LimbChain &limb, const Directions &along_which, Solve so
 }
 
 // The error of a beam of parts is a series in the square of a part's length: its first term is taken out.
-template <typename Number>
-void extrapolate(const Number &coarse, Number &fine)
+template <typename Number> void extrapolate(const Number &coarse, Number &fine)
 {
     fine += (fine - coarse) / 3.0;
 }
@@ -262,8 +261,8 @@ Outcome solve_limb(const Limb &limb, const Posture &posture, const Weights &weig
         extrapolate(coarse, force_given, fine);
     }
     result = fine.result;
-    result.buckling_factor = fine.buckling > 1.0 / kNoBuckling ? 1.0 / fine.buckling
-                                                               : std::numeric_limits<double>::infinity();
+    result.buckling_factor =
+        fine.buckling > 1.0 / kNoBuckling ? 1.0 / fine.buckling : std::numeric_limits<double>::infinity();
     return Outcome::found;
 }
 
@@ -284,8 +283,7 @@ LimbChain chain_of(const Limb &limb, const Posture &posture, const Weights &weig
     LimbChain &made = builder.limb;
     made.base_x = builder.slide({1.0, 0.0, 0.0}, static_cast<double>(limb.base_x_mm_per_n));
     made.base_z = builder.slide({0.0, 0.0, 1.0}, static_cast<double>(limb.base_z_mm_per_n));
-    made.base_rotation =
-        builder.hinge(kCounterClockwise, origin, static_cast<double>(limb.base_rotation_rad_per_n_mm));
+    made.base_rotation = builder.hinge(kCounterClockwise, origin, static_cast<double>(limb.base_rotation_rad_per_n_mm));
     if (with_coxa) {
         builder.joint(0, {0.0, 0.0, 1.0}, yaw_axis, static_cast<double>(limb.coxa_joint_rad_per_n_mm));
         builder.link(limb.coxa, yaw_axis, 0.0, coxa_mm, 0.0, parts, true);

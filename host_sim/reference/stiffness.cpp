@@ -12,19 +12,16 @@ namespace {
 constexpr Real kHalfTurn = 3.14159265358979323846264338327950288L;
 constexpr Real kRigid = 1e-15L; // smallest eigenvalue of C over the largest that counts as yielding
 
-template <int N>
-using Matrix = Eigen::Matrix<Real, N, N>;
+template <int N> using Matrix = Eigen::Matrix<Real, N, N>;
 
-template <int N>
-struct Spectrum {
+template <int N> struct Spectrum {
     Matrix<N> k;
     Eigen::Matrix<Real, N, 1> lambda; // of K, ascending
     Eigen::Matrix<Real, N, 1> stiff_axis;
 };
 
 // Jacobi's rotations, because this method keeps the small eigenvalues of a positive definite matrix.
-template <int N>
-void diagonalise(Matrix<N> &a, Matrix<N> &vectors)
+template <int N> void diagonalise(Matrix<N> &a, Matrix<N> &vectors)
 {
     vectors.setIdentity();
     for (int sweep = 0; sweep < 30; ++sweep) {
@@ -50,8 +47,7 @@ void diagonalise(Matrix<N> &a, Matrix<N> &vectors)
     }
 }
 
-template <int N>
-bool invert(const Matrix<N> &c, Spectrum<N> &spectrum)
+template <int N> bool invert(const Matrix<N> &c, Spectrum<N> &spectrum)
 {
     Matrix<N> values = c;
     Matrix<N> vectors;

@@ -59,8 +59,7 @@ double instrument_n(const brace_rig_design_t &design, double force_n, Noise &noi
     return rounded(std::clamp(noisy, -design.range_n, design.range_n), design.resolution_n);
 }
 
-template <typename T, typename V>
-void write(T *column, std::size_t row, V value)
+template <typename T, typename V> void write(T *column, std::size_t row, V value)
 {
     if (column != nullptr) {
         column[row] = static_cast<T>(value);

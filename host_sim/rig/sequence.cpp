@@ -44,8 +44,7 @@ std::vector<Run> runs_of(const brace_rig_design_t &design)
 double temperature(const brace_rig_design_t &design, double t_s)
 {
     const double since_s = t_s - design.start_s;
-    return design.temp_start_degc
-           - design.temp_rise_degc * std::expm1(-since_s / design.temp_time_constant_s);
+    return design.temp_start_degc - design.temp_rise_degc * std::expm1(-since_s / design.temp_time_constant_s);
 }
 
 bool is_between(double value, double least, double most)
@@ -104,12 +103,12 @@ bool is_sound(const brace_rig_design_t &design)
            && is_between(design.steps_per_side, 1, 10000) && design.step_mm > 0.0 && design.step_mm <= 100.0
            && is_between(design.preload_x_mm, -kFar, kFar) && is_between(design.preload_z_mm, -kFar, kFar)
            && is_between(design.start_s, 0.0, kLast) && is_between(design.dwell_s, 0.0, kLong)
-           && is_between(design.pause_s, 0.0, kLong)
-           && is_between(design.temp_start_degc, -273.15, 1e4) && is_between(design.temp_rise_degc, -1e4, 1e4)
-           && design.temp_time_constant_s > 0.0 && std::isfinite(design.temp_time_constant_s)
-           && is_between(design.noise_n, 0.0, kLong) && is_between(design.resolution_n, 0.0, kLong)
-           && design.range_n > 0.0 && is_between(design.encoder_noise_rad, 0.0, kLong)
-           && is_between(design.base_noise_mm, 0.0, kLong) && reading_count(design) <= kMostReadings;
+           && is_between(design.pause_s, 0.0, kLong) && is_between(design.temp_start_degc, -273.15, 1e4)
+           && is_between(design.temp_rise_degc, -1e4, 1e4) && design.temp_time_constant_s > 0.0
+           && std::isfinite(design.temp_time_constant_s) && is_between(design.noise_n, 0.0, kLong)
+           && is_between(design.resolution_n, 0.0, kLong) && design.range_n > 0.0
+           && is_between(design.encoder_noise_rad, 0.0, kLong) && is_between(design.base_noise_mm, 0.0, kLong)
+           && reading_count(design) <= kMostReadings;
 }
 
 std::size_t reading_count(const brace_rig_design_t &design)
@@ -135,8 +134,7 @@ std::vector<Reading> sequence(const brace_rig_design_t &design)
             const double along_mm = steps[i] * design.step_mm;
             readings.push_back({number, run.config, run.axis, run.rep, static_cast<int>(i),
                                 design.theta1_rad[run.config - 1], design.theta2_rad[run.config - 1], t_s,
-                                temperature(design, t_s),
-                                design.preload_x_mm + (run.axis == 0 ? along_mm : 0.0),
+                                temperature(design, t_s), design.preload_x_mm + (run.axis == 0 ? along_mm : 0.0),
                                 design.preload_z_mm + (run.axis == 1 ? along_mm : 0.0)});
         }
     }

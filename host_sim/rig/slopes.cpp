@@ -35,8 +35,7 @@ brace_rig_design_t exact_design(const double *theta1_rad, const double *theta2_r
     return design;
 }
 
-brace_host_status_t sweep_along(const brace_rig_design_t &design, const effects::Model &model, int axis,
-                                Sweep &sweep)
+brace_host_status_t sweep_along(const brace_rig_design_t &design, const effects::Model &model, int axis, Sweep &sweep)
 {
     const std::size_t count = reading_count(design);
     sweep.displacement_mm.resize(count);
@@ -93,15 +92,13 @@ bool comes_to_zero(const Sweep &sweep, int axis, std::size_t from, std::size_t t
 
 } // namespace
 
-brace_host_status_t measure_stiffness(const effects::Model &model, double theta1_rad, double theta2_rad,
-                                      double step_mm, int steps_per_side, SlopeRule rule,
-                                      std::array<double, 4> &k)
+brace_host_status_t measure_stiffness(const effects::Model &model, double theta1_rad, double theta2_rad, double step_mm,
+                                      int steps_per_side, SlopeRule rule, std::array<double, 4> &k)
 {
     std::array<double, 4> measured{};
     for (const int axis : {0, 1}) {
         Sweep sweep;
-        const brace_rig_design_t design =
-            exact_design(&theta1_rad, &theta2_rad, axis, step_mm, steps_per_side, false);
+        const brace_rig_design_t design = exact_design(&theta1_rad, &theta2_rad, axis, step_mm, steps_per_side, false);
         const brace_host_status_t status = sweep_along(design, model, axis, sweep);
         if (status != BRACE_HOST_OK) {
             return status;
@@ -113,8 +110,8 @@ brace_host_status_t measure_stiffness(const effects::Model &model, double theta1
     return BRACE_HOST_OK;
 }
 
-brace_host_status_t zero_force_shift(const effects::Model &model, double theta1_rad, double theta2_rad,
-                                     int axis, double step_mm, int steps_per_side, double &shift_mm)
+brace_host_status_t zero_force_shift(const effects::Model &model, double theta1_rad, double theta2_rad, int axis,
+                                     double step_mm, int steps_per_side, double &shift_mm)
 {
     brace_rig_design_t design = exact_design(&theta1_rad, &theta2_rad, axis, step_mm, steps_per_side, true);
     design.transverse_free = 1;

@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <array>
 
-namespace brace::servo
-{
-namespace
-{
+namespace brace::servo {
+namespace {
 
 constexpr std::array<std::uint8_t, 4> kHeader = {0xff, 0xff, 0xfd, 0x00};
 constexpr std::size_t kHeadBytes = 7; // header, id, length

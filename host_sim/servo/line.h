@@ -12,11 +12,9 @@ extern "C" {
 #include "api/brace_servos.h"
 }
 
-namespace brace::servo
-{
+namespace brace::servo {
 
-class Line
-{
+class Line {
 public:
     Line(std::uint32_t baud, std::uint64_t seed) : byte_ns_(10'000'000'000ull / baud), random_(seed) {}
 

@@ -4,8 +4,7 @@
 #include <array>
 #include <cstdint>
 
-namespace brace::servo
-{
+namespace brace::servo {
 
 enum class Access : std::uint8_t { kRead, kWrite };
 
@@ -22,8 +21,8 @@ inline constexpr std::uint16_t kRamBegins = 64; // what stands before it outlive
 inline constexpr std::uint16_t kModel = 0, kFirmware = 6, kId = 7, kReturnDelay = 9, kOperatingMode = 11,
                                kCurrentLimit = 38, kMaxPosition = 48, kMinPosition = 52, kTorque = 64,
                                kReturnLevel = 68, kRegistered = 69, kHardwareError = 70, kGoalCurrent = 102,
-                               kGoalPosition = 116, kRealtimeTick = 120, kPresentCurrent = 126,
-                               kPresentVelocity = 128, kPresentPosition = 132, kVoltage = 144, kTemperature = 146;
+                               kGoalPosition = 116, kRealtimeTick = 120, kPresentCurrent = 126, kPresentVelocity = 128,
+                               kPresentPosition = 132, kVoltage = 144, kTemperature = 146;
 
 inline constexpr std::int32_t kTurns = 1048575; // of the extended position mode: 256 turns each way
 

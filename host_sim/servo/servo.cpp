@@ -2,10 +2,8 @@
 
 #include <algorithm>
 
-namespace brace::servo
-{
-namespace
-{
+namespace brace::servo {
+namespace {
 
 constexpr std::uint64_t kStarts_ns = 500'000'000; // from a reboot until it answers
 constexpr std::uint8_t kPing = 1, kRead = 2, kWrite = 3, kRegWrite = 4, kAction = 5, kReboot = 8;
@@ -152,8 +150,7 @@ std::optional<Answer> Servo::obey(std::uint8_t instruction, const Bytes &given, 
         restart(now_ns);
         return said;
     }
-    default:
-        return answer(kInstruction, level >= 2);
+    default: return answer(kInstruction, level >= 2);
     }
 }
 

@@ -8,22 +8,29 @@
 
 #include "servo/registers.h"
 
-namespace brace::servo
-{
+namespace brace::servo {
 
 using Bytes = std::vector<std::uint8_t>;
 
 // Numbers of a status packet's error byte.
-enum Error : std::uint8_t { kNone = 0, kResult = 1, kInstruction = 2, kCrc = 3, kRange = 4, kLength = 5, kLimit = 6,
-                            kAccess = 7, kAlert = 0x80 };
+enum Error : std::uint8_t {
+    kNone = 0,
+    kResult = 1,
+    kInstruction = 2,
+    kCrc = 3,
+    kRange = 4,
+    kLength = 5,
+    kLimit = 6,
+    kAccess = 7,
+    kAlert = 0x80
+};
 
 struct Answer {
     std::uint8_t error;
     Bytes data;
 };
 
-class Servo
-{
+class Servo {
 public:
     Servo(std::uint8_t id, std::uint16_t model);
 

@@ -35,8 +35,7 @@ static inline bool ends_the_motion(const uint8_t data[8])
 {
     const uint32_t entry = (uint32_t)data[2] | (uint32_t)data[3] << 8;
     return data[0] == BRACE_REQUEST_LOADING_TEST_STOP ||
-           (data[0] == BRACE_REQUEST_WRITE_ENTRY &&
-            (entry == COMMAND_ENTRY(stop) || entry == COMMAND_ENTRY(end_test)));
+           (data[0] == BRACE_REQUEST_WRITE_ENTRY && (entry == COMMAND_ENTRY(stop) || entry == COMMAND_ENTRY(end_test)));
 }
 
 /* Something that a stranger may send. Only a stop is left out, and on a bench whatever says that it is the owner's. */
@@ -44,10 +43,10 @@ static inline void make_noise(flood_t flood, uint8_t data[8])
 {
     static const uint8_t about_k[] = {BRACE_REQUEST_K_AT_POSTURE, BRACE_REQUEST_K_AT_TIP_KNEE_UP,
                                       BRACE_REQUEST_K_UNDER_LOAD_AT_POSTURE, BRACE_REQUEST_K_IN_SPACE_AT_POSTURE};
-    static const uint8_t questions[] = {BRACE_REQUEST_READ_ENTRY,   BRACE_REQUEST_IDENTIFY,
-                                        BRACE_REQUEST_TIP_FORCE,    BRACE_REQUEST_DOWNLOAD_WORD,
+    static const uint8_t questions[] = {BRACE_REQUEST_READ_ENTRY,    BRACE_REQUEST_IDENTIFY,
+                                        BRACE_REQUEST_TIP_FORCE,     BRACE_REQUEST_DOWNLOAD_WORD,
                                         BRACE_REQUEST_CONTACT_FORCE, BRACE_REQUEST_FRICTION_MARGIN,
-                                        BRACE_REQUEST_K_AT_POSTURE, BRACE_REQUEST_FETCH_ROW};
+                                        BRACE_REQUEST_K_AT_POSTURE,  BRACE_REQUEST_FETCH_ROW};
     do {
         for (int i = 0; i < 8; i++) {
             data[i] = (uint8_t)below(256);

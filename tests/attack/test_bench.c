@@ -280,8 +280,16 @@ static void test_bus_off_stops_the_limb(void)
 static reply_t lives_by_tcp(void)
 {
     const uint32_t number = sign_now().heard;
-    const uint8_t life[14] = {16, 0x40, 0x48, 0, 4, 8, (uint8_t)(number >> 24), (uint8_t)(number >> 16),
-                              (uint8_t)(number >> 8), (uint8_t)number};
+    const uint8_t life[14] = {16,
+                              0x40,
+                              0x48,
+                              0,
+                              4,
+                              8,
+                              (uint8_t)(number >> 24),
+                              (uint8_t)(number >> 16),
+                              (uint8_t)(number >> 8),
+                              (uint8_t)number};
     return tcp_asks(UNIT, life, 14);
 }
 
@@ -453,8 +461,8 @@ static void refused_at_commit(uint32_t number, uint32_t value)
 
 static void test_no_parameter_passes_the_board_s_ceilings(void)
 {
-    static const brace_hal_ceiling_t ceiling[3] = {{12000.0f, -2.5f, 3.2f, 0.2f}, {12000.0f, -2.5f, 3.2f, 0.2f},
-                                                   {12000.0f, -2.5f, 3.2f, 0.2f}};
+    static const brace_hal_ceiling_t ceiling[3] = {
+        {12000.0f, -2.5f, 3.2f, 0.2f}, {12000.0f, -2.5f, 3.2f, 0.2f}, {12000.0f, -2.5f, 3.2f, 0.2f}};
     fake.hal.ceiling = ceiling;
     refused_at_commit(brace_parameter_number(BRACE_PARAMETER_CONTROLLER_NODE_ID), 0);
     for (uint32_t i = 0; i < 3u; i++) {
@@ -470,8 +478,8 @@ static void test_no_parameter_passes_the_board_s_ceilings(void)
 /* A set that was stored before the board's file was written: the drives are commanded no more than the board allows. */
 static void test_drives_are_commanded_no_more_than_the_board_allows(void)
 {
-    static const brace_hal_ceiling_t ceiling[3] = {{900.0f, -2.5f, 3.2f, 0.05f}, {900.0f, -2.5f, 3.2f, 0.05f},
-                                                   {900.0f, -2.5f, 3.2f, 0.05f}};
+    static const brace_hal_ceiling_t ceiling[3] = {
+        {900.0f, -2.5f, 3.2f, 0.05f}, {900.0f, -2.5f, 3.2f, 0.05f}, {900.0f, -2.5f, 3.2f, 0.05f}};
     fake.hal.ceiling = ceiling;
     begin_to_move();
     float last_rad = offset_rad(BRACE_FEMUR);
@@ -484,8 +492,8 @@ static void test_drives_are_commanded_no_more_than_the_board_allows(void)
 }
 
 /* Slower than a take-up's own pace, so that the drives are behind what the take-up asks for. */
-static const brace_hal_ceiling_t slow_ceiling[3] = {{900.0f, -2.5f, 3.2f, 0.02f}, {900.0f, -2.5f, 3.2f, 0.02f},
-                                                    {900.0f, -2.5f, 3.2f, 0.02f}};
+static const brace_hal_ceiling_t slow_ceiling[3] = {
+    {900.0f, -2.5f, 3.2f, 0.02f}, {900.0f, -2.5f, 3.2f, 0.02f}, {900.0f, -2.5f, 3.2f, 0.02f}};
 
 static void goes_on_within_the_slow_ceiling(int count)
 {

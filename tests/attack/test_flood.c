@@ -21,9 +21,7 @@ static void stop_arrives(by_t by)
     switch (by) {
     case BY_FRAME: frame_arrives(1, data, (uint8_t)(below(2) == 0u ? 0u : below(9))); break;
     case BY_REQUEST: frame_arrives(0x600u + NODE, data, 8); break;
-    default:
-        make_write(COMMAND_ENTRY(stop), 0, below(256), data);
-        frame_arrives(0x600u + NODE, data, 8);
+    default: make_write(COMMAND_ENTRY(stop), 0, below(256), data); frame_arrives(0x600u + NODE, data, 8);
     }
 }
 

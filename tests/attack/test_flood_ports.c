@@ -130,7 +130,10 @@ static uint32_t pdu_noise(uint8_t pdu[64])
         memcpy(pdu, writes, sizeof writes);
         return 10;
     }
-    default: pdu[0] = (uint8_t)(8u + below(2) * 9u); memset(pdu + 1, 0, 2); return pdu[0] == 8u ? 7u : 1u;
+    default:
+        pdu[0] = (uint8_t)(8u + below(2) * 9u);
+        memset(pdu + 1, 0, 2);
+        return pdu[0] == 8u ? 7u : 1u;
     }
 }
 

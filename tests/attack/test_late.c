@@ -242,7 +242,7 @@ static void send_pdu(const uint8_t *pdu, uint32_t count)
 static uint32_t make_values(uint32_t start, const uint32_t *values, uint32_t count, uint8_t *pdu)
 {
     const uint8_t head[6] = {16, (uint8_t)(start >> 8), (uint8_t)start,
-                             0, (uint8_t)(2u * count), (uint8_t)(4u * count)};
+                             0,  (uint8_t)(2u * count), (uint8_t)(4u * count)};
     memcpy(pdu, head, sizeof head);
     for (uint32_t i = 0; i < 4u * count; i++) {
         pdu[6u + i] = (uint8_t)(values[i / 4u] >> (24u - 8u * (i % 4u)));
@@ -326,8 +326,8 @@ static void carry_out(order_t order)
     step(3);
     const int joint = order == TAKE_FEMUR ? BRACE_FEMUR : BRACE_TIBIA;
     live(5);
-    for (int i = 0; i < 40 && (order == TAKE_FEMUR || order == TAKE_TIBIA) &&
-                    now()->play[joint].phase != BRACE_TAKEUP_HOLD; i++) {
+    for (int i = 0;
+         i < 40 && (order == TAKE_FEMUR || order == TAKE_TIBIA) && now()->play[joint].phase != BRACE_TAKEUP_HOLD; i++) {
         live(50);
     }
     live(order == TEST ? 250 : 100);

@@ -33,8 +33,8 @@ static uint32_t below(uint32_t n)
 
 typedef enum { TAKES_UP, HOLDS, LETS_GO, LETS_GO_ITSELF, TESTS, ENDS_A_TEST, MOTIONS } motion_t;
 
-static const char *const motion_name[MOTIONS] = {"take-up", "hold", "let go", "let go after silence", "loading test",
-                                                 "the way back of a loading test"};
+static const char *const motion_name[MOTIONS] = {
+    "take-up", "hold", "let go", "let go after silence", "loading test", "the way back of a loading test"};
 
 static void commanded(uint8_t data[8])
 {

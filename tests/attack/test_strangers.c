@@ -62,8 +62,9 @@ static uint32_t next_random(void)
 
 enum { COMMANDS = 13 };
 static const char *const command_name[COMMANDS] = {
-    "take_up", "let_go", "loading_test_start", "set_mode CONFIGURATION", "set_mode MONITOR", "write_entry",
-    "upload_begin", "upload_word", "commit of what is staged", "commit of a block", "rollback", "clear", "set_gravity"};
+    "take_up",     "let_go",       "loading_test_start", "set_mode CONFIGURATION",   "set_mode MONITOR",
+    "write_entry", "upload_begin", "upload_word",        "commit of what is staged", "commit of a block",
+    "rollback",    "clear",        "set_gravity"};
 
 static void make_command(uint32_t which, uint8_t data[8])
 {
@@ -105,10 +106,10 @@ typedef enum {
     DRESSES
 } dress_t;
 
-static const char *const dress_name[DRESSES] = {"bare", "another key", "a check of zeros", "a check of ones",
-                                                "half a check", "one bit off", "a life sign's check",
-                                                "another command's check", "another token", "a counter far ahead",
-                                                "a counter that has been"};
+static const char *const dress_name[DRESSES] = {
+    "bare",          "another key",         "a check of zeros",       "a check of ones",
+    "half a check",  "one bit off",         "a life sign's check",    "another command's check",
+    "another token", "a counter far ahead", "a counter that has been"};
 
 static void send_dressed(uint8_t data[8], dress_t dress)
 {
@@ -182,8 +183,8 @@ static void modbus_refuses(situation_t situation, const char *attack, const uint
 
 static uint32_t make_block(uint32_t start, uint32_t first, uint32_t second, uint32_t values, uint8_t pdu[14])
 {
-    const uint8_t head[6] = {16, (uint8_t)(start >> 8), (uint8_t)start, 0, (uint8_t)(2u * values),
-                             (uint8_t)(4u * values)};
+    const uint8_t head[6] = {16, (uint8_t)(start >> 8),  (uint8_t)start,
+                             0,  (uint8_t)(2u * values), (uint8_t)(4u * values)};
     memcpy(pdu, head, sizeof head);
     for (uint32_t i = 0; i < 4u; i++) {
         pdu[6u + i] = (uint8_t)(first >> (24u - 8u * i));
@@ -218,8 +219,8 @@ static void test_no_register_takes_a_stranger_s_write(void)
                 /* with a seal that was made without the key, and one that is right for the number before */
                 uint8_t sealing[14];
                 const uint32_t number = counter + 1u;
-                (void)make_block(COMMAND_REGISTER(seal_counter), number,
-                                 check_of(another_key, number, 2, pdu, count), 2, sealing);
+                (void)make_block(COMMAND_REGISTER(seal_counter), number, check_of(another_key, number, 2, pdu, count),
+                                 2, sealing);
                 (void)(by_tcp == 1u ? tcp_asks(UNIT, sealing, 14) : line_asks(UNIT, sealing, 14));
                 modbus_refuses((situation_t)situation, "a register under another key's seal", pdu, count, by_tcp == 1u);
             }
@@ -548,8 +549,8 @@ static void test_a_flood_of_guesses_moves_nothing(void)
         if (i % 3u == 0u) {
             make_write(COMMAND_ENTRY(seal_mac) - (i % 2u) * 2u, high, low & 0xffu, data);
         }
-        if (data[0] == BRACE_REQUEST_LOADING_TEST_STOP || (data[0] == BRACE_REQUEST_WRITE_ENTRY && data[3] == 0x20u &&
-                                                           data[2] == 0x22u)) {
+        if (data[0] == BRACE_REQUEST_LOADING_TEST_STOP ||
+            (data[0] == BRACE_REQUEST_WRITE_ENTRY && data[3] == 0x20u && data[2] == 0x22u)) {
             continue; /* stop is anybody's */
         }
         says(data);

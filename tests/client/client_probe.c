@@ -77,9 +77,9 @@ static brace_client_status_t ask_under_load(brace_client_t *client, bool at_tip)
     brace_client_status_t status;
     int left = at_tip ? 1 : (int)n[4];
     do {
-        status = at_tip ? brace_client_k_under_load_at_tip(client, n[0], n[1], n[2] > 0.5f, n[3], n[4], timeout_ms,
-                                                           &loaded)
-                        : brace_client_k_under_load_at_posture(client, n[0], n[1], n[2], n[3], timeout_ms, &loaded);
+        status =
+            at_tip ? brace_client_k_under_load_at_tip(client, n[0], n[1], n[2] > 0.5f, n[3], n[4], timeout_ms, &loaded)
+                   : brace_client_k_under_load_at_posture(client, n[0], n[1], n[2], n[3], timeout_ms, &loaded);
     } while (status == BRACE_CLIENT_OK && --left > 0);
     if (status == BRACE_CLIENT_OK) {
         print_k(&loaded.k);
@@ -97,7 +97,7 @@ static brace_client_status_t read_some(brace_client_t *client)
         if (status != BRACE_CLIENT_OK) {
             return status;
         }
-        const brace_client_k_t k = {s.k_xx_n_per_mm, s.k_xz_n_per_mm, s.k_zz_n_per_mm, s.lambda_min_n_per_mm,
+        const brace_client_k_t k = {s.k_xx_n_per_mm,       s.k_xz_n_per_mm,  s.k_zz_n_per_mm, s.lambda_min_n_per_mm,
                                     s.lambda_max_n_per_mm, s.stiff_axis_rad, s.flags};
         printf("snapshot %u\nparts %u\nvalid %d\nage_ms %.9g\ntheta1 %.9g\ntheta2 %.9g\nmode %u\nfaults %u\n",
                (unsigned)s.sequence, (unsigned)s.parts, s.k_is_valid, s.age_ms, s.theta1_rad, s.theta2_rad,
@@ -112,8 +112,8 @@ static brace_client_status_t read_some(brace_client_t *client)
 
 static void print_space_k(const brace_client_space_k_t *k)
 {
-    printf("k_xx %.9g\nk_xy %.9g\nk_xz %.9g\nk_yy %.9g\nk_yz %.9g\nk_zz %.9g\n", k->k_xx_n_per_mm,
-           k->k_xy_n_per_mm, k->k_xz_n_per_mm, k->k_yy_n_per_mm, k->k_yz_n_per_mm, k->k_zz_n_per_mm);
+    printf("k_xx %.9g\nk_xy %.9g\nk_xz %.9g\nk_yy %.9g\nk_yz %.9g\nk_zz %.9g\n", k->k_xx_n_per_mm, k->k_xy_n_per_mm,
+           k->k_xz_n_per_mm, k->k_yy_n_per_mm, k->k_yz_n_per_mm, k->k_zz_n_per_mm);
     printf("lambda_1 %.9g\nlambda_2 %.9g\nlambda_3 %.9g\nflags %u\n", k->lambda_n_per_mm[0], k->lambda_n_per_mm[1],
            k->lambda_n_per_mm[2], (unsigned)k->flags);
 }

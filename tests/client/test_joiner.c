@@ -180,11 +180,21 @@ static void test_a_frame_of_can_fd_is_a_whole_snapshot(void)
     brace_joiner_t joiner = {0};
     brace_bus_frame_t frame = {
         .id = BRACE_CAN_ID_SNAPSHOT_FD + NODE, .length = 64u, .fd = true, .received_us = 1000000u};
-    const brace_can_snapshot_fd_t sent = {
-        .sequence = 0x12345607u, .parameter_tag = 0x1234u, .age_ms = 1.5f, .flags = 9u, .mode = 1u, .faults = 0x84u,
-        .play_tibia = 3u, .k_xx_n_per_mm = 4.0f, .k_xz_n_per_mm = -0.5f, .k_zz_n_per_mm = 1.0f,
-        .lambda_min_n_per_mm = 0.9f, .lambda_max_n_per_mm = 4.1f, .stiff_axis_rad = 0.2f, .theta1_rad = 0.25f,
-        .theta2_rad = 1.25f};
+    const brace_can_snapshot_fd_t sent = {.sequence = 0x12345607u,
+                                          .parameter_tag = 0x1234u,
+                                          .age_ms = 1.5f,
+                                          .flags = 9u,
+                                          .mode = 1u,
+                                          .faults = 0x84u,
+                                          .play_tibia = 3u,
+                                          .k_xx_n_per_mm = 4.0f,
+                                          .k_xz_n_per_mm = -0.5f,
+                                          .k_zz_n_per_mm = 1.0f,
+                                          .lambda_min_n_per_mm = 0.9f,
+                                          .lambda_max_n_per_mm = 4.1f,
+                                          .stiff_axis_rad = 0.2f,
+                                          .theta1_rad = 0.25f,
+                                          .theta2_rad = 1.25f};
     TEST_ASSERT_EQUAL(0, brace_can_pack_snapshot_fd(&sent, frame.data));
     const brace_client_snapshot_t *s = brace_joiner_add(&joiner, NODE, &frame, 0u);
     TEST_ASSERT_NOT_NULL(s);
@@ -221,10 +231,10 @@ static brace_bus_frame_t space_frame_of(uint32_t part, uint32_t tick, uint64_t n
     const brace_can_space_2_t third = {.sequence = sequence, .k_yz_n_per_mm = m, .k_zz_n_per_mm = m};
     const brace_can_space_3_t lower = {.sequence = sequence, .lambda_1_n_per_mm = m, .lambda_2_n_per_mm = m};
     const brace_can_space_4_t largest = {.sequence = sequence, .lambda_3_n_per_mm = m, .flags = 8u};
-    const brace_can_space_5_t axis = {.sequence = sequence, .stiff_axis_x = 0.0f, .stiff_axis_y = -0.5f,
-                                      .stiff_axis_z = 1.0f};
-    const brace_can_space_6_t coxa = {.sequence = sequence, .theta0_rad = 0.25f, .k_across_n_per_mm = m,
-                                      .play_coxa = 2u};
+    const brace_can_space_5_t axis = {
+        .sequence = sequence, .stiff_axis_x = 0.0f, .stiff_axis_y = -0.5f, .stiff_axis_z = 1.0f};
+    const brace_can_space_6_t coxa = {
+        .sequence = sequence, .theta0_rad = 0.25f, .k_across_n_per_mm = m, .play_coxa = 2u};
     switch (part) {
     case 0u: (void)brace_can_pack_space_0(&first, frame.data); break;
     case 1u: (void)brace_can_pack_space_1(&second, frame.data); break;
@@ -240,9 +250,10 @@ static brace_bus_frame_t space_frame_of(uint32_t part, uint32_t tick, uint64_t n
 static void space_is_of_tick(const brace_client_space_t *space, uint32_t tick)
 {
     const brace_client_space_k_t *k = &space->k;
-    const float values[] = {k->k_xx_n_per_mm, k->k_xy_n_per_mm, k->k_xz_n_per_mm, k->k_yy_n_per_mm,
-                            k->k_yz_n_per_mm, k->k_zz_n_per_mm, k->lambda_n_per_mm[0], k->lambda_n_per_mm[1],
-                            k->lambda_n_per_mm[2], space->k_across_n_per_mm};
+    const float values[] = {k->k_xx_n_per_mm,        k->k_xy_n_per_mm,      k->k_xz_n_per_mm,
+                            k->k_yy_n_per_mm,        k->k_yz_n_per_mm,      k->k_zz_n_per_mm,
+                            k->lambda_n_per_mm[0],   k->lambda_n_per_mm[1], k->lambda_n_per_mm[2],
+                            space->k_across_n_per_mm};
     for (uint32_t i = 0u; i < sizeof values / sizeof values[0]; i++) {
         TEST_ASSERT_EQUAL_UINT32(tick & 0x7ffffu, tick_of(values[i]));
     }
@@ -319,8 +330,12 @@ static void test_over_can_fd_k_in_space_is_a_second_frame(void)
     brace_bus_frame_t whole = {.id = BRACE_CAN_ID_SNAPSHOT_FD + NODE, .length = 64u, .fd = true, .received_us = 1000u};
     brace_bus_frame_t space = {.id = BRACE_CAN_ID_DETAILS_FD + NODE, .length = 64u, .fd = true, .received_us = 1100u};
     const brace_can_snapshot_fd_t plane = {.sequence = 0x12345607u, .k_xx_n_per_mm = 4.0f};
-    const brace_can_space_fd_t sent = {.sequence = 7u, .k_xx_n_per_mm = 3.5f, .lambda_3_n_per_mm = 4.5f,
-                                       .theta0_rad = 0.5f, .play_coxa = 3u, .stiff_axis_y = 0.25f};
+    const brace_can_space_fd_t sent = {.sequence = 7u,
+                                       .k_xx_n_per_mm = 3.5f,
+                                       .lambda_3_n_per_mm = 4.5f,
+                                       .theta0_rad = 0.5f,
+                                       .play_coxa = 3u,
+                                       .stiff_axis_y = 0.25f};
     (void)brace_can_pack_snapshot_fd(&plane, whole.data);
     (void)brace_can_pack_space_fd(&sent, space.data);
     (void)brace_joiner_add(&joiner, NODE, &whole, 0u);
@@ -362,8 +377,13 @@ static brace_bus_frame_t load_frame_of(uint32_t part, uint32_t tick, uint64_t no
 
 static void load_is_of_tick(const brace_client_load_t *load, uint32_t tick)
 {
-    const float values[] = {load->unloaded_k_xx_n_per_mm, load->unloaded_k_xz_n_per_mm, load->unloaded_k_zz_n_per_mm,
-                            load->force_x_n, load->force_z_n, load->moved_x_mm, load->moved_z_mm,
+    const float values[] = {load->unloaded_k_xx_n_per_mm,
+                            load->unloaded_k_xz_n_per_mm,
+                            load->unloaded_k_zz_n_per_mm,
+                            load->force_x_n,
+                            load->force_z_n,
+                            load->moved_x_mm,
+                            load->moved_z_mm,
                             load->buckling_factor};
     for (uint32_t i = 0u; i < sizeof values / sizeof values[0]; i++) {
         TEST_ASSERT_EQUAL_UINT32(tick & 0x7ffffu, tick_of(values[i]));
@@ -452,12 +472,19 @@ static void test_over_can_fd_a_load_is_a_frame_of_its_own(void)
     brace_bus_frame_t whole = {.id = BRACE_CAN_ID_SNAPSHOT_FD + NODE, .length = 64u, .fd = true, .received_us = 1000u};
     brace_bus_frame_t load = {.id = BRACE_CAN_ID_DETAILS_FD + NODE, .length = 64u, .fd = true, .received_us = 1100u};
     const brace_can_snapshot_fd_t plane = {.sequence = 0x12345607u, .k_xx_n_per_mm = 4.0f};
-    const brace_can_load_fd_t sent = {.sequence = 7u, .unloaded_k_xx_n_per_mm = 1.0f,
-                                      .unloaded_k_xz_n_per_mm = 2.0f, .unloaded_k_zz_n_per_mm = 3.0f,
-                                      .counted_force_x_n = 4.0f, .counted_force_z_n = 5.0f, .moved_x_mm = 6.0f,
-                                      .moved_z_mm = 7.0f, .buckling_factor = INFINITY,
-                                      .gravity_direction_rad = -1.5f, .gravity_lean_rad = 0.5f,
-                                      .counted_force_y_n = 8.0f, .moved_y_mm = 9.0f,
+    const brace_can_load_fd_t sent = {.sequence = 7u,
+                                      .unloaded_k_xx_n_per_mm = 1.0f,
+                                      .unloaded_k_xz_n_per_mm = 2.0f,
+                                      .unloaded_k_zz_n_per_mm = 3.0f,
+                                      .counted_force_x_n = 4.0f,
+                                      .counted_force_z_n = 5.0f,
+                                      .moved_x_mm = 6.0f,
+                                      .moved_z_mm = 7.0f,
+                                      .buckling_factor = INFINITY,
+                                      .gravity_direction_rad = -1.5f,
+                                      .gravity_lean_rad = 0.5f,
+                                      .counted_force_y_n = 8.0f,
+                                      .moved_y_mm = 9.0f,
                                       .unloaded_k_across_n_per_mm = 10.0f};
     (void)brace_can_pack_snapshot_fd(&plane, whole.data);
     (void)brace_can_pack_load_fd(&sent, load.data);
@@ -465,9 +492,15 @@ static void test_over_can_fd_a_load_is_a_frame_of_its_own(void)
     const brace_client_snapshot_t *s = brace_joiner_add(&joiner, NODE, &load, 0u);
     TEST_ASSERT_NOT_NULL(s);
     TEST_ASSERT_EQUAL_UINT32(BRACE_PART_ALL | BRACE_PART_LOAD | BRACE_PART_LOAD_ACROSS, s->parts);
-    const float found[] = {s->load.unloaded_k_xx_n_per_mm, s->load.unloaded_k_xz_n_per_mm,
-                           s->load.unloaded_k_zz_n_per_mm, s->load.force_x_n, s->load.force_z_n, s->load.moved_x_mm,
-                           s->load.moved_z_mm, s->load.force_y_n, s->load.moved_y_mm,
+    const float found[] = {s->load.unloaded_k_xx_n_per_mm,
+                           s->load.unloaded_k_xz_n_per_mm,
+                           s->load.unloaded_k_zz_n_per_mm,
+                           s->load.force_x_n,
+                           s->load.force_z_n,
+                           s->load.moved_x_mm,
+                           s->load.moved_z_mm,
+                           s->load.force_y_n,
+                           s->load.moved_y_mm,
                            s->load.unloaded_k_across_n_per_mm};
     for (int i = 0; i < 10; i++) {
         TEST_ASSERT_EQUAL_FLOAT((float)(i + 1), found[i]);
@@ -525,10 +558,15 @@ static void test_over_can_fd_an_uncertainty_is_a_frame_of_its_own(void)
 {
     brace_joiner_t joiner = {0};
     brace_bus_frame_t frame = {.id = BRACE_CAN_ID_DETAILS_FD + NODE, .length = 64u, .fd = true, .received_us = 1000u};
-    const brace_can_sigma_fd_t sent = {.sequence = 7u, .k_xx_n_per_mm = 1.0f, .k_xz_n_per_mm = 2.0f,
-                                       .k_zz_n_per_mm = 3.0f, .lambda_min_n_per_mm = 4.0f,
-                                       .lambda_max_n_per_mm = NAN, .stiff_axis_rad = 0.5f,
-                                       .space_k_yy_n_per_mm = 6.0f, .space_lambda_3_n_per_mm = 7.0f,
+    const brace_can_sigma_fd_t sent = {.sequence = 7u,
+                                       .k_xx_n_per_mm = 1.0f,
+                                       .k_xz_n_per_mm = 2.0f,
+                                       .k_zz_n_per_mm = 3.0f,
+                                       .lambda_min_n_per_mm = 4.0f,
+                                       .lambda_max_n_per_mm = NAN,
+                                       .stiff_axis_rad = 0.5f,
+                                       .space_k_yy_n_per_mm = 6.0f,
+                                       .space_lambda_3_n_per_mm = 7.0f,
                                        .k_across_n_per_mm = 8.0f};
     (void)brace_can_pack_sigma_fd(&sent, frame.data);
     const brace_client_snapshot_t *s = brace_joiner_add(&joiner, NODE, &frame, 0u);
@@ -569,9 +607,10 @@ static void test_an_uncertainty_in_space_is_four_frames(void)
     }
     TEST_ASSERT_EQUAL_UINT32(BRACE_PART_SIGMA_SPACE, s->parts);
     const brace_client_space_sigma_t *got = &s->space_sigma;
-    const float found[] = {got->k_xx_n_per_mm, got->k_xy_n_per_mm, got->k_xz_n_per_mm, got->k_yy_n_per_mm,
-                           got->k_yz_n_per_mm, got->k_zz_n_per_mm, got->lambda_n_per_mm[0], got->lambda_n_per_mm[1],
-                           got->lambda_n_per_mm[2], got->k_across_n_per_mm};
+    const float found[] = {got->k_xx_n_per_mm,      got->k_xy_n_per_mm,      got->k_xz_n_per_mm,
+                           got->k_yy_n_per_mm,      got->k_yz_n_per_mm,      got->k_zz_n_per_mm,
+                           got->lambda_n_per_mm[0], got->lambda_n_per_mm[1], got->lambda_n_per_mm[2],
+                           got->k_across_n_per_mm};
     for (uint32_t i = 0u; i < 10u; i++) {
         TEST_ASSERT_FLOAT_WITHIN(1e-3f, (float)(i + 1u), found[i]);
     }

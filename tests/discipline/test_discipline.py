@@ -14,7 +14,7 @@ HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
 
 import calls  # noqa: E402
-import check  # noqa: E402
+import firmware_rules  # noqa: E402
 import loops  # noqa: E402
 import objects  # noqa: E402
 from sources import CROSS, ROOT, Finding, Source, build_objects, firmware_sources  # noqa: E402
@@ -115,17 +115,17 @@ def test_floating_point_without_an_fpu_is_found(tmp_path: Path) -> None:
 
 
 @pytest.fixture(scope="module")
-def report() -> check.Report:
+def report() -> firmware_rules.Report:
     if not (BUILD / "compile_commands.json").is_file():
         pytest.skip("no Cortex-M4F build; ./dev setup makes one")
-    return check.run(BUILD)
+    return firmware_rules.run(BUILD)
 
 
-def test_the_firmware_keeps_its_discipline(report: check.Report) -> None:
+def test_the_firmware_keeps_its_discipline(report: firmware_rules.Report) -> None:
     assert not report.findings, "\n" + "\n".join(map(str, report.findings))
 
 
-def test_nothing_was_left_out(report: check.Report) -> None:
+def test_nothing_was_left_out(report: firmware_rules.Report) -> None:
     """All sources are read; all that this build compiles have an object; images have a known depth of stack."""
     assert report.sources == sum(1 for folder in ("firmware", "hal") for _ in (ROOT / folder).rglob("*.c"))
     by_build = [source for source in firmware_sources(BUILD) if source.compiler != "gcc"]

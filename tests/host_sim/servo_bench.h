@@ -27,7 +27,7 @@ constexpr std::uint16_t kModels[3] = {321, 1120, 1020};
 // Three servos whose shafts turn, a driver, and a tick that reads the joints.
 struct Bench {
     std::unique_ptr<brace_servos_t, void (*)(brace_servos_t *)> servos{brace_servos_create(kBaud, 1),
-                                                                      brace_servos_destroy};
+                                                                       brace_servos_destroy};
     brace_dynamixel_t driver{};
     brace_servo_setup_t setup{};
     std::uint64_t now_us = 0;
@@ -116,10 +116,10 @@ struct Bench {
             return value >= std::fmin(a, b) - margin && value <= std::fmax(a, b) + margin;
         };
         const double angle = (sample.link_rad - setup.joint[joint].zero_rad) * sense + M_PI;
-        return between(angle, turned_rad(joint, from_us), turned_rad(joint, to_us), 0.51 * step_rad + 1e-6)
-               && between(sample.torque_n_mm * sense, per_a_n_mm * current_a(joint, from_us),
-                          per_a_n_mm * current_a(joint, to_us), 0.51 * unit_n_mm)
-               && sample.motor_rad != sample.motor_rad;
+        return between(angle, turned_rad(joint, from_us), turned_rad(joint, to_us), 0.51 * step_rad + 1e-6) &&
+               between(sample.torque_n_mm * sense, per_a_n_mm * current_a(joint, from_us),
+                       per_a_n_mm * current_a(joint, to_us), 0.51 * unit_n_mm) &&
+               sample.motor_rad != sample.motor_rad;
     }
 
     void tick()
@@ -138,7 +138,8 @@ struct Bench {
         }
     }
 
-    void run(double seconds, const std::function<void()> &each_tick = [] {})
+    void run(
+        double seconds, const std::function<void()> &each_tick = [] {})
     {
         const std::uint64_t end_us = now_us + static_cast<std::uint64_t>(1e6 * seconds);
         for (; now_us < end_us; now_us += kStep_us) {
@@ -198,9 +199,9 @@ struct Bench {
         std::printf("%s: %.0f %.0f %.0f samples/s, oldest at use %.2f ms, damaged %u, lost %u %u %u, doubted %u, "
                     "wrong %u\n",
                     what, fresh[0] / seconds, fresh[1] / seconds, fresh[2] / seconds,
-                    1e-3 * static_cast<double>(oldest_us),
-                    reported.damaged, report(0).lost, report(1).lost, report(2).lost,
-                    report(0).doubted + report(1).doubted + report(2).doubted, wrong[0] + wrong[1] + wrong[2]);
+                    1e-3 * static_cast<double>(oldest_us), reported.damaged, report(0).lost, report(1).lost,
+                    report(2).lost, report(0).doubted + report(1).doubted + report(2).doubted,
+                    wrong[0] + wrong[1] + wrong[2]);
     }
 };
 
@@ -214,8 +215,8 @@ inline std::vector<std::vector<std::uint8_t>> missed_bursts(std::size_t bytes)
     std::vector<std::uint16_t> remainder(1u << 15);
     for (std::size_t bit = 0; bit < of_bit.size(); ++bit) {
         flips[bit / 8] = static_cast<std::uint8_t>(1u << bit % 8);
-        of_bit[bit] = static_cast<std::uint16_t>(dxl_crc(0, flips.data(), static_cast<std::uint32_t>(bytes) - 2)
-                                                 ^ flips[bytes - 2] ^ flips[bytes - 1] << 8);
+        of_bit[bit] = static_cast<std::uint16_t>(dxl_crc(0, flips.data(), static_cast<std::uint32_t>(bytes) - 2) ^
+                                                 flips[bytes - 2] ^ flips[bytes - 1] << 8);
         flips[bit / 8] = 0;
     }
     for (std::size_t begin = 0; begin < of_bit.size(); ++begin) {

@@ -263,9 +263,9 @@ void check_joint(const ModelKey &key, const Model &model)
         }
         for (const double deflection_rad : {-0.05, -0.02, 0.02, 0.05}) {
             const double step_rad = 1e-5;
-            const double slope = (brace::plant::spring_torque_n_mm(law, deflection_rad + step_rad)
-                                  - brace::plant::spring_torque_n_mm(law, deflection_rad - step_rad))
-                                 / (2.0 * step_rad);
+            const double slope = (brace::plant::spring_torque_n_mm(law, deflection_rad + step_rad) -
+                                  brace::plant::spring_torque_n_mm(law, deflection_rad - step_rad)) /
+                                 (2.0 * step_rad);
             const double stiffness = brace::plant::spring_stiffness_n_mm_per_rad(law, deflection_rad);
             TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(1e-4 * slope, slope, stiffness, key.name);
         }

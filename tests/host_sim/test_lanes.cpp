@@ -29,7 +29,18 @@ bool same(double a, double b)
 }
 
 // Where the series takes over from the library, beyond it, and what is no angle.
-constexpr double kAngles_rad[] = {0.0, -0.0, 1e-300, 1e-9, 0.01, -0.3, 0.4999, 0.5, -0.5, 0.5000001, 1.0, -3.0,
+constexpr double kAngles_rad[] = {0.0,
+                                  -0.0,
+                                  1e-300,
+                                  1e-9,
+                                  0.01,
+                                  -0.3,
+                                  0.4999,
+                                  0.5,
+                                  -0.5,
+                                  0.5000001,
+                                  1.0,
+                                  -3.0,
                                   std::numeric_limits<double>::quiet_NaN()};
 
 } // namespace

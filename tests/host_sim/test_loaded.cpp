@@ -23,8 +23,7 @@ using Eigen::VectorXd;
 void setUp(void) {}
 void tearDown(void) {}
 
-namespace
-{
+namespace {
 
 constexpr double kDown_rad = -M_PI / 2.0;
 constexpr double kQuarterTurn = M_PI / 2.0;
@@ -46,8 +45,7 @@ brace_plant_model_t paper_limb(double moment_transfer)
     return limb;
 }
 
-class Draw
-{
+class Draw {
 public:
     explicit Draw(unsigned seed) : generator_(seed) {}
     double between(double low, double high)
@@ -64,8 +62,8 @@ public:
         limb.geometry = {between(20.0, 100.0), between(80.0, 300.0), between(80.0, 400.0)};
         for (int i = 0; i < 3; ++i) {
             const double strength[] = {0.0, 1.0, between(0.0, 1.0)};
-            limb.link[i] = {decade(-4.0, -2.0),   decade(-2.5, -0.7),  between(-0.4, 0.4),
-                            decade(-2.5, -0.7),   decade(-7.0, -5.5),  strength[generator_() % 3]};
+            limb.link[i] = {decade(-4.0, -2.0), decade(-2.5, -0.7), between(-0.4, 0.4),
+                            decade(-2.5, -0.7), decade(-7.0, -5.5), strength[generator_() % 3]};
             limb.joint[i].compliance_rad_per_n_mm = decade(-6.0, -4.7);
         }
         limb.base = {decade(-4.0, -2.0), decade(-4.0, -2.0), decade(-7.0, -5.5)};
@@ -88,8 +86,7 @@ brace_loaded_result_t under_displacement(const brace_plant_model_t &limb, const 
                                          int parts = 0)
 {
     brace_loaded_result_t result;
-    TEST_ASSERT_EQUAL_INT(BRACE_HOST_OK,
-                          brace_reference_under_displacement(&limb, 1, &given, parts, &result, nullptr));
+    TEST_ASSERT_EQUAL_INT(BRACE_HOST_OK, brace_reference_under_displacement(&limb, 1, &given, parts, &result, nullptr));
     return result;
 }
 
@@ -205,9 +202,8 @@ void test_check_values(void)
         {1.0, 0.3, 0.6, 0.0, 10.0, 5.72214, 48.83450, 22.428601, -1.369207, 0.283982},
     };
     for (const auto &wanted : line) {
-        const auto found =
-            under_force(paper_limb(wanted.moment_transfer),
-                        {wanted.theta1, wanted.theta2, wanted.fx, wanted.fz, 0.0, 0.0, kDown_rad}, -100);
+        const auto found = under_force(paper_limb(wanted.moment_transfer),
+                                       {wanted.theta1, wanted.theta2, wanted.fx, wanted.fz, 0.0, 0.0, kDown_rad}, -100);
         TEST_ASSERT_DOUBLE_WITHIN(0.51e-5, wanted.dx, found.dx_mm);
         TEST_ASSERT_DOUBLE_WITHIN(0.51e-5, wanted.dz, found.dz_mm);
         TEST_ASSERT_DOUBLE_WITHIN(0.51e-6, wanted.k_xx, found.k_xx);
@@ -250,9 +246,9 @@ void test_geometric_stiffness_is_the_derivative_of_the_load(void)
             VectorXd above = bent.q, below = bent.q;
             above[j] += 1e-5;
             below[j] -= 1e-5;
-            const VectorXd found = (load(bent.chain, place(bent.chain, above), bent.force_n).load
-                                    - load(bent.chain, place(bent.chain, below), bent.force_n).load)
-                                   / 2e-5;
+            const VectorXd found = (load(bent.chain, place(bent.chain, above), bent.force_n).load -
+                                    load(bent.chain, place(bent.chain, below), bent.force_n).load) /
+                                   2e-5;
             TEST_ASSERT_TRUE((found - told.col(j)).cwiseAbs().maxCoeff() < 1e-8 * largest);
         }
     }
@@ -263,8 +259,13 @@ void test_compliance_is_the_derivative_of_the_tip(void)
     Draw draw(3);
     for (int trial = 0; trial < 20; ++trial) {
         const brace_plant_model_t limb = draw.limb();
-        brace_loaded_case_t given = {draw.between(-3.0, 3.0), draw.between(-3.0, 3.0), draw.between(-8.0, 8.0),
-                                     draw.between(-8.0, 8.0), 0.0, 0.0, draw.between(-3.0, 3.0)};
+        brace_loaded_case_t given = {draw.between(-3.0, 3.0),
+                                     draw.between(-3.0, 3.0),
+                                     draw.between(-8.0, 8.0),
+                                     draw.between(-8.0, 8.0),
+                                     0.0,
+                                     0.0,
+                                     draw.between(-3.0, 3.0)};
         const auto rest = under_force(limb, given);
         const double step_n = 1e-3;
         Eigen::Matrix2d c;
@@ -289,8 +290,13 @@ void test_held_tip_gives_the_force_back_and_k_its_derivative(void)
     Draw draw(4);
     for (int trial = 0; trial < 20; ++trial) {
         const brace_plant_model_t limb = draw.limb();
-        brace_loaded_case_t given = {draw.between(-3.0, 3.0), draw.between(-3.0, 3.0), draw.between(-8.0, 8.0),
-                                     draw.between(-8.0, 8.0), 0.0, 0.0, draw.between(-3.0, 3.0)};
+        brace_loaded_case_t given = {draw.between(-3.0, 3.0),
+                                     draw.between(-3.0, 3.0),
+                                     draw.between(-8.0, 8.0),
+                                     draw.between(-8.0, 8.0),
+                                     0.0,
+                                     0.0,
+                                     draw.between(-3.0, 3.0)};
         const int parts = 4; // the two directions agree to rounding for one chain
         const auto pushed = under_force(limb, given, parts);
         given.dx_mm = pushed.dx_mm;
@@ -358,9 +364,18 @@ void test_plane_and_space_agree_within_the_plane(void)
         const double theta0 = draw.between(-3.0, 3.0), fx = draw.between(-10.0, 10.0), fz = draw.between(-10.0, 10.0);
         const brace_loaded_case_t plane = {0.4, 1.1, fx, fz, 0.0, 0.0, -1.0};
         const auto flat = under_force(limb, plane);
-        const brace_loaded_space_case_t given = {theta0, 0.4, 1.1, fx * std::cos(theta0), fx * std::sin(theta0), fz,
-                                                 0.0, 0.0, 0.0, std::cos(-1.0) * std::cos(theta0),
-                                                 std::cos(-1.0) * std::sin(theta0), std::sin(-1.0)};
+        const brace_loaded_space_case_t given = {theta0,
+                                                 0.4,
+                                                 1.1,
+                                                 fx * std::cos(theta0),
+                                                 fx * std::sin(theta0),
+                                                 fz,
+                                                 0.0,
+                                                 0.0,
+                                                 0.0,
+                                                 std::cos(-1.0) * std::cos(theta0),
+                                                 std::cos(-1.0) * std::sin(theta0),
+                                                 std::sin(-1.0)};
         brace_loaded_space_result_t found;
         TEST_ASSERT_EQUAL_INT(BRACE_HOST_OK, brace_reference_space_under_force(&limb, 1, &given, 0, &found, nullptr));
         const double size_mm = std::hypot(flat.dx_mm, flat.dz_mm);
@@ -412,8 +427,8 @@ void test_euler_column(void)
     const auto pressed = under_force(beam.limb, {0.3, 0.0, -0.2 * critical_n * std::cos(0.3),
                                                  -0.2 * critical_n * std::sin(0.3), 0.0, 0.0, kDown_rad});
     TEST_ASSERT_DOUBLE_WITHIN(5.0 * 1e-5, 5.0, pressed.buckling_factor);
-    const auto pulled = under_force(beam.limb, {0.3, 0.0, 0.2 * critical_n * std::cos(0.3),
-                                                0.2 * critical_n * std::sin(0.3), 0.0, 0.0, kDown_rad});
+    const auto pulled = under_force(
+        beam.limb, {0.3, 0.0, 0.2 * critical_n * std::cos(0.3), 0.2 * critical_n * std::sin(0.3), 0.0, 0.0, kDown_rad});
     TEST_ASSERT_TRUE(pulled.buckling_factor > 1e3);
 }
 
@@ -486,8 +501,13 @@ void test_default_has_the_accuracy_it_states(void)
     Draw draw(8);
     for (int trial = 0; trial < 25; ++trial) {
         const brace_plant_model_t limb = draw.limb();
-        const brace_loaded_case_t given = {draw.between(-3.0, 3.0), draw.between(-3.0, 3.0), draw.between(-15.0, 15.0),
-                                           draw.between(-15.0, 15.0), 0.0, 0.0, draw.between(-3.0, 3.0)};
+        const brace_loaded_case_t given = {draw.between(-3.0, 3.0),
+                                           draw.between(-3.0, 3.0),
+                                           draw.between(-15.0, 15.0),
+                                           draw.between(-15.0, 15.0),
+                                           0.0,
+                                           0.0,
+                                           draw.between(-3.0, 3.0)};
         const auto found = under_force(limb, given), fine = under_force(limb, given, 300);
         const double reach_mm = limb.geometry.femur_mm + limb.geometry.tibia_mm;
         if (found.buckling_factor < 2.0 || std::hypot(found.dx_mm, found.dz_mm) > 0.2 * reach_mm) {
@@ -513,9 +533,18 @@ void test_default_in_space_has_it_too(void)
         for (auto &link : limb.link) {
             link.moment_transfer_ratio = 1.0;
         }
-        const brace_loaded_space_case_t given = {
-            draw.between(-3.0, 3.0),   draw.between(-3.0, 3.0),   draw.between(-3.0, 3.0), draw.between(-12.0, 12.0),
-            draw.between(-12.0, 12.0), draw.between(-12.0, 12.0), 0.0, 0.0, 0.0, 0.0, 0.6, -0.8};
+        const brace_loaded_space_case_t given = {draw.between(-3.0, 3.0),
+                                                 draw.between(-3.0, 3.0),
+                                                 draw.between(-3.0, 3.0),
+                                                 draw.between(-12.0, 12.0),
+                                                 draw.between(-12.0, 12.0),
+                                                 draw.between(-12.0, 12.0),
+                                                 0.0,
+                                                 0.0,
+                                                 0.0,
+                                                 0.0,
+                                                 0.6,
+                                                 -0.8};
         brace_loaded_space_result_t found, fine;
         TEST_ASSERT_EQUAL_INT(BRACE_HOST_OK, brace_reference_space_under_force(&limb, 1, &given, 0, &found, nullptr));
         TEST_ASSERT_EQUAL_INT(BRACE_HOST_OK, brace_reference_space_under_force(&limb, 1, &given, 200, &fine, nullptr));
@@ -545,8 +574,13 @@ void test_rounding_of_places_hides_no_rest(void)
     limb.gravity = {2.0, 3.0, 1.0, kDown_rad, 0.0};
     Draw draw(10);
     for (int trial = 0; trial < 3000; ++trial) {
-        const brace_loaded_case_t given = {draw.between(-3.0, 3.0), draw.between(-3.0, 3.0), draw.between(-4.0, 4.0),
-                                           draw.between(-4.0, 4.0), 0.0, 0.0, draw.between(-3.0, 3.0)};
+        const brace_loaded_case_t given = {draw.between(-3.0, 3.0),
+                                           draw.between(-3.0, 3.0),
+                                           draw.between(-4.0, 4.0),
+                                           draw.between(-4.0, 4.0),
+                                           0.0,
+                                           0.0,
+                                           draw.between(-3.0, 3.0)};
         under_force(limb, given, 4);
     }
 }

@@ -13,8 +13,7 @@ extern "C" {
 void setUp(void) {}
 void tearDown(void) {}
 
-namespace
-{
+namespace {
 
 struct Closed {
     void operator()(brace_node_t *node) const { brace_node_destroy(node); }
@@ -91,8 +90,7 @@ void hostile_limbs_are_lived_with()
                 0, brace_node_fault(node.get(), limb, fault, limb == 4 ? 0 : 1, 20.0, 0.3 + 0.2 * fault, 0.15));
         }
         for (int i = 0; i < 8; ++i) {
-            TEST_ASSERT_EQUAL_INT(0,
-                                  brace_node_posture(node.get(), limb, 0.4 * i, 1.0 + 0.03 * (i % 2), 1.4));
+            TEST_ASSERT_EQUAL_INT(0, brace_node_posture(node.get(), limb, 0.4 * i, 1.0 + 0.03 * (i % 2), 1.4));
         }
     }
     for (int i = 0; i < 350; ++i) {
@@ -115,8 +113,7 @@ void the_watchdog_bites_a_controller_that_does_not_tick()
     brace_node_limb_t limb = default_limb();
     const Node node(brace_node_create(&limb, 1, nullptr, 0, nullptr));
     TEST_ASSERT_NOT_NULL(node.get());
-    TEST_ASSERT_EQUAL_INT(0,
-                          brace_node_fault(node.get(), 0, BRACE_NODE_FAULT_TICK_LATE, 0, 6000.0, 0.5, 0.1));
+    TEST_ASSERT_EQUAL_INT(0, brace_node_fault(node.get(), 0, BRACE_NODE_FAULT_TICK_LATE, 0, 6000.0, 0.5, 0.1));
     brace_node_step(node.get(), 10000000);
     brace_node_stats_t stats;
     brace_node_stats(node.get(), &stats);
@@ -130,8 +127,7 @@ void what_cannot_be_simulated_is_refused()
 {
     brace_node_failure_t failure;
     const auto refused = [&failure](const brace_node_limb_t &limb) {
-        return brace_node_create(&limb, 1, "none", 0, &failure) == nullptr
-               && failure.part == BRACE_NODE_PART_LIMB;
+        return brace_node_create(&limb, 1, "none", 0, &failure) == nullptr && failure.part == BRACE_NODE_PART_LIMB;
     };
     brace_node_limb_t limb = default_limb();
     limb.plant.geometry.femur_mm = -1.0;

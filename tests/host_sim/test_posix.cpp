@@ -20,8 +20,7 @@ extern "C" {
 extern "C" void setUp(void) {}
 extern "C" void tearDown(void) {}
 
-namespace
-{
+namespace {
 
 // A controller's door, on a bus or not.
 struct Host {
@@ -42,10 +41,7 @@ struct Host {
 
 struct Bus {
     std::unique_ptr<brace_posix_bus_t> bus = std::make_unique<brace_posix_bus_t>();
-    explicit Bus(const char *url)
-    {
-        TEST_ASSERT_EQUAL_INT(BRACE_POSIX_OK, brace_posix_bus_open(bus.get(), url));
-    }
+    explicit Bus(const char *url) { TEST_ASSERT_EQUAL_INT(BRACE_POSIX_OK, brace_posix_bus_open(bus.get(), url)); }
     ~Bus() { brace_posix_bus_close(bus.get()); }
     void poll() { brace_posix_bus_poll(bus.get(), 0); }
 };
@@ -66,8 +62,7 @@ int connected(const char *where)
 
 void put(int file, const std::string &text)
 {
-    TEST_ASSERT_EQUAL_INT(static_cast<int>(text.size()),
-                          static_cast<int>(write(file, text.data(), text.size())));
+    TEST_ASSERT_EQUAL_INT(static_cast<int>(text.size()), static_cast<int>(write(file, text.data(), text.size())));
 }
 
 // What has come within some polls of whoever sends it.
@@ -447,10 +442,8 @@ void modbus_answers_reach_whoever_asked()
 
 void what_is_no_modbus_is_hung_up_on()
 {
-    const std::string bad[] = {{0, 1, 0, 7, 0, 6, 1, 3},
-                               {0, 1, 0, 0, 0, 1, 1, 3},
-                               {0, 1, 0, 0, 0, char(255), 1, 3},
-                               {0, 1, 0, 0, 1, 6, 1, 3}};
+    const std::string bad[] = {
+        {0, 1, 0, 7, 0, 6, 1, 3}, {0, 1, 0, 0, 0, 1, 1, 3}, {0, 1, 0, 0, 0, char(255), 1, 3}, {0, 1, 0, 0, 1, 6, 1, 3}};
     Host host;
     TEST_ASSERT_EQUAL_INT(0, brace_posix_modbus_open(&host.posix.modbus, "modbus-tcp://127.0.0.1:0"));
     std::uint32_t count = 0;
@@ -496,9 +489,8 @@ void an_answer_never_reaches_a_later_connection()
     }
     TEST_ASSERT_EQUAL_INT(12, host.hal.serial_write_to(host.context(), BRACE_SERIAL_MODBUS_TCP, asked_by, bytes, 12));
     put(later, adu(2, "mine"));
-    TEST_ASSERT_TRUE(adu(2, "mine")
-                     == taken(
-                         later, [&host] { echo(host, 300); }, 11));
+    TEST_ASSERT_TRUE(adu(2, "mine") == taken(
+                                           later, [&host] { echo(host, 300); }, 11));
     close(later);
 }
 
@@ -511,13 +503,11 @@ void a_pty_is_a_line()
     TEST_ASSERT_EQUAL_INT(BRACE_HAL_E_UNSUPPORTED,
                           host.hal.serial_write(host.context(), BRACE_SERIAL_MODBUS, nullptr, 0));
     TEST_ASSERT_EQUAL_INT(0, brace_posix_stream_open(line, "pty"));
-    TEST_ASSERT_EQUAL_INT(
-        0, host.hal.serial_setup(host.context(), BRACE_SERIAL_MODBUS, 115200, BRACE_PARITY_EVEN));
+    TEST_ASSERT_EQUAL_INT(0, host.hal.serial_setup(host.context(), BRACE_SERIAL_MODBUS, 115200, BRACE_PARITY_EVEN));
     for (int visit = 0; visit < 2; ++visit) { // clients come and go
         const int client = open(line->where, O_RDWR | O_NOCTTY | O_NONBLOCK);
         TEST_ASSERT_TRUE(client >= 0);
-        const std::uint8_t all[] = {0x00, 0x03, 0x0a, 0x0d,
-                                    0x11, 0x13, 0x7f, 0xff}; // nothing is special on it
+        const std::uint8_t all[] = {0x00, 0x03, 0x0a, 0x0d, 0x11, 0x13, 0x7f, 0xff}; // nothing is special on it
         TEST_ASSERT_EQUAL_INT(8, host.hal.serial_write(host.context(), BRACE_SERIAL_MODBUS, all, 8));
         const std::string got = taken(
             client, [] {}, 8);

@@ -13,8 +13,7 @@ extern "C" {
 #include "unity.h"
 }
 
-namespace
-{
+namespace {
 
 termios asked;
 int times_asked = 0;
@@ -34,8 +33,7 @@ extern "C" int tcsetattr(int file, int when, const termios *settings) noexcept
 extern "C" void setUp(void) {}
 extern "C" void tearDown(void) {}
 
-namespace
-{
+namespace {
 
 // A pty pair, its far end opened as a tty by the posix door.
 struct Line {

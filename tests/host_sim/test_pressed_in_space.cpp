@@ -24,15 +24,13 @@ using Eigen::Vector3d;
 void setUp(void) {}
 void tearDown(void) {}
 
-namespace
-{
+namespace {
 
 constexpr double kPlanted = INFINITY;
 constexpr double kRoom_degc = 22.0;
 const Vector3d kPosture = {0.2, 1.0, 1.4}; // theta0, theta1, theta2
 
-class Draw
-{
+class Draw {
 public:
     explicit Draw(std::uint64_t seed) : noise_(seed) {}
     double between(double low, double high) { return low + (high - low) * noise_.uniform(); }
@@ -214,8 +212,7 @@ void the_contact_stays_where_it_is_while_the_coxa_turns()
     const double angle_rad = 0.05;
     const Pressed turned = settled(limb, kPosture + Vector3d(angle_rad, 0.0, 0.0));
     const auto &length = model.geometry;
-    const double lever_mm =
-        length.coxa_mm + length.femur_mm * std::cos(1.0) + length.tibia_mm * std::cos(1.0 - 1.4);
+    const double lever_mm = length.coxa_mm + length.femur_mm * std::cos(1.0) + length.tibia_mm * std::cos(1.0 - 1.4);
     const Vector3d back_mm(lever_mm * (std::cos(angle_rad) - 1.0), -lever_mm * std::sin(angle_rad), 0.0);
     const Pressed pressed = pressed_by(model, kPosture, back_mm);
     TEST_ASSERT_DOUBLE_WITHIN(1e-6, 0.0, (turned.force_n - pressed.force_n).norm());
@@ -354,8 +351,8 @@ void a_limb_with_nothing_across_its_plane_has_no_coxa_joint()
 {
     brace_plant_model_t limb;
     brace_plant_model_default(&limb);
-    limb.link[0].bending_mm_per_n = 0.1;      // in the plane
-    limb.joint[0].gap_rad = 0.01;             // play alone is no spring
+    limb.link[0].bending_mm_per_n = 0.1; // in the plane
+    limb.joint[0].gap_rad = 0.01; // play alone is no spring
     limb.link[2].torsion_rad_per_n_mm = 1e-6; // the tip lies on this axis
     TEST_ASSERT_FALSE(brace::node::has_coxa_joint(limb));
     limb.link[1].torsion_rad_per_n_mm = 1e-6;

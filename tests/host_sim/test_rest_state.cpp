@@ -64,8 +64,8 @@ RestProblem random_problem(brace::rig::Noise &draw, int joint_count, double load
 double spring_n_mm(const JointUnknown &joint, double deflection)
 {
     const double beyond = std::fmax(std::fabs(deflection) - 0.5 * joint.law.gap_rad, 0.0);
-    const double torque = beyond / joint.law.compliance_rad_per_n_mm
-                          + joint.law.hardening_n_mm_per_rad3 * beyond * beyond * beyond;
+    const double torque =
+        beyond / joint.law.compliance_rad_per_n_mm + joint.law.hardening_n_mm_per_rad3 * beyond * beyond * beyond;
     return std::copysign(torque, deflection);
 }
 

@@ -5,8 +5,7 @@
 void setUp(void) {}
 void tearDown(void) {}
 
-namespace
-{
+namespace {
 
 // ------------------------------------------------------------------------------------------------ what goes wrong
 

@@ -7,8 +7,7 @@
 void setUp(void) {}
 void tearDown(void) {}
 
-namespace
-{
+namespace {
 
 // How long damage at random is played. The plain build shows that it does no harm; the sanitized build looks at each
 // access to memory, and meets each kind of damage within seconds.

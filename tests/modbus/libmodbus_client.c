@@ -73,7 +73,7 @@ static void request(modbus_t *bus, char *line)
 int main(int argc, char **argv)
 {
     char line[4096];
-    modbus_t *bus = argc != 5                    ? NULL
+    modbus_t *bus = argc != 5                     ? NULL
                     : strcmp(argv[1], "tcp") == 0 ? modbus_new_tcp(argv[2], atoi(argv[3]))
                                                   : modbus_new_rtu(argv[2], atoi(argv[3]), 'N', 8, 1);
     if (bus == NULL || modbus_set_slave(bus, atoi(argv[4])) != 0 || modbus_connect(bus) != 0) {

@@ -103,8 +103,8 @@ void history_feel_for_flank(history_t *h, int flank, double offset_rad, double r
 {
     const double reach_rad = reach_gaps * (double)h->believed.gap_rad, step_rad = feeling_rad_per_s * HISTORY_TICK_S;
     const double feeling_rad = h->astray_rad + (offset_rad < 0.0 ? step_rad : -step_rad);
-    h->astray_rad = flank != 0 ? h->astray_rad * (1.0 - HISTORY_TICK_S / back_s)
-                               : fmax(-reach_rad, fmin(feeling_rad, reach_rad));
+    h->astray_rad =
+        flank != 0 ? h->astray_rad * (1.0 - HISTORY_TICK_S / back_s) : fmax(-reach_rad, fmin(feeling_rad, reach_rad));
 }
 
 brace_backlash_sample_t history_tick(history_t *h)

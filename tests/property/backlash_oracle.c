@@ -76,10 +76,10 @@ static void begin(cloud_t *cloud, const plant_t *p, double motor_rad)
     for (int i = 0; i < cloud->count; i++) {
         const double load = 0.1 * p->range_n_mm * dice_normal(&cloud->dice);
         const double engaged = -copysign(half, load) - load / p->stiffness;
-        cloud->of[i] = (particle_t){
-            .motor_rad = motor_rad,
-            .link_rad = motor_rad + (i % 2 == 0 ? dice_uniform(&cloud->dice, -half, half) : engaged),
-            .friction_n_mm = dice_uniform(&cloud->dice, -p->motor_friction_n_mm, p->motor_friction_n_mm)};
+        cloud->of[i] =
+            (particle_t){.motor_rad = motor_rad,
+                         .link_rad = motor_rad + (i % 2 == 0 ? dice_uniform(&cloud->dice, -half, half) : engaged),
+                         .friction_n_mm = dice_uniform(&cloud->dice, -p->motor_friction_n_mm, p->motor_friction_n_mm)};
         cloud->log_weight[i] = 0.0;
     }
 }
@@ -92,8 +92,8 @@ static void rejuvenate(particle_t *q, const plant_t *p, knows_t knows, dice_t *d
     }
     const double half = 0.5 * p->gap_rad, load = 0.12 * p->range_n_mm * dice_normal(dice);
     const bool engaged = dice_uniform(dice, 0.0, 1.0) < 0.7;
-    q->link_rad = q->motor_rad
-                  + (engaged ? -copysign(half, load) - load / p->stiffness : dice_uniform(dice, -half, half));
+    q->link_rad =
+        q->motor_rad + (engaged ? -copysign(half, load) - load / p->stiffness : dice_uniform(dice, -half, half));
     q->link_speed = q->motor_speed;
     if (!knows.known_world) {
         q->world_n_mm = engaged ? -load - plant_gravity_n_mm(p, q->link_rad) : 0.0;
@@ -344,8 +344,12 @@ int backlash_oracle(uint64_t seed, int particles, int exact_torque, int known_wo
         const bool held_before = h.segment.held;
         const brace_backlash_sample_t sample = history_tick(&h);
         const double torque = knows.exact_torque ? real->torque_n_mm : (double)sample.torque_n_mm - p->bias_n_mm;
-        m = (motor_t){.rad0 = m.rad1, .rad1 = real->motor_rad, .speed0 = m.speed1, .speed1 = real->motor_speed,
-                      .accel = (real->motor_speed - m.speed1) / HISTORY_TICK_S, .accel_before = m.accel};
+        m = (motor_t){.rad0 = m.rad1,
+                      .rad1 = real->motor_rad,
+                      .speed0 = m.speed1,
+                      .speed1 = real->motor_speed,
+                      .accel = (real->motor_speed - m.speed1) / HISTORY_TICK_S,
+                      .accel_before = m.accel};
         m.way = way_of(m.speed0, m.speed1);
         m.stood = m.speed0 == 0.0 && m.speed1 == 0.0;
         m.left_n_mm = torque - p->motor_inertia * m.accel - 0.5 * p->motor_damping * (m.speed0 + m.speed1);

@@ -95,14 +95,13 @@ void plant_tick(plant_t *p, double setpoint_rad, double setspeed_rad_per_s, cons
 {
     const double dt = tick_s / STEPS_PER_TICK;
     for (int i = 0; i < STEPS_PER_TICK; i++) {
-        p->torque_n_mm = clamp(p->servo_p * (setpoint_rad - p->motor_rad) +
-                                   p->servo_d * (setspeed_rad_per_s - p->motor_speed),
-                               p->torque_limit_n_mm);
+        p->torque_n_mm =
+            clamp(p->servo_p * (setpoint_rad - p->motor_rad) + p->servo_d * (setspeed_rad_per_s - p->motor_speed),
+                  p->torque_limit_n_mm);
         const double passed = flank_torque(p);
         double outside = world->torque_n_mm + plant_gravity_n_mm(p, p->link_rad) - p->link_damping * p->link_speed;
         if (world->hold_stiffness > 0.0) {
-            outside -= world->hold_stiffness * (p->link_rad - world->hold_rad) +
-                       world->hold_damping * p->link_speed;
+            outside -= world->hold_stiffness * (p->link_rad - world->hold_rad) + world->hold_damping * p->link_speed;
         }
         const double friction_n_mm = motor_friction_n_mm(p);
         p->motor_speed += dt * (p->torque_n_mm - passed - p->motor_damping * p->motor_speed) / p->motor_inertia;

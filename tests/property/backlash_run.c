@@ -85,9 +85,16 @@ int backlash_history(uint64_t seed, int belief, int expecting, int breakaway, do
         const double cnc_command_rad = -cnc.command_way * half_gap_rad;
         const double cnc_encoder_rad = -cnc.encoder_way * half_gap_rad;
         if (trace != NULL) {
-            trace[tick] = (trace_tick_t){(tick + 1) * HISTORY_TICK_S, offset_rad, (double)out.offset_rad,
-                                         cnc_command_rad, cnc_encoder_rad, plant_load_n_mm(p), truth, out.flank,
-                                         out.valid, h.segment.kind};
+            trace[tick] = (trace_tick_t){(tick + 1) * HISTORY_TICK_S,
+                                         offset_rad,
+                                         (double)out.offset_rad,
+                                         cnc_command_rad,
+                                         cnc_encoder_rad,
+                                         plant_load_n_mm(p),
+                                         truth,
+                                         out.flank,
+                                         out.valid,
+                                         h.segment.kind};
         }
         counts->ticks += 1.0;
         counts->open += truth == 0;
@@ -192,7 +199,9 @@ int backlash_takeup(uint64_t seed, int held, takeup_counts_t *counts)
     }
     counts->done += out.takeup == BRACE_TAKEUP_DONE;
     counts->really_done += out.takeup == BRACE_TAKEUP_DONE && stays && hold_ticks > 0.0;
-    counts->result[out.takeup < 0 ? -out.takeup : out.takeup == BRACE_TAKEUP_DONE ? 0 : 1] +=
+    counts->result[out.takeup < 0                    ? -out.takeup
+                   : out.takeup == BRACE_TAKEUP_DONE ? 0
+                                                     : 1] +=
         out.takeup < 0 || out.takeup == BRACE_TAKEUP_DONE ? 1.0 : 0.0;
     counts->torque_over += torque > (double)params.takeup.torque_max_n_mm * 1.000001;
     /* a free link's motor runs on for the tick in which the bound is seen: 0.001 rad are allowed */

@@ -6,8 +6,8 @@
 #include "brace/planar_fixed.h"
 #include "brace/spatial.h"
 
-int fixed_rows(const brace_limb_t *limb, size_t n, const int32_t *theta1_rad_q28,
-               const int32_t *theta2_rad_q28, float *rows)
+int fixed_rows(const brace_limb_t *limb, size_t n, const int32_t *theta1_rad_q28, const int32_t *theta2_rad_q28,
+               float *rows)
 {
     brace_planar_fixed_t fixed;
     int status = brace_planar_fixed_collapse(limb, &fixed);
@@ -44,8 +44,7 @@ int spatial_rows(const brace_limb_t *limb, size_t n, const float *theta0_rad, co
 }
 
 /* Six columns of n floats, one after the other, and the number of refused postures; negative: a status. */
-long batch_columns(const brace_limb_t *limb, size_t n, const float *theta1_rad, const float *theta2_rad,
-                   float *columns)
+long batch_columns(const brace_limb_t *limb, size_t n, const float *theta1_rad, const float *theta2_rad, float *columns)
 {
     brace_planar_t planar;
     const int status = brace_planar_collapse(limb, &planar);

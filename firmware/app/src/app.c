@@ -30,8 +30,16 @@ static bool door_is_complete(const brace_hal_t *hal)
 /* What must not change between one configuration and the next: the parameters, and all that is made from them. */
 static guard_span_t guarded(const controller_t *controller, uint32_t index)
 {
-#define SPAN(from, end) (guard_span_t){&(from), (uint32_t)((const uint8_t *)&(end) - (const uint8_t *)&(from)) / 4u}
-#define WHOLE(member) (guard_span_t){&(member), sizeof(member) / 4u}
+#define SPAN(from, end) \
+    (guard_span_t) \
+    { \
+        &(from), (uint32_t)((const uint8_t *)&(end) - (const uint8_t *)&(from)) / 4u \
+    }
+#define WHOLE(member) \
+    (guard_span_t) \
+    { \
+        &(member), sizeof(member) / 4u \
+    }
     const model_t *model = &controller->model;
     switch (index) {
     case 0: return SPAN(controller->parameters.in_force, controller->parameters.store);
@@ -140,8 +148,7 @@ static void start_ownership(controller_t *controller)
 {
     const brace_hal_t *hal = controller->hal;
     uint8_t key[SIPHASH_KEY_BYTES];
-    const bool has_key =
-        hal->key_read != NULL && hal->random_read != NULL && hal->key_read(hal->context, key) > 0;
+    const bool has_key = hal->key_read != NULL && hal->random_read != NULL && hal->key_read(hal->context, key) > 0;
     uint32_t seed = 0;
     if (hal->random_read == NULL || hal->random_read(hal->context, &seed) != BRACE_HAL_OK) {
         seed = controller->now_us;
@@ -560,8 +567,7 @@ static void update_faults(controller_t *controller, bool late, bool bus_off)
     const uint32_t jumps = (joint[BRACE_COXA].has_jumped ? (uint32_t)BRACE_FAULT_JUMP_COXA : 0u) |
                            (joint[BRACE_FEMUR].has_jumped ? (uint32_t)BRACE_FAULT_JUMP_FEMUR : 0u) |
                            (joint[BRACE_TIBIA].has_jumped ? (uint32_t)BRACE_FAULT_JUMP_TIBIA : 0u);
-    const uint32_t lasting = controller->parameters.faults | jumps |
-                             (store_failed ? (uint32_t)BRACE_FAULT_STORE : 0u) |
+    const uint32_t lasting = controller->parameters.faults | jumps | (store_failed ? (uint32_t)BRACE_FAULT_STORE : 0u) |
                              (drift_job_alarms(&controller->drift) ? (uint32_t)BRACE_FAULT_MODEL_DRIFT : 0u) |
                              (controller->has_crashed ? (uint32_t)BRACE_FAULT_CRASHED : 0u);
     faults_update(&controller->faults, causes, lasting, controller->mode.now != BRACE_MODE_START,
@@ -593,8 +599,8 @@ static void command_drives(controller_t *controller)
         test.torque_limit_n_mm[i] = loading_torque_limit_n_mm(&controller->loading, i);
     }
     drives_command(&controller->drives, controller->hal, &controller->joints, &controller->flank,
-                   takeup_runs(&controller->takeup), &test, stands,
-                   controller->parameters.in_force.controller.tick_us, &controller->counters.commands_failed);
+                   takeup_runs(&controller->takeup), &test, stands, controller->parameters.in_force.controller.tick_us,
+                   &controller->counters.commands_failed);
 }
 
 /* The snapshot is complete: it is the newest from here on. */

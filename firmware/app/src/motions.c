@@ -35,8 +35,7 @@ static brace_status_t may_test(controller_t *controller, const asked_motion_t *m
     if (controller->hal->joint_command == NULL) {
         return BRACE_E_UNSUPPORTED;
     }
-    const loading_inputs_t inputs =
-        controller_loading_inputs(controller, &controller->snapshot[controller->newest]);
+    const loading_inputs_t inputs = controller_loading_inputs(controller, &controller->snapshot[controller->newest]);
     return loading_may_start(&controller->loading, &inputs, &motion->setup);
 }
 
@@ -53,8 +52,7 @@ static brace_status_t judge(controller_t *controller, const asked_motion_t *moti
 
 static void begin_test(controller_t *controller, const brace_loading_setup_t *setup)
 {
-    const loading_inputs_t inputs =
-        controller_loading_inputs(controller, &controller->snapshot[controller->newest]);
+    const loading_inputs_t inputs = controller_loading_inputs(controller, &controller->snapshot[controller->newest]);
     (void)loading_start(&controller->loading, &inputs, setup);
     drift_job_end_run(&controller->drift);
     controller->mode.now = BRACE_MODE_LOADING_TEST;

@@ -71,10 +71,9 @@ brace_status_t brace_app_clear(brace_app_t *app, uint32_t faults)
         return BRACE_E_NULL;
     }
     controller_t *controller = controller_of(app);
-    static const uint32_t jumped[BRACE_LINK_COUNT] = {
-        [BRACE_COXA] = BRACE_FAULT_JUMP_COXA,
-        [BRACE_FEMUR] = BRACE_FAULT_JUMP_FEMUR,
-        [BRACE_TIBIA] = BRACE_FAULT_JUMP_TIBIA};
+    static const uint32_t jumped[BRACE_LINK_COUNT] = {[BRACE_COXA] = BRACE_FAULT_JUMP_COXA,
+                                                      [BRACE_FEMUR] = BRACE_FAULT_JUMP_FEMUR,
+                                                      [BRACE_TIBIA] = BRACE_FAULT_JUMP_TIBIA};
     const uint32_t cleared_by_hand = BRACE_FAULT_MODEL_DRIFT | BRACE_FAULT_CRASHED | BRACE_FAULT_ENCODER_STUCK |
                                      BRACE_FAULT_OLD_PARAMETERS | BRACE_FAULT_JUMP_COXA | BRACE_FAULT_JUMP_FEMUR |
                                      BRACE_FAULT_JUMP_TIBIA;

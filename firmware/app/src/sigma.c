@@ -23,9 +23,9 @@ static float load_off_n_mm(const controller_t *controller, int index)
     const float lag_n_mm = flank_lag_n_mm(&controller->flank, &controller->joints, index);
     const float load_n_mm = __builtin_fabsf(controller->flank.joint[index].out.load_n_mm);
     const float share = drive->motor_friction_per_torque_ratio + drive->motor_friction_per_load_ratio;
-    const float friction_n_mm = (drive->motor_friction_n_mm + share * load_n_mm) *
-                                    (1.0f + drive->motor_friction_tolerance_ratio) +
-                                drive->coulomb_n_mm + drive->coulomb_per_load_ratio * load_n_mm;
+    const float friction_n_mm =
+        (drive->motor_friction_n_mm + share * load_n_mm) * (1.0f + drive->motor_friction_tolerance_ratio) +
+        drive->coulomb_n_mm + drive->coulomb_per_load_ratio * load_n_mm;
     const float gain_n_mm = drive->torque_gain_rel * load_n_mm;
     return __builtin_copysignf(
         __builtin_sqrtf(lag_n_mm * lag_n_mm + friction_n_mm * friction_n_mm + gain_n_mm * gain_n_mm), lag_n_mm);

@@ -24,14 +24,15 @@ static const struct {
     [FORGET] = {"forget", "drops the record of the last crash", "the record of the last crash is dropped, for ever"},
     [RESTART] = {"restart", "starts the processor anew", "the processor starts anew; no tick for about a second"},
     [TEST] = {"test", "the port's self-test; moves nothing, memory is only read",
-        "no tick for about a second, buses are set up anew; then a restart"},
+              "no tick for about a second, buses are set up anew; then a restart"},
     [TEST_SLOT] = {"test slot", "the same, and erases the parameter slot that is not in force", NULL},
-    [TEST_DRIVES] = {"test drives", "the same, and commands the drives to no offset; bench only, limb free",
-        "drives are asked for no offset and no bound of torque: the limb has to hang free; then a restart"},
+    [TEST_DRIVES] =
+        {"test drives", "the same, and commands the drives to no offset; bench only, limb free",
+         "drives are asked for no offset and no bound of torque: the limb has to hang free; then a restart"},
     [KEY] = {"key", "gives this board its key, once",
-        "this board gets a key, and keeps it for ever: nothing takes it back"},
+             "this board gets a key, and keeps it for ever: nothing takes it back"},
     [BENCH] = {"bench", "everybody on its buses may move the limb, until the next start",
-        "everybody on the board's buses may move the limb, with or without the key, until the next start"},
+               "everybody on the board's buses may move the limb, with or without the key, until the next start"},
 };
 
 static void say(text_t *text, const char *sentence)

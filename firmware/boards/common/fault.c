@@ -20,17 +20,16 @@ enum { FRAME_LR = 5, FRAME_PC = 6, FRAME_PSR = 7 };
 
 __attribute__((naked)) void fault_handler(void)
 {
-    __asm__ volatile(
-        "cpsid i\n"
-        "tst lr, #4\n"
-        "ite eq\n"
-        "mrseq r0, msp\n"
-        "mrsne r0, psp\n"
-        "mov r1, lr\n"
-        "ldr r2, =fault_stack + %c0\n"
-        "msr msp, r2\n"
-        "b fault_record\n"
-        ".ltorg\n" ::"i"(FAULT_STACK_WORDS * sizeof(uint32_t)));
+    __asm__ volatile("cpsid i\n"
+                     "tst lr, #4\n"
+                     "ite eq\n"
+                     "mrseq r0, msp\n"
+                     "mrsne r0, psp\n"
+                     "mov r1, lr\n"
+                     "ldr r2, =fault_stack + %c0\n"
+                     "msr msp, r2\n"
+                     "b fault_record\n"
+                     ".ltorg\n" ::"i"(FAULT_STACK_WORDS * sizeof(uint32_t)));
 }
 
 static bool lies_in_ram(const uint32_t *frame)
@@ -42,8 +41,8 @@ static bool lies_in_ram(const uint32_t *frame)
 static uint32_t before(const uint32_t *frame, uint32_t exc_return)
 {
     const bool has_fp = (exc_return & EXC_RETURN_NO_FP_FRAME) == 0u;
-    uint32_t sp = (uint32_t)(uintptr_t)frame + (uint32_t)sizeof(uint32_t) *
-        (has_fp ? (uint32_t)EXTENDED_FRAME_WORDS : (uint32_t)FRAME_WORDS);
+    uint32_t sp = (uint32_t)(uintptr_t)frame +
+                  (uint32_t)sizeof(uint32_t) * (has_fp ? (uint32_t)EXTENDED_FRAME_WORDS : (uint32_t)FRAME_WORDS);
     if (lies_in_ram(frame) && (frame[FRAME_PSR] & PSR_STACK_WAS_ALIGNED) != 0u) {
         sp += (uint32_t)sizeof(uint32_t);
     }

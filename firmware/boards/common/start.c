@@ -14,17 +14,16 @@ __attribute__((used, noreturn)) void start(void);
 /* Paints the whole stack, which is still empty, and then calls C. */
 __attribute__((naked, noreturn)) void reset_handler(void)
 {
-    __asm__ volatile(
-        "cpsid i\n"
-        "ldr r0, =_stack_limit\n"
-        "ldr r1, =_stack_top\n"
-        "msr msp, r1\n"
-        "ldr r2, =%c0\n"
-        "1: str r2, [r0], #4\n"
-        "cmp r0, r1\n"
-        "blo 1b\n"
-        "b start\n"
-        ".ltorg\n" ::"i"(STACK_PAINT));
+    __asm__ volatile("cpsid i\n"
+                     "ldr r0, =_stack_limit\n"
+                     "ldr r1, =_stack_top\n"
+                     "msr msp, r1\n"
+                     "ldr r2, =%c0\n"
+                     "1: str r2, [r0], #4\n"
+                     "cmp r0, r1\n"
+                     "blo 1b\n"
+                     "b start\n"
+                     ".ltorg\n" ::"i"(STACK_PAINT));
 }
 
 /* Forbids the 4 KiB below the stack. No RAM is there, but some boards answer all the same; now an access is a fault. */

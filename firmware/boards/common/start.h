@@ -16,8 +16,8 @@ void fault_handler(void);
 
 /* Exceptions 1-15 in the order of the table. */
 #define CORTEX_M_VECTORS CORTEX_M_VECTORS_WITH_NMI(fault_handler)
-#define CORTEX_M_VECTORS_WITH_NMI(nmi)                                                                          \
-    reset_handler, nmi, fault_handler, fault_handler, fault_handler, fault_handler, 0, 0, 0, 0,      \
-        UNEXPECTED, UNEXPECTED, 0, UNEXPECTED, UNEXPECTED
+#define CORTEX_M_VECTORS_WITH_NMI(nmi) \
+    reset_handler, nmi, fault_handler, fault_handler, fault_handler, fault_handler, 0, 0, 0, 0, UNEXPECTED, \
+        UNEXPECTED, 0, UNEXPECTED, UNEXPECTED
 
 #endif

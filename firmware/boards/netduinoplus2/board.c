@@ -79,16 +79,16 @@ const brace_hal_t *board_start(void)
     /* The emulator's own rates; it ignores the registers that set them. */
     static const stm32f405_clocks_t clocks = {
         .core_hz = 168000000u, .apb1_hz = 42000000u, .apb2_hz = 84000000u, .timer_hz = 1000000000u};
-    static const stm32f405_joints_t joints = {.read = joint_read,
-                                              .command = has_servos ? servo_joints_command : 0};
+    static const stm32f405_joints_t joints = {.read = joint_read, .command = has_servos ? servo_joints_command : 0};
     static stm32f405_board_t board = {
         .name = BRACE_BOARD_NAME,
         .clocks_given = &clocks,
-        .serial = {
-            [BRACE_SERIAL_CONSOLE] = {.usart = 1u, .tx = {'A', 9u}, .rx = {'A', 10u}},
-            [BRACE_SERIAL_MODBUS] = {.usart = 2u, .tx = {'A', 2u}, .rx = {'A', 3u}},
-            [BRACE_SERIAL_SLCAN] = {.usart = 3u, .tx = {'B', 10u}, .rx = {'B', 11u}},
-        },
+        .serial =
+            {
+                [BRACE_SERIAL_CONSOLE] = {.usart = 1u, .tx = {'A', 9u}, .rx = {'A', 10u}},
+                [BRACE_SERIAL_MODBUS] = {.usart = 2u, .tx = {'A', 2u}, .rx = {'A', 3u}},
+                [BRACE_SERIAL_SLCAN] = {.usart = 3u, .tx = {'B', 10u}, .rx = {'B', 11u}},
+            },
         .joints = &joints,
         .crash_read = kept_crash_read,
         .crash_clear = kept_crash_clear,

@@ -79,11 +79,12 @@ const brace_hal_t *board_start(void)
     static stm32f405_board_t board = {
         .name = BRACE_BOARD_NAME,
         .hse_hz = 8000000u,
-        .serial = {
-            [BRACE_SERIAL_CONSOLE] = {.usart = 1u, .tx = {'A', 9u}, .rx = {'A', 10u}},
-            [BRACE_SERIAL_MODBUS] = {.usart = 2u, .tx = {'A', 2u}, .rx = {'A', 3u}, .drive_enable = {'A', 1u}},
-            [BRACE_SERIAL_SLCAN] = {.usart = 3u, .tx = {'B', 10u}, .rx = {'B', 11u}},
-        },
+        .serial =
+            {
+                [BRACE_SERIAL_CONSOLE] = {.usart = 1u, .tx = {'A', 9u}, .rx = {'A', 10u}},
+                [BRACE_SERIAL_MODBUS] = {.usart = 2u, .tx = {'A', 2u}, .rx = {'A', 3u}, .drive_enable = {'A', 1u}},
+                [BRACE_SERIAL_SLCAN] = {.usart = 3u, .tx = {'B', 10u}, .rx = {'B', 11u}},
+            },
         .can_rx = {'B', 8u},
         .can_tx = {'B', 9u},
         .nvm_sector = {10u, 11u},

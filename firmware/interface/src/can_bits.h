@@ -23,8 +23,7 @@ static inline void brace_bits_store(uint64_t bits, uint8_t data[8])
 
 static inline uint64_t brace_bits_load(const uint8_t data[8])
 {
-    const uint32_t low =
-        (uint32_t)data[0] | (uint32_t)data[1] << 8 | (uint32_t)data[2] << 16 | (uint32_t)data[3] << 24;
+    const uint32_t low = (uint32_t)data[0] | (uint32_t)data[1] << 8 | (uint32_t)data[2] << 16 | (uint32_t)data[3] << 24;
     const uint32_t high =
         (uint32_t)data[4] | (uint32_t)data[5] << 8 | (uint32_t)data[6] << 16 | (uint32_t)data[7] << 24;
     return (uint64_t)high << 32 | low;
@@ -53,8 +52,7 @@ static inline int32_t brace_bits_beyond(float steps, int32_t low, int32_t high, 
 }
 
 /* A value in steps. NaN becomes the code of 'not known'. A value beyond the range is limited and counted. */
-static inline uint64_t brace_bits_signed(float value, float per_step, uint32_t start, uint32_t count,
-                                         uint32_t *limited)
+static inline uint64_t brace_bits_signed(float value, float per_step, uint32_t start, uint32_t count, uint32_t *limited)
 {
     const int32_t high = (int32_t)(brace_bits_mask(count) >> 1);
     const float steps = value * per_step;

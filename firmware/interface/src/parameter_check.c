@@ -99,8 +99,7 @@ static brace_status_t check_members(const brace_parameters_t *parameters, uint32
     return BRACE_OK;
 }
 
-brace_status_t brace_parameters_check_piece(const brace_parameters_t *parameters, uint32_t piece,
-                                            uint32_t *wrong_index)
+brace_status_t brace_parameters_check_piece(const brace_parameters_t *parameters, uint32_t piece, uint32_t *wrong_index)
 {
     if (parameters == NULL) {
         return BRACE_E_NULL;

@@ -24,10 +24,7 @@ typedef enum {
     STAGE_UNDO
 } stage_t;
 
-enum {
-    BLANK_CHECKED = BRACE_STORE_BLOCK_ROOM,
-    MARKS_BYTES = BRACE_STORE_MARK_COUNT * BRACE_STORE_MARK_BYTES
-};
+enum { BLANK_CHECKED = BRACE_STORE_BLOCK_ROOM, MARKS_BYTES = BRACE_STORE_MARK_COUNT * BRACE_STORE_MARK_BYTES };
 
 enum { PLACES_FILLED = 2, SEALED_BYTES = 64 /* of the CRC, at once */ };
 static const uint8_t zeros[PLACES_FILLED * BRACE_STORE_MARK_BYTES];
@@ -63,12 +60,10 @@ static void judge_age(brace_store_t *store, const store_claim_t claims[BRACE_NVM
     const bool is_later = store->slot[other].condition != BRACE_SLOT_REFUSED ||
                           (int32_t)(claims[other].sequence - store->slot[slot].sequence) > 0;
     store->is_old = has_gone || (claims[other].is_rotten && is_later);
-    store->wanted_sequence =
-        has_gone ? store->slot[slot].sequence + claims[slot].later : claims[other].sequence;
+    store->wanted_sequence = has_gone ? store->slot[slot].sequence + claims[slot].later : claims[other].sequence;
 }
 
-brace_parameter_origin_t brace_store_start(brace_store_t *store, const brace_hal_t *hal,
-                                           brace_parameters_t *parameters)
+brace_parameter_origin_t brace_store_start(brace_store_t *store, const brace_hal_t *hal, brace_parameters_t *parameters)
 {
     brace_parameters_t second;
     store_claim_t claims[BRACE_NVM_SLOT_COUNT];
@@ -83,15 +78,15 @@ brace_parameter_origin_t brace_store_start(brace_store_t *store, const brace_hal
     store_look(store, 0, parameters, &claims[0]);
     choose(store, 0);
     store_look(store, 1, &second, &claims[1]);
-    const bool newer = store->in_force == BRACE_PARAMETERS_DEFAULT ||
-                       (int32_t)(store->slot[1].sequence - store->slot[0].sequence) > 0;
+    const bool newer =
+        store->in_force == BRACE_PARAMETERS_DEFAULT || (int32_t)(store->slot[1].sequence - store->slot[0].sequence) > 0;
     if (newer && store->slot[1].condition == BRACE_SLOT_COUNTS) {
         *parameters = second;
         choose(store, 1);
     }
     judge_age(store, claims);
-    store->memory_fault = store->slot[0].condition == BRACE_SLOT_UNREADABLE ||
-                          store->slot[1].condition == BRACE_SLOT_UNREADABLE;
+    store->memory_fault =
+        store->slot[0].condition == BRACE_SLOT_UNREADABLE || store->slot[1].condition == BRACE_SLOT_UNREADABLE;
     return (brace_parameter_origin_t)store->in_force;
 }
 
@@ -184,8 +179,7 @@ void brace_store_expect(brace_store_t *store, uint32_t crc)
     }
 }
 
-brace_status_t brace_store_begin(brace_store_t *store, const brace_parameters_t *parameters,
-                                 uint32_t *wrong_index)
+brace_status_t brace_store_begin(brace_store_t *store, const brace_parameters_t *parameters, uint32_t *wrong_index)
 {
     if (store == NULL || parameters == NULL) {
         return BRACE_E_NULL;
@@ -355,8 +349,7 @@ static brace_store_state_t settle(brace_store_t *store, uint32_t slot, store_wor
 {
     const bool stands = word == STORE_KEEP && store->affirmed[slot];
     const mark_result_t result =
-        stands ? MARK_DONE
-               : put_mark(store, slot, word, store->slot[slot].block_crc, BRACE_STORE_MARKS_KEPT_FREE);
+        stands ? MARK_DONE : put_mark(store, slot, word, store->slot[slot].block_crc, BRACE_STORE_MARKS_KEPT_FREE);
     if (result == MARK_BUSY) {
         return BRACE_STORE_BUSY;
     }
@@ -418,11 +411,11 @@ static brace_store_state_t commit(brace_store_t *store)
     if (result == MARK_BUSY) {
         return BRACE_STORE_BUSY;
     }
-    store->slot[store->target] = (brace_slot_report_t){
-        .condition = result == MARK_DONE ? BRACE_SLOT_COUNTS : BRACE_SLOT_NOT_COMMITTED,
-        .sequence = store->sequence,
-        .schema_hash = BRACE_SCHEMA_HASH,
-        .block_crc = crc};
+    store->slot[store->target] =
+        (brace_slot_report_t){.condition = result == MARK_DONE ? BRACE_SLOT_COUNTS : BRACE_SLOT_NOT_COMMITTED,
+                              .sequence = store->sequence,
+                              .schema_hash = BRACE_SCHEMA_HASH,
+                              .block_crc = crc};
     if (result == MARK_DONE) {
         store->memory_fault = false;
         store->wanted_sequence = store->sequence;
@@ -517,8 +510,7 @@ static brace_store_state_t check_blank(brace_store_t *store)
     uint8_t piece[BRACE_STORE_PIECE_BYTES];
     const bool in_block = store->position < BLANK_CHECKED;
     const uint32_t end = in_block ? BLANK_CHECKED : BLANK_CHECKED + MARKS_BYTES;
-    const uint32_t offset =
-        in_block ? store->position : BRACE_STORE_MARKS_AT + store->position - BLANK_CHECKED;
+    const uint32_t offset = in_block ? store->position : BRACE_STORE_MARKS_AT + store->position - BLANK_CHECKED;
     const uint32_t count = piece_of(store->position, end);
     if (store->hal->nvm_read(store->hal->context, store->target, offset, piece, count) != BRACE_HAL_OK) {
         return fail(store, BRACE_STORE_E_DEVICE);
@@ -538,8 +530,8 @@ static brace_store_state_t check_blank(brace_store_t *store)
 static brace_store_state_t write_block(brace_store_t *store)
 {
     const uint32_t count = piece_of(store->position, BRACE_STORE_BLOCK_ROOM);
-    if (store->hal->nvm_write(store->hal->context, store->target, store->position,
-                              store->block + store->position, count) != BRACE_HAL_OK) {
+    if (store->hal->nvm_write(store->hal->context, store->target, store->position, store->block + store->position,
+                              count) != BRACE_HAL_OK) {
         return fail(store, BRACE_STORE_E_DEVICE);
     }
     store->position += count;
@@ -571,8 +563,7 @@ static brace_store_state_t reread(brace_store_t *store)
 {
     const uint32_t from = store->position, count = piece_of(from, BRACE_BLOCK_BYTES);
     const uint32_t covered = BRACE_BLOCK_BYTES - 4;
-    if (store->hal->nvm_read(store->hal->context, store->target, from, store->block + from, count) !=
-        BRACE_HAL_OK) {
+    if (store->hal->nvm_read(store->hal->context, store->target, from, store->block + from, count) != BRACE_HAL_OK) {
         return fail(store, BRACE_STORE_E_DEVICE);
     }
     identify(store, from, count);

@@ -77,7 +77,7 @@ typedef enum { SAYS_NOTHING, SAYS_KEEP, SAYS_VOID, SAYS_PAST } says_t;
 
 static says_t word_of(const uint8_t mark[BRACE_STORE_MARK_BYTES])
 {
-    return memcmp(mark, "KEEP", 4) == 0 ? SAYS_KEEP
+    return memcmp(mark, "KEEP", 4) == 0   ? SAYS_KEEP
            : memcmp(mark, "VOID", 4) == 0 ? SAYS_VOID
            : memcmp(mark, "PS", 2) == 0   ? SAYS_PAST
                                           : SAYS_NOTHING;

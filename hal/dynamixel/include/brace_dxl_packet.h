@@ -113,7 +113,6 @@ typedef struct {
 /* The part of servo `index` in an answer to a fast sync read of `servos` servos with `count` bytes each. Each part has
  * its own CRC, which the last one's covers; so a sound packet's parts are sound. false: the packet is no such
  * answer. */
-bool dxl_fast_answer(const dxl_packet_t *packet, uint32_t servos, uint32_t count, uint32_t index,
-                     dxl_answer_t *answer);
+bool dxl_fast_answer(const dxl_packet_t *packet, uint32_t servos, uint32_t count, uint32_t index, dxl_answer_t *answer);
 
 #endif

@@ -73,8 +73,8 @@ bool dxl_receiver_next(dxl_receiver_t *receiver, dxl_packet_t *packet)
             return false;
         }
         if (fits && dxl_crc(0, bytes, whole - 2u) == (bytes[whole - 2u] | (uint32_t)bytes[whole - 1u] << 8)) {
-            *packet = (dxl_packet_t){bytes[4], bytes[7], &bytes[DXL_HEAD_BYTES],
-                                     whole - DXL_HEAD_BYTES - DXL_CRC_BYTES};
+            *packet =
+                (dxl_packet_t){bytes[4], bytes[7], &bytes[DXL_HEAD_BYTES], whole - DXL_HEAD_BYTES - DXL_CRC_BYTES};
             receiver->handed = whole;
             return true;
         }
@@ -101,8 +101,7 @@ uint32_t dxl_unstuff(const dxl_packet_t *packet, uint8_t *bytes, uint32_t room)
     return count;
 }
 
-bool dxl_fast_answer(const dxl_packet_t *packet, uint32_t servos, uint32_t count, uint32_t index,
-                     dxl_answer_t *answer)
+bool dxl_fast_answer(const dxl_packet_t *packet, uint32_t servos, uint32_t count, uint32_t index, dxl_answer_t *answer)
 {
     const uint32_t part = 2u + count + DXL_CRC_BYTES;
     if (packet->id != DXL_ID_ALL || packet->instruction != DXL_STATUS || index >= servos ||

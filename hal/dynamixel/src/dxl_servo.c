@@ -141,8 +141,8 @@ static void take_identity(brace_servo_t *servo, const brace_servo_setup_t *setup
         servo->report.state = BRACE_SERVO_MODE;
     } else {
         servo->report.state = BRACE_SERVO_STARTING;
-        servo->torque_per_count_n_mm = 1e-3f * model->step_ma * model->n_mm_per_a * joint->torque_ratio *
-                                       (joint->is_reversed ? -1.0f : 1.0f);
+        servo->torque_per_count_n_mm =
+            1e-3f * model->step_ma * model->n_mm_per_a * joint->torque_ratio * (joint->is_reversed ? -1.0f : 1.0f);
         servo->step = DXL_STEP_READ_LIMITS;
         servo->has_limits = false;
     }
@@ -210,10 +210,9 @@ static void take_goals(brace_servo_t *servo, const brace_servo_joint_t *joint, c
     enum { CURRENT = 0, POSITION = 14 };
     const uint16_t current = (uint16_t)value_of(&data[CURRENT], 2);
     const int32_t goal = signed32(&data[POSITION]);
-    const bool is_believed = servo->has_place && servo->current_sent == current &&
-                             distance(goal, servo->goal_sent) <= POSITION_JUMP;
-    const bool is_bound =
-        servo->report.operating_mode == DXL_MODE_CURRENT_POSITION && current < servo->current_limit;
+    const bool is_believed =
+        servo->has_place && servo->current_sent == current && distance(goal, servo->goal_sent) <= POSITION_JUMP;
+    const bool is_bound = servo->report.operating_mode == DXL_MODE_CURRENT_POSITION && current < servo->current_limit;
     servo->current_sent = current;
     servo->goal_sent = goal;
     servo->has_place = true;
@@ -245,26 +244,16 @@ void dxl_servo_take(brace_servo_t *servo, const brace_servo_setup_t *setup, uint
     const brace_servo_joint_t *joint = &setup->joint[index];
     servo->refusals = 0;
     switch (servo->step) {
-    case DXL_STEP_IDENTIFY:
-        take_identity(servo, setup, joint, data);
-        break;
-    case DXL_STEP_READ_LIMITS:
-        take_limits(servo, data);
-        break;
+    case DXL_STEP_IDENTIFY: take_identity(servo, setup, joint, data); break;
+    case DXL_STEP_READ_LIMITS: take_limits(servo, data); break;
     case DXL_STEP_READ_STATE:
     case DXL_STEP_READ_STATE_AGAIN:
         take_state(servo, setup->holds, data);
         servo->temperature_is_next = true;
         break;
-    case DXL_STEP_READ_GOALS:
-        take_goals(servo, joint, data);
-        break;
-    case DXL_STEP_READ_PLACE:
-        take_place(servo, joint, signed32(data));
-        break;
-    case DXL_STEP_WRITE_PLACE:
-        servo->step = DXL_STEP_WRITE_TORQUE;
-        break;
+    case DXL_STEP_READ_GOALS: take_goals(servo, joint, data); break;
+    case DXL_STEP_READ_PLACE: take_place(servo, joint, signed32(data)); break;
+    case DXL_STEP_WRITE_PLACE: servo->step = DXL_STEP_WRITE_TORQUE; break;
     case DXL_STEP_WRITE_TORQUE:
         servo->step = DXL_STEP_READ_STATE;
         servo->report.has_torque = true; /* DXL_STEP_READ_STATE judges it */
@@ -306,8 +295,8 @@ void dxl_servo_fade(brace_servo_t *servo, uint32_t now_us, uint32_t passed_us)
         const float step_rad = FADE_RAD_PER_US * (float)passed_us;
         servo->limit_n_mm = INFINITY;
         servo->offset_rad = dxl_magnitude(servo->offset_rad) <= step_rad ? 0.0f
-                            : servo->offset_rad > 0.0f               ? servo->offset_rad - step_rad
-                                                                     : servo->offset_rad + step_rad;
+                            : servo->offset_rad > 0.0f                   ? servo->offset_rad - step_rad
+                                                                         : servo->offset_rad + step_rad;
         servo->is_commanded = servo->goes_back = servo->offset_rad != 0.0f;
     }
 }

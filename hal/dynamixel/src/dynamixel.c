@@ -38,7 +38,7 @@ static uint32_t bytes_of_step(uint8_t step)
 
 static void answer_sample(brace_dynamixel_t *driver, uint32_t joint, uint8_t error, const uint8_t *data)
 {
-    driver->asked &= (uint8_t)~(1u << joint);
+    driver->asked &= (uint8_t) ~(1u << joint);
     if (dxl_servo_note(&driver->servo[joint], error)) {
         dxl_servo_sample(&driver->servo[joint], data, driver->began_us);
     }
@@ -89,7 +89,7 @@ static bool take_single(brace_dynamixel_t *driver, const dxl_packet_t *packet)
         answer_sample(driver, (uint32_t)joint, data[0], &data[1]);
         return true;
     }
-    driver->asked &= (uint8_t)~(1u << joint);
+    driver->asked &= (uint8_t) ~(1u << joint);
     const bool is_taken = dxl_servo_note(&driver->servo[joint], data[0]);
     if (!is_sample && is_taken) {
         dxl_servo_take(&driver->servo[joint], &driver->setup, (uint32_t)joint, &data[1]);
@@ -104,9 +104,9 @@ static void take_packet(brace_dynamixel_t *driver, const dxl_packet_t *packet)
     if (packet->instruction != DXL_STATUS) {
         return; /* our own request, heard by a line that hears itself */
     }
-    const bool is_ours = driver->asked != 0u && (driver->pending == SAMPLES && !driver->is_plain
-                                                     ? take_fast(driver, packet)
-                                                     : take_single(driver, packet));
+    const bool is_ours =
+        driver->asked != 0u &&
+        (driver->pending == SAMPLES && !driver->is_plain ? take_fast(driver, packet) : take_single(driver, packet));
     dxl_count(is_ours ? &driver->counters.answers : &driver->counters.foreign);
 }
 
@@ -237,14 +237,11 @@ static bool needs_care(const brace_dynamixel_t *driver, uint32_t joint)
 {
     const brace_servo_t *servo = &driver->servo[joint];
     switch (servo->report.state) {
-    case BRACE_SERVO_NONE:
-        return false;
-    case BRACE_SERVO_STARTING:
-        return true;
+    case BRACE_SERVO_NONE: return false;
+    case BRACE_SERVO_STARTING: return true;
     case BRACE_SERVO_READY:
         return driver->until_care == 0u || (servo->state_is_due && driver->until_care < CARE_EVERY / 2);
-    default:
-        return driver->now_us - servo->asked_us >= ASK_SILENT_US;
+    default: return driver->now_us - servo->asked_us >= ASK_SILENT_US;
     }
 }
 
@@ -262,27 +259,19 @@ static bool ask_one(brace_dynamixel_t *driver, uint32_t joint)
     } else if (servo->report.state != BRACE_SERVO_READY && servo->report.state != BRACE_SERVO_STARTING) {
         servo->step = DXL_STEP_IDENTIFY;
     } else if (servo->report.state == BRACE_SERVO_READY) {
-        servo->step = servo->temperature_is_next && !servo->state_is_due ? DXL_STEP_READ_TEMPERATURE
-                                                                         : DXL_STEP_READ_STATE_AGAIN;
+        servo->step =
+            servo->temperature_is_next && !servo->state_is_due ? DXL_STEP_READ_TEMPERATURE : DXL_STEP_READ_STATE_AGAIN;
     }
     switch (servo->step) {
-    case DXL_STEP_IDENTIFY:
-        return dxl_ask_read(out, id, DXL_AT_IDENTITY, DXL_IDENTITY_BYTES);
-    case DXL_STEP_READ_LIMITS:
-        return dxl_ask_read(out, id, DXL_AT_LIMITS, DXL_LIMITS_BYTES);
+    case DXL_STEP_IDENTIFY: return dxl_ask_read(out, id, DXL_AT_IDENTITY, DXL_IDENTITY_BYTES);
+    case DXL_STEP_READ_LIMITS: return dxl_ask_read(out, id, DXL_AT_LIMITS, DXL_LIMITS_BYTES);
     case DXL_STEP_READ_STATE:
-    case DXL_STEP_READ_STATE_AGAIN:
-        return dxl_ask_read(out, id, DXL_AT_TORQUE, DXL_STATE_BYTES);
-    case DXL_STEP_READ_GOALS:
-        return dxl_ask_read(out, id, DXL_AT_GOAL_CURRENT, DXL_GOALS_BYTES);
-    case DXL_STEP_READ_PLACE:
-        return dxl_ask_read(out, id, DXL_AT_PRESENT_POSITION, 4);
-    case DXL_STEP_WRITE_PLACE:
-        return dxl_ask_write(out, id, DXL_AT_GOAL_POSITION, (uint32_t)servo->goal_sent, 4);
-    case DXL_STEP_WRITE_TORQUE:
-        return dxl_ask_write(out, id, DXL_AT_TORQUE, 1, 1);
-    default: /* DXL_STEP_READ_TEMPERATURE */
-        return dxl_ask_read(out, id, DXL_AT_TEMPERATURE, 1);
+    case DXL_STEP_READ_STATE_AGAIN: return dxl_ask_read(out, id, DXL_AT_TORQUE, DXL_STATE_BYTES);
+    case DXL_STEP_READ_GOALS: return dxl_ask_read(out, id, DXL_AT_GOAL_CURRENT, DXL_GOALS_BYTES);
+    case DXL_STEP_READ_PLACE: return dxl_ask_read(out, id, DXL_AT_PRESENT_POSITION, 4);
+    case DXL_STEP_WRITE_PLACE: return dxl_ask_write(out, id, DXL_AT_GOAL_POSITION, (uint32_t)servo->goal_sent, 4);
+    case DXL_STEP_WRITE_TORQUE: return dxl_ask_write(out, id, DXL_AT_TORQUE, 1, 1);
+    default: /* DXL_STEP_READ_TEMPERATURE */ return dxl_ask_read(out, id, DXL_AT_TEMPERATURE, 1);
     }
 }
 

@@ -2,11 +2,11 @@
 
 #include <stddef.h>
 
-#define CALLED(entry)                                              \
-    brace_fake_t *fake = context;                                  \
-    const int32_t wanted = fake_called(fake, BRACE_FAKE_##entry);  \
-    if (wanted != BRACE_HAL_OK) {                                  \
-        return wanted;                                             \
+#define CALLED(entry) \
+    brace_fake_t *fake = context; \
+    const int32_t wanted = fake_called(fake, BRACE_FAKE_##entry); \
+    if (wanted != BRACE_HAL_OK) { \
+        return wanted; \
     }
 
 static uint32_t now_us(void *context)

@@ -23,22 +23,22 @@
 /* Why something could not be opened. When a system call refused, errno says more. */
 enum {
     BRACE_POSIX_OK = 0,
-    BRACE_POSIX_E_URL = -1,       /* not a URL of a known kind */
-    BRACE_POSIX_E_IN_USE = -2,    /* another program listens on this port, or holds this device */
+    BRACE_POSIX_E_URL = -1, /* not a URL of a known kind */
+    BRACE_POSIX_E_IN_USE = -2, /* another program listens on this port, or holds this device */
     BRACE_POSIX_E_NO_DEVICE = -3, /* there is no such device, interface, host or folder */
-    BRACE_POSIX_E_NO_CAN = -4,    /* this kernel has no CAN */
+    BRACE_POSIX_E_NO_CAN = -4, /* this kernel has no CAN */
     BRACE_POSIX_E_DENIED = -5,
-    BRACE_POSIX_E_SYSTEM = -6,    /* another refusal of the system: errno */
-    BRACE_POSIX_E_SIZE = -7       /* the file's size is not that of a controller's memory */
+    BRACE_POSIX_E_SYSTEM = -6, /* another refusal of the system: errno */
+    BRACE_POSIX_E_SIZE = -7 /* the file's size is not that of a controller's memory */
 };
 
 /* One line of English for these; constant storage, never null. */
 const char *brace_posix_status_text(int32_t status);
 
 enum {
-    BRACE_POSIX_NODES = 16,        /* controllers on one bus */
-    BRACE_POSIX_CLIENTS = 16,      /* SLCAN clients of one bus; Modbus TCP connections of one port */
-    BRACE_POSIX_RING = 64,         /* received frames that wait for a controller; as on the STM32F405 */
+    BRACE_POSIX_NODES = 16, /* controllers on one bus */
+    BRACE_POSIX_CLIENTS = 16, /* SLCAN clients of one bus; Modbus TCP connections of one port */
+    BRACE_POSIX_RING = 64, /* received frames that wait for a controller; as on the STM32F405 */
     BRACE_POSIX_OUT_BYTES = 32768, /* text that waits for a client */
     BRACE_POSIX_WHERE = 128,
     BRACE_POSIX_SLOT_BYTES = 16384,
@@ -62,11 +62,11 @@ typedef struct {
 } brace_posix_wire_frame_t;
 
 typedef struct {
-    int file;                   /* -1: no client */
+    int file; /* -1: no client */
     bool open, listen_only, stamps;
-    uint32_t bit_rate;          /* as the client set it; 0: not set, so the client accepts the bus' rate */
-    uint32_t frames_lost;       /* frames that found no room: the client reads too slowly */
-    uint32_t refused;           /* commands answered with BEL */
+    uint32_t bit_rate; /* as the client set it; 0: not set, so the client accepts the bus' rate */
+    uint32_t frames_lost; /* frames that found no room: the client reads too slowly */
+    uint32_t refused; /* commands answered with BEL */
     uint32_t command_count;
     bool command_too_long;
     char command[160];
@@ -75,12 +75,12 @@ typedef struct {
 
 /* A controller on the bus. */
 typedef struct {
-    bool used, on;              /* on: can_setup has been called */
+    bool used, on; /* on: can_setup has been called */
     brace_can_setup_t setup;
-    bool fault_bus_off;         /* injected: the bus is off and stays off */
-    bool bus_off;               /* stays until can_recover */
+    bool fault_bus_off; /* injected: the bus is off and stays off */
+    bool bus_off; /* stays until can_recover */
     uint32_t frames_lost, sent, received;
-    bool has_urgent;            /* a frame of setup.urgent_id waits: the newest, outside the ring */
+    bool has_urgent; /* a frame of setup.urgent_id waits: the newest, outside the ring */
     brace_can_frame_t urgent;
     uint32_t start, count;
     brace_can_frame_t ring[BRACE_POSIX_RING];
@@ -96,11 +96,11 @@ typedef enum {
 typedef struct {
     brace_posix_bus_kind_t kind;
     char where[BRACE_POSIX_WHERE]; /* the place that a client connects to: tcp://127.0.0.1:29536, /dev/pts/3, vcan0 */
-    int listener, kept;            /* kept: the pty's other end, held open so that the pty outlives its clients */
+    int listener, kept; /* kept: the pty's other end, held open so that the pty outlives its clients */
     int socket_can;
     bool socket_can_fd;
-    uint32_t socket_lost;          /* frames that the kernel had no room for */
-    uint32_t milliseconds;         /* for clients that want time stamps */
+    uint32_t socket_lost; /* frames that the kernel had no room for */
+    uint32_t milliseconds; /* for clients that want time stamps */
     brace_posix_slcan_t client[BRACE_POSIX_CLIENTS];
     brace_posix_node_t node[BRACE_POSIX_NODES];
 } brace_posix_bus_t;
@@ -161,9 +161,9 @@ typedef struct {
     int listener;
     char where[BRACE_POSIX_WHERE];
     uint32_t polls, serials, next;
-    uint32_t refused;                 /* connections dropped because they sent no Modbus */
-    uint32_t current_serial;          /* the connection of the ADU that was read last */
-    uint32_t given, whole;            /* bytes of the ADU that is being read: given so far, and all */
+    uint32_t refused; /* connections dropped because they sent no Modbus */
+    uint32_t current_serial; /* the connection of the ADU that was read last */
+    uint32_t given, whole; /* bytes of the ADU that is being read: given so far, and all */
     uint8_t adu[BRACE_POSIX_ADU_BYTES];
     brace_posix_modbus_client_t client[BRACE_POSIX_CLIENTS];
 } brace_posix_modbus_t;
@@ -176,7 +176,7 @@ void brace_posix_modbus_close(brace_posix_modbus_t *modbus);
 
 typedef struct {
     int file; /* -1: memory only */
-    bool fails;  /* injected: write and erase answer E_DEVICE */
+    bool fails; /* injected: write and erase answer E_DEVICE */
     bool forgets; /* injected: write and erase answer OK and change nothing */
     uint8_t bytes[BRACE_NVM_SLOT_COUNT][BRACE_POSIX_SLOT_BYTES];
 } brace_posix_nvm_t;
@@ -198,18 +198,18 @@ typedef struct {
 
 typedef struct {
     brace_posix_limb_t limb;
-    bool time_is_given;       /* now_us is given_us; else the system's monotonic clock since brace_posix_init */
+    bool time_is_given; /* now_us is given_us; else the system's monotonic clock since brace_posix_init */
     uint32_t given_us;
     int64_t started_ns;
-    brace_posix_bus_t *bus;   /* null: no CAN */
-    uint32_t node;            /* index of this controller among the bus' nodes */
+    brace_posix_bus_t *bus; /* null: no CAN */
+    uint32_t node; /* index of this controller among the bus' nodes */
     brace_posix_nvm_t nvm;
     brace_posix_stream_t stream[BRACE_SERIAL_SLCAN + 1];
     brace_posix_modbus_t modbus;
-    uint32_t fed_us;          /* time at which the watchdog was last fed */
+    uint32_t fed_us; /* time at which the watchdog was last fed */
     bool restart_asked;
     brace_reset_cause_t cause;
-    bool is_guarded;          /* the board keeps a key: */
+    bool is_guarded; /* the board keeps a key: */
     bool has_key;
     uint8_t key[BRACE_HAL_KEY_BYTES];
 } brace_posix_t;

@@ -105,8 +105,8 @@ int32_t door_can_setup(void *context, const brace_can_setup_t *setup)
 {
     const brace_posix_bus_t *bus = ((brace_posix_t *)context)->bus;
     brace_posix_node_t *node = node_of(context);
-    if (setup->bit_rate != 125000u && setup->bit_rate != 250000u && setup->bit_rate != 500000u
-        && setup->bit_rate != 1000000u) {
+    if (setup->bit_rate != 125000u && setup->bit_rate != 250000u && setup->bit_rate != 500000u &&
+        setup->bit_rate != 1000000u) {
         return BRACE_HAL_E_RANGE;
     }
     if (setup->fd_bit_rate != 0u && bus->kind == BRACE_POSIX_BUS_SOCKETCAN && !bus->socket_can_fd) {
@@ -128,8 +128,8 @@ static bool is_frame(const brace_can_frame_t *frame)
     if (frame->length <= 8u) {
         return true;
     }
-    return frame->fd && frame->length <= 64u
-           && (frame->length <= 24u ? frame->length % 4u == 0u : frame->length % 16u == 0u);
+    return frame->fd && frame->length <= 64u &&
+           (frame->length <= 24u ? frame->length % 4u == 0u : frame->length % 16u == 0u);
 }
 
 int32_t door_can_send(void *context, const brace_can_frame_t *frame)

@@ -23,12 +23,10 @@ static uint32_t door_now_us(void *context)
 static int32_t door_joint_read(void *context, int32_t joint_index, brace_hal_joint_t *joint)
 {
     const brace_posix_limb_t *limb = &((brace_posix_t *)context)->limb;
-    return limb->joint_read != NULL ? limb->joint_read(limb->context, joint_index, joint)
-                                    : BRACE_HAL_E_UNSUPPORTED;
+    return limb->joint_read != NULL ? limb->joint_read(limb->context, joint_index, joint) : BRACE_HAL_E_UNSUPPORTED;
 }
 
-static int32_t door_joint_command(void *context, int32_t joint_index,
-                                  const brace_hal_joint_command_t *command)
+static int32_t door_joint_command(void *context, int32_t joint_index, const brace_hal_joint_command_t *command)
 {
     const brace_posix_limb_t *limb = &((brace_posix_t *)context)->limb;
     return limb->joint_command(limb->context, joint_index, command);
@@ -40,19 +38,16 @@ static int32_t door_tip_force_read(void *context, float *force_x_n, float *force
     return limb->tip_force_read(limb->context, force_x_n, force_z_n);
 }
 
-static int32_t door_serial_setup(void *context, brace_serial_port_t port, uint32_t baud,
-                                 brace_parity_t parity)
+static int32_t door_serial_setup(void *context, brace_serial_port_t port, uint32_t baud, brace_parity_t parity)
 {
     brace_posix_t *posix = context;
     if (port == BRACE_SERIAL_MODBUS_TCP) {
         return posix->modbus.listener >= 0 ? BRACE_HAL_OK : BRACE_HAL_E_UNSUPPORTED;
     }
-    return port <= BRACE_SERIAL_SLCAN ? stream_setup(&posix->stream[port], baud, parity)
-                                      : BRACE_HAL_E_UNSUPPORTED;
+    return port <= BRACE_SERIAL_SLCAN ? stream_setup(&posix->stream[port], baud, parity) : BRACE_HAL_E_UNSUPPORTED;
 }
 
-static int32_t door_serial_write(void *context, brace_serial_port_t port, const uint8_t *bytes,
-                                 uint32_t count)
+static int32_t door_serial_write(void *context, brace_serial_port_t port, const uint8_t *bytes, uint32_t count)
 {
     brace_posix_t *posix = context;
     return port <= BRACE_SERIAL_SLCAN ? brace_posix_stream_write(&posix->stream[port], bytes, count)
@@ -176,8 +171,7 @@ void brace_posix_hal(brace_posix_t *posix, brace_hal_t *hal)
     hal->joint_read = door_joint_read;
     hal->joint_command = posix->limb.joint_command != NULL ? door_joint_command : NULL;
     hal->tip_force_read = posix->limb.tip_force_read != NULL ? door_tip_force_read : NULL;
-    hal->nvm_shape =
-        (brace_nvm_shape_t){.slot_bytes = BRACE_POSIX_SLOT_BYTES, .write_bytes = BRACE_POSIX_WRITE_BYTES};
+    hal->nvm_shape = (brace_nvm_shape_t){.slot_bytes = BRACE_POSIX_SLOT_BYTES, .write_bytes = BRACE_POSIX_WRITE_BYTES};
     hal->nvm_read = door_nvm_read;
     hal->nvm_write = door_nvm_write;
     hal->nvm_erase = door_nvm_erase;

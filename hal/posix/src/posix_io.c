@@ -70,8 +70,7 @@ void io_copy(char *to, size_t room, const char *from)
 static bool make_nonblocking(int file)
 {
     const int flags = fcntl(file, F_GETFL, 0);
-    return flags >= 0 && fcntl(file, F_SETFL, flags | O_NONBLOCK) == 0
-           && fcntl(file, F_SETFD, FD_CLOEXEC) == 0;
+    return flags >= 0 && fcntl(file, F_SETFL, flags | O_NONBLOCK) == 0 && fcntl(file, F_SETFD, FD_CLOEXEC) == 0;
 }
 
 /* ------------------------------------------------------------------------------------------- sockets -- */
@@ -83,8 +82,8 @@ static bool split_place(const char *place, char *host, char *port)
     io_copy(whole, sizeof whole, place);
     whole[strcspn(whole, "/")] = '\0';
     char *colon = strrchr(whole, ':');
-    if (colon == NULL || colon == whole || colon[1] == '\0'
-        || strspn(colon + 1, "0123456789") != strlen(colon + 1) || strtoul(colon + 1, NULL, 10) > 65535u) {
+    if (colon == NULL || colon == whole || colon[1] == '\0' || strspn(colon + 1, "0123456789") != strlen(colon + 1) ||
+        strtoul(colon + 1, NULL, 10) > 65535u) {
         return false;
     }
     *colon = '\0';
@@ -114,10 +113,10 @@ int32_t io_listen(const char *scheme, const char *place, int *listener, char *wh
     const int yes = 1;
     struct sockaddr_storage given;
     socklen_t size = sizeof given;
-    const bool listens = file >= 0 && setsockopt(file, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes) == 0
-                         && bind(file, found->ai_addr, found->ai_addrlen) == 0 && make_nonblocking(file)
-                         && listen(file, 2 * BRACE_POSIX_CLIENTS) == 0
-                         && getsockname(file, (struct sockaddr *)&given, &size) == 0;
+    const bool listens = file >= 0 && setsockopt(file, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes) == 0 &&
+                         bind(file, found->ai_addr, found->ai_addrlen) == 0 && make_nonblocking(file) &&
+                         listen(file, 2 * BRACE_POSIX_CLIENTS) == 0 &&
+                         getsockname(file, (struct sockaddr *)&given, &size) == 0;
     const int32_t status = listens ? BRACE_POSIX_OK : io_status_of_errno();
     freeaddrinfo(found);
     if (!listens) {
@@ -127,9 +126,8 @@ int32_t io_listen(const char *scheme, const char *place, int *listener, char *wh
     const in_port_t number = given.ss_family == AF_INET6 ? ((struct sockaddr_in6 *)(void *)&given)->sin6_port
                                                          : ((struct sockaddr_in *)(void *)&given)->sin_port;
     const bool bracketed = strchr(host, ':') != NULL;
-    if (snprintf(where, BRACE_POSIX_WHERE, "%s://%s%s%s:%u", scheme, bracketed ? "[" : "", host,
-                 bracketed ? "]" : "", (unsigned)ntohs(number))
-        >= BRACE_POSIX_WHERE) {
+    if (snprintf(where, BRACE_POSIX_WHERE, "%s://%s%s%s:%u", scheme, bracketed ? "[" : "", host, bracketed ? "]" : "",
+                 (unsigned)ntohs(number)) >= BRACE_POSIX_WHERE) {
         io_close(&file);
         return BRACE_POSIX_E_URL;
     }
@@ -176,10 +174,9 @@ int32_t io_pty(int *file, int *kept, char *where)
     int ours = posix_openpt(O_RDWR | O_NOCTTY);
     int theirs = -1;
     char path[BRACE_POSIX_WHERE];
-    const bool made = ours >= 0 && grantpt(ours) == 0 && unlockpt(ours) == 0
-                      && ptsname_r(ours, path, sizeof path) == 0
-                      && (theirs = open(path, O_RDWR | O_NOCTTY | O_CLOEXEC)) >= 0 && make_raw(theirs)
-                      && make_nonblocking(ours);
+    const bool made =
+        ours >= 0 && grantpt(ours) == 0 && unlockpt(ours) == 0 && ptsname_r(ours, path, sizeof path) == 0 &&
+        (theirs = open(path, O_RDWR | O_NOCTTY | O_CLOEXEC)) >= 0 && make_raw(theirs) && make_nonblocking(ours);
     if (!made) {
         const int32_t status = io_status_of_errno();
         io_close(&ours);
@@ -198,10 +195,10 @@ static bool speed_of_baud(uint32_t baud, speed_t *speed)
         uint32_t baud;
         speed_t speed;
     } known[] = {
-        {1200, B1200},     {2400, B2400},     {4800, B4800},       {9600, B9600},       {19200, B19200},
-        {38400, B38400},   {57600, B57600},   {115200, B115200},   {230400, B230400},   {460800, B460800},
-        {500000, B500000}, {921600, B921600}, {1000000, B1000000}, {2000000, B2000000},
-        {3000000, B3000000}, {4000000, B4000000},
+        {1200, B1200},       {2400, B2400},       {4800, B4800},       {9600, B9600},
+        {19200, B19200},     {38400, B38400},     {57600, B57600},     {115200, B115200},
+        {230400, B230400},   {460800, B460800},   {500000, B500000},   {921600, B921600},
+        {1000000, B1000000}, {2000000, B2000000}, {3000000, B3000000}, {4000000, B4000000},
     };
     for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
         if (known[i].baud == baud) {
@@ -315,8 +312,7 @@ bool queue_put(brace_posix_queue_t *queue, const uint8_t *bytes, uint32_t count)
 
 bool queue_flush(brace_posix_queue_t *queue, int file)
 {
-    for (int part = 0; part < 2 && queue->count > 0u;
-         part++) { /* up to the ring's end, then from its start */
+    for (int part = 0; part < 2 && queue->count > 0u; part++) { /* up to the ring's end, then from its start */
         const uint32_t straight = BRACE_POSIX_OUT_BYTES - queue->start;
         const int32_t taken =
             io_write(file, queue->bytes + queue->start, queue->count < straight ? queue->count : straight);

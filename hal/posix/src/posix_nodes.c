@@ -40,8 +40,7 @@ void node_takes(brace_posix_node_t *node, const brace_can_frame_t *frame)
     node->received++;
 }
 
-void bus_to_nodes(brace_posix_bus_t *bus, int32_t sender, const brace_posix_wire_frame_t *frame,
-                  uint32_t bit_rate)
+void bus_to_nodes(brace_posix_bus_t *bus, int32_t sender, const brace_posix_wire_frame_t *frame, uint32_t bit_rate)
 {
     if (frame->extended || frame->remote) {
         return; /* the door has no such frames */
@@ -50,8 +49,7 @@ void bus_to_nodes(brace_posix_bus_t *bus, int32_t sender, const brace_posix_wire
         brace_posix_node_t *node = &bus->node[i];
         const bool same_rate = bit_rate == 0u || bit_rate == node->setup.bit_rate;
         const bool takes_fd = !frame->frame.fd || node->setup.fd_bit_rate > 0u;
-        if (i != sender && node->used && node->on && !node->bus_off && !node->setup.loopback && same_rate
-            && takes_fd) {
+        if (i != sender && node->used && node->on && !node->bus_off && !node->setup.loopback && same_rate && takes_fd) {
             node_takes(node, &frame->frame);
         }
     }

@@ -5,8 +5,7 @@
 #include "brace_hal_posix.h"
 
 /* Sends a frame to all controllers except one; -1: to all. bit_rate 0: to controllers of any rate. */
-void bus_to_nodes(brace_posix_bus_t *bus, int32_t sender, const brace_posix_wire_frame_t *frame,
-                  uint32_t bit_rate);
+void bus_to_nodes(brace_posix_bus_t *bus, int32_t sender, const brace_posix_wire_frame_t *frame, uint32_t bit_rate);
 
 /* Queues a frame that this controller's filter lets through. */
 void node_takes(brace_posix_node_t *node, const brace_can_frame_t *frame);

@@ -63,15 +63,14 @@ static int32_t keep(brace_posix_nvm_t *nvm, uint32_t slot, uint32_t offset, uint
         return BRACE_HAL_OK;
     }
     const off_t place = (off_t)slot * BRACE_POSIX_SLOT_BYTES + (off_t)offset;
-    const bool kept = pwrite(nvm->file, &nvm->bytes[slot][offset], count, place) == (ssize_t)count
-                      && (offset >= SYNCED_BYTES || fdatasync(nvm->file) == 0);
+    const bool kept = pwrite(nvm->file, &nvm->bytes[slot][offset], count, place) == (ssize_t)count &&
+                      (offset >= SYNCED_BYTES || fdatasync(nvm->file) == 0);
     return kept ? BRACE_HAL_OK : BRACE_HAL_E_DEVICE;
 }
 
 static bool is_within(uint32_t slot, uint32_t offset, uint32_t count)
 {
-    return slot < BRACE_NVM_SLOT_COUNT && offset <= BRACE_POSIX_SLOT_BYTES
-           && count <= BRACE_POSIX_SLOT_BYTES - offset;
+    return slot < BRACE_NVM_SLOT_COUNT && offset <= BRACE_POSIX_SLOT_BYTES && count <= BRACE_POSIX_SLOT_BYTES - offset;
 }
 
 int32_t door_nvm_read(void *context, uint32_t slot, uint32_t offset, uint8_t *bytes, uint32_t count)
@@ -87,8 +86,8 @@ int32_t door_nvm_read(void *context, uint32_t slot, uint32_t offset, uint8_t *by
 int32_t door_nvm_write(void *context, uint32_t slot, uint32_t offset, const uint8_t *bytes, uint32_t count)
 {
     brace_posix_nvm_t *nvm = &((brace_posix_t *)context)->nvm;
-    if (!is_within(slot, offset, count) || offset % BRACE_POSIX_WRITE_BYTES != 0u
-        || count % BRACE_POSIX_WRITE_BYTES != 0u) {
+    if (!is_within(slot, offset, count) || offset % BRACE_POSIX_WRITE_BYTES != 0u ||
+        count % BRACE_POSIX_WRITE_BYTES != 0u) {
         return BRACE_HAL_E_RANGE;
     }
     if (nvm->fails) {

@@ -42,8 +42,7 @@ static void receive_frame(const brace_posix_bus_t *bus, brace_posix_slcan_t *cli
     }
 }
 
-void bus_to_outside(brace_posix_bus_t *bus, const brace_posix_slcan_t *sender,
-                    const brace_posix_wire_frame_t *frame)
+void bus_to_outside(brace_posix_bus_t *bus, const brace_posix_slcan_t *sender, const brace_posix_wire_frame_t *frame)
 {
     for (uint32_t i = 0; i < BRACE_POSIX_CLIENTS; i++) {
         if (&bus->client[i] != sender) {
@@ -56,8 +55,7 @@ void bus_to_outside(brace_posix_bus_t *bus, const brace_posix_slcan_t *sender,
 }
 
 /* A frame goes by an open channel only, but a stop always does, as on a controller's own SLCAN port. */
-static bool send_frame(brace_posix_bus_t *bus, brace_posix_slcan_t *client, const char *command,
-                       uint32_t length)
+static bool send_frame(brace_posix_bus_t *bus, brace_posix_slcan_t *client, const char *command, uint32_t length)
 {
     brace_posix_wire_frame_t frame;
     const bool sends = client->open && !client->listen_only;

@@ -19,8 +19,7 @@ int32_t socketcan_open(brace_posix_bus_t *bus, const char *interface)
 {
     struct ifreq request;
     memset(&request, 0, sizeof request);
-    if (strlen(interface) == 0u || strlen(interface) >= sizeof request.ifr_name
-        || strpbrk(interface, ":/ ") != NULL) {
+    if (strlen(interface) == 0u || strlen(interface) >= sizeof request.ifr_name || strpbrk(interface, ":/ ") != NULL) {
         return BRACE_POSIX_E_URL;
     }
     int file = socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW);
@@ -62,8 +61,7 @@ void socketcan_poll(brace_posix_bus_t *bus)
         if ((raw.can_id & CAN_ERR_FLAG) != 0u || raw.len > (bytes == (ssize_t)CAN_MTU ? 8u : 64u)) {
             continue;
         }
-        brace_posix_wire_frame_t frame = {
-            {0}, (raw.can_id & CAN_EFF_FLAG) != 0u, (raw.can_id & CAN_RTR_FLAG) != 0u};
+        brace_posix_wire_frame_t frame = {{0}, (raw.can_id & CAN_EFF_FLAG) != 0u, (raw.can_id & CAN_RTR_FLAG) != 0u};
         frame.frame.id = raw.can_id & (frame.extended ? CAN_EFF_MASK : CAN_SFF_MASK);
         frame.frame.length = raw.len;
         frame.frame.fd = bytes == (ssize_t)CANFD_MTU;
@@ -82,8 +80,7 @@ void socketcan_send(brace_posix_bus_t *bus, const brace_posix_wire_frame_t *fram
     if (frame->frame.fd) {
         raw.flags = CANFD_BRS;
     }
-    const size_t bytes =
-        frame->frame.fd ? CANFD_MTU : CAN_MTU; /* can_frame is the first bytes of canfd_frame */
+    const size_t bytes = frame->frame.fd ? CANFD_MTU : CAN_MTU; /* can_frame is the first bytes of canfd_frame */
     if (write(bus->socket_can, &raw, bytes) != (ssize_t)bytes) {
         bus->socket_lost += bus->socket_lost != UINT32_MAX;
     }

@@ -15,9 +15,8 @@ int32_t brace_posix_stream_open(brace_posix_stream_t *stream, const char *url)
     io_copy(stream->where, sizeof stream->where, url);
     if (strcmp(url, "stderr") == 0 || strncmp(url, "file:", 5) == 0) {
         stream->kind = BRACE_POSIX_STREAM_FILE;
-        stream->file = url[0] == 's'
-                           ? fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 0)
-                           : open(url + 5, O_WRONLY | O_CREAT | O_APPEND | O_NONBLOCK | O_CLOEXEC, 0666);
+        stream->file = url[0] == 's' ? fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 0)
+                                     : open(url + 5, O_WRONLY | O_CREAT | O_APPEND | O_NONBLOCK | O_CLOEXEC, 0666);
         status = stream->file >= 0 ? BRACE_POSIX_OK : io_status_of_errno();
     } else if (strcmp(url, "pty") == 0) {
         stream->kind = BRACE_POSIX_STREAM_PTY;

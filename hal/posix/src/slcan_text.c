@@ -42,9 +42,9 @@ bool posix_slcan_read(const char *text, uint32_t length, brace_posix_wire_frame_
     }
     const uint32_t id_digits = read.extended ? 8u : 3u;
     uint32_t code;
-    if (length < 2u + id_digits || !hex_number(text + 1, id_digits, &read.frame.id)
-        || !hex_number(text + 1 + id_digits, 1, &code)
-        || read.frame.id > (read.extended ? 0x1fffffffu : 0x7ffu) || (!read.frame.fd && code > 8u)) {
+    if (length < 2u + id_digits || !hex_number(text + 1, id_digits, &read.frame.id) ||
+        !hex_number(text + 1 + id_digits, 1, &code) || read.frame.id > (read.extended ? 0x1fffffffu : 0x7ffu) ||
+        (!read.frame.fd && code > 8u)) {
         return false;
     }
     read.frame.length = fd_length[code];

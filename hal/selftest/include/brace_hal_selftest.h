@@ -70,6 +70,6 @@ typedef struct {
  * 1 KiB.
  */
 int32_t brace_selftest_run(const brace_hal_t *hal, const brace_selftest_setup_t *setup,
-    brace_selftest_result_t *result);
+                           brace_selftest_result_t *result);
 
 #endif

@@ -7,13 +7,13 @@ static bool group_is_whole(selftest_t *test)
 {
     const brace_hal_t *const hal = test->hal;
     const uint32_t there = (hal->can_setup != 0) + (hal->can_send != 0) + (hal->can_receive != 0) +
-        (hal->can_health != 0) + (hal->can_recover != 0);
+                           (hal->can_health != 0) + (hal->can_recover != 0);
     if (there == 0u) {
         selftest_report(test, BRACE_SELFTEST_NOTE, "can", "not there: no CAN on this board");
         return false;
     }
     return selftest_expect(test, there == 5u, "can", "the group is whole",
-        "half filled: setup, send, receive, health and recover are all there or all null");
+                           "half filled: setup, send, receive, health and recover are all there or all null");
 }
 
 static brace_can_frame_t frame_number(uint8_t number)
@@ -44,7 +44,7 @@ static void refusals(selftest_t *test)
     wrong.length = 9u;
     const int32_t long_data = hal->can_send(hal->context, &wrong);
     selftest_expect(test, long_id < BRACE_HAL_AGAIN && long_data < BRACE_HAL_AGAIN, "can_send",
-        "frames that can not be are refused", "an identifier of 12 bits or 9 bytes of data are accepted");
+                    "frames that can not be are refused", "an identifier of 12 bits or 9 bytes of data are accepted");
 }
 
 static void own_frames(selftest_t *test)
@@ -56,7 +56,7 @@ static void own_frames(selftest_t *test)
         const int32_t answer = hal->can_send(hal->context, &sent);
         if (answer != BRACE_HAL_OK) {
             selftest_report_value(test, BRACE_SELFTEST_FAIL, "can_send", "an idle controller takes no frame", answer,
-                "answer");
+                                  "answer");
             return;
         }
     }
@@ -68,7 +68,8 @@ static void own_frames(selftest_t *test)
         }
         const brace_can_frame_t expected = frame_number(count);
         if (!equal(&received, &expected)) {
-            selftest_report_value(test, BRACE_SELFTEST_FAIL, "can_receive",
+            selftest_report_value(
+                test, BRACE_SELFTEST_FAIL, "can_receive",
                 "a frame came back changed or out of order: identifier shift, byte order, mailbox priority?", count,
                 "frame");
             return;
@@ -77,7 +78,8 @@ static void own_frames(selftest_t *test)
     } while (count < FRAMES && selftest_waiting(test, &wait));
     if (count < FRAMES) {
         selftest_report_value(test, BRACE_SELFTEST_FAIL, "can_receive",
-            "frames sent in loopback do not come back: filter, receive interrupt, bit timing?", count, "of 3 frames");
+                              "frames sent in loopback do not come back: filter, receive interrupt, bit timing?", count,
+                              "of 3 frames");
         return;
     }
     selftest_report(test, BRACE_SELFTEST_PASS, "can", "loopback: what is sent comes back, in order");
@@ -108,8 +110,8 @@ static void filter(selftest_t *test)
     }
     health(test);
     other.id = IDENTIFIER ^ 1u;
-    bool is_right = hal->can_send(hal->context, &other) == BRACE_HAL_OK &&
-                    hal->can_send(hal->context, &wanted) == BRACE_HAL_OK;
+    bool is_right =
+        hal->can_send(hal->context, &other) == BRACE_HAL_OK && hal->can_send(hal->context, &wanted) == BRACE_HAL_OK;
     int32_t came = 0;
     selftest_wait_t wait = selftest_wait(test, WINDOW_US);
     do { /* at most QUESTIONS_MAX */
@@ -117,7 +119,7 @@ static void filter(selftest_t *test)
     } while (came != 1 && selftest_waiting(test, &wait));
     is_right = is_right && came == 1 && equal(&received, &wanted);
     selftest_expect(test, is_right, "can_setup", "the filter lets in the identifier that is asked for, and no other",
-        "the filter lets in another identifier, or not the one that is asked for");
+                    "the filter lets in another identifier, or not the one that is asked for");
 }
 
 void selftest_can(selftest_t *test)
@@ -130,12 +132,13 @@ void selftest_can(selftest_t *test)
     const int32_t answer = hal->can_setup(hal->context, &loopback);
     if (answer == BRACE_HAL_E_UNSUPPORTED) {
         selftest_report(test, BRACE_SELFTEST_NOTE, "can_setup",
-            "no loopback, or no CAN behind it: frames are not tried");
+                        "no loopback, or no CAN behind it: frames are not tried");
         return;
     }
     if (answer != BRACE_HAL_OK) {
         selftest_report_value(test, BRACE_SELFTEST_FAIL, "can_setup",
-            "500 kbit/s in loopback is refused: controller clocked, pins, crystal?", answer, "answer");
+                              "500 kbit/s in loopback is refused: controller clocked, pins, crystal?", answer,
+                              "answer");
         return;
     }
     health(test);

@@ -78,7 +78,8 @@ static void rate(selftest_t *test)
         selftest_report(test, BRACE_SELFTEST_NOTE, "now_us", "rate not judged: the other clock stands");
         return;
     }
-    selftest_report_value(test, agrees ? BRACE_SELFTEST_PASS : BRACE_SELFTEST_FAIL, "now_us",
+    selftest_report_value(
+        test, agrees ? BRACE_SELFTEST_PASS : BRACE_SELFTEST_FAIL, "now_us",
         agrees ? "rate agrees with the other clock"
                : "runs at the wrong rate against the other clock: look at the timer's prescaler and its bus clock",
         permille, "permille too fast");
@@ -87,19 +88,20 @@ static void rate(selftest_t *test)
 void selftest_clock(selftest_t *test)
 {
     test->clock_runs = selftest_expect(test, advances(test), "now_us", "time runs",
-        "time stands still: is the timer's clock switched on, the timer started?");
+                                       "time stands still: is the timer's clock switched on, the timer started?");
     if (!test->clock_runs) {
         return;
     }
     const uint32_t step_us = smallest_step_us(test);
     if (step_us == 0u) {
-        selftest_report(test, BRACE_SELFTEST_FAIL, "now_us",
+        selftest_report(
+            test, BRACE_SELFTEST_FAIL, "now_us",
             "time runs backwards: a counter that falls, or halves of a longer count read across its overflow");
         return;
     }
     if (step_us > STEP_MAX_US) {
         selftest_report_value(test, BRACE_SELFTEST_FAIL, "now_us", "steps are too coarse: at most 10 us is promised",
-            (int32_t)step_us, "us");
+                              (int32_t)step_us, "us");
     } else {
         selftest_report_value(test, BRACE_SELFTEST_PASS, "now_us", "forwards, in fine steps", (int32_t)step_us, "us");
     }

@@ -31,9 +31,9 @@ static void look(const selftest_t *test, seen_t *seen, const brace_hal_joint_t *
     }
     seen->fresh++;
     seen->finite = seen->finite && isfinite(angle_rad(joint)) && isfinite(joint->torque_n_mm) &&
-        !isinf(joint->link_rad) && !isinf(joint->temp_degc);
+                   !isinf(joint->link_rad) && !isinf(joint->temp_degc);
     seen->possible = seen->possible && !(fabsf(joint->motor_rad) > angle_max_rad) &&
-        !(fabsf(joint->torque_n_mm) > torque_max_n_mm) && !(fabsf(joint->link_rad) > angle_max_rad);
+                     !(fabsf(joint->torque_n_mm) > torque_max_n_mm) && !(fabsf(joint->link_rad) > angle_max_rad);
     seen->aged += age_us > AGE_MAX_US;
     seen->changed = seen->changed || angle_rad(joint) != angle_rad(&seen->first);
     seen->time_changed = seen->time_changed || joint->taken_us != seen->first.taken_us;
@@ -61,23 +61,25 @@ static seen_t watch(selftest_t *test, int32_t index)
 static void judge_samples(selftest_t *test, const char *name, const seen_t *seen)
 {
     if (!selftest_expect(test, seen->finite, name, "finite",
-            "an angle, torque or temperature is not finite: "
-            "NaN is for one of the two encoders and for temp_degc only")) {
+                         "an angle, torque or temperature is not finite: "
+                         "NaN is for one of the two encoders and for temp_degc only")) {
         return;
     }
-    selftest_expect(test, seen->possible, name, "within what a joint can be",
+    selftest_expect(
+        test, seen->possible, name, "within what a joint can be",
         "out of range: rad and N mm on the joint's side of the reduction are wanted; degrees, turns or counts?");
     if (test->clock_runs) {
         /* Compares most samples, not one: a host may stop the test between a sample and the check of its age. */
         selftest_expect(test, seen->aged <= seen->fresh / 2u, name, "samples are fresh",
-            "taken_us lies ahead of now_us or more than 10 ms back: it is to be by now_us, when sampled");
+                        "taken_us lies ahead of now_us or more than 10 ms back: it is to be by now_us, when sampled");
         selftest_expect(test, seen->time_changed || seen->fresh < 2u, name, "samples follow each other",
-            "the same sample is called new again and again: AGAIN is the answer for it");
+                        "the same sample is called new again and again: AGAIN is the answer for it");
     }
     if (!seen->changed) {
         selftest_report(test, test->setup->joints_are_moved ? BRACE_SELFTEST_FAIL : BRACE_SELFTEST_NOTE, name,
-            test->setup->joints_are_moved ? "the encoder is stuck: the joint was moved and the angle was not"
-                                          : "the angle did not change by a step: move the joint to see that it does");
+                        test->setup->joints_are_moved
+                            ? "the encoder is stuck: the joint was moved and the angle was not"
+                            : "the angle did not change by a step: move the joint to see that it does");
     }
 }
 
@@ -87,14 +89,14 @@ static void one_joint(selftest_t *test, int32_t index)
     const seen_t seen = watch(test, index);
     if (seen.answer == BRACE_HAL_E_UNSUPPORTED) {
         selftest_report(test, index == 0 ? BRACE_SELFTEST_NOTE : BRACE_SELFTEST_FAIL, name,
-            index == 0 ? "no such joint: a limb in a plane" : "no such joint: without femur and tibia there is no K");
+                        index == 0 ? "no such joint: a limb in a plane"
+                                   : "no such joint: without femur and tibia there is no K");
     } else if (seen.answer != BRACE_HAL_OK) {
-        selftest_report_value(test, BRACE_SELFTEST_FAIL, name,
-            "the device refuses: encoder powered, wired, addressed?",
-            seen.answer, "answer");
+        selftest_report_value(test, BRACE_SELFTEST_FAIL, name, "the device refuses: encoder powered, wired, addressed?",
+                              seen.answer, "answer");
     } else if (seen.fresh == 0u) {
         selftest_report(test, BRACE_SELFTEST_FAIL, name,
-            "AGAIN for ever: no new sample in 50 ms; does the sampling interrupt or DMA run?");
+                        "AGAIN for ever: no new sample in 50 ms; does the sampling interrupt or DMA run?");
     } else {
         selftest_report_value(test, BRACE_SELFTEST_PASS, name, "new samples", (int32_t)seen.fresh, "in 50 ms");
         judge_samples(test, name, &seen);
@@ -115,7 +117,7 @@ static void refusals(selftest_t *test)
         brace_hal_joint_t joint = {.motor_rad = sentinel};
         const int32_t answer = hal->joint_read(hal->context, none[i].index, &joint);
         selftest_expect(test, answer < BRACE_HAL_AGAIN && joint.motor_rad == sentinel, "joint_read", none[i].passed,
-            none[i].failed);
+                        none[i].failed);
     }
 }
 
@@ -134,9 +136,10 @@ static void commands(selftest_t *test)
         return;
     }
     selftest_expect(test, hal->joint_command(hal->context, 1, &nothing) == BRACE_HAL_OK, "joint_command",
-        "no offset is accepted", "joint 1 refuses an offset of 0; null is right when the limb can not be moved");
+                    "no offset is accepted",
+                    "joint 1 refuses an offset of 0; null is right when the limb can not be moved");
     selftest_expect(test, hal->joint_command(hal->context, JOINT_COUNT, &nothing) < 0, "joint_command",
-        "a joint that can not be is refused", "joint 3 is accepted: check the index first");
+                    "a joint that can not be is refused", "joint 3 is accepted: check the index first");
 }
 
 /* What the board's own file allows: numbers in an order in which they can hold. */
@@ -150,10 +153,10 @@ static void ceilings(selftest_t *test)
     for (int32_t index = 0; index < JOINT_COUNT; index++) {
         const brace_hal_ceiling_t *const one = &ceiling[index];
         is_right = is_right && one->torque_most_n_mm > 0.0f && one->speed_most_rad_per_s > 0.0f &&
-            one->angle_least_rad < one->angle_most_rad;
+                   one->angle_least_rad < one->angle_most_rad;
     }
     selftest_expect(test, is_right, "ceiling", "torque, travel and speed are possible",
-        "a torque or speed is not above 0, or a travel ends before it begins");
+                    "a torque or speed is not above 0, or a travel ends before it begins");
 }
 
 static void tip_force(selftest_t *test)
@@ -171,7 +174,7 @@ static void tip_force(selftest_t *test)
     } while (answer == BRACE_HAL_AGAIN && selftest_waiting(test, &wait));
     if (answer != BRACE_HAL_OK) {
         selftest_report_value(test, BRACE_SELFTEST_FAIL, "tip_force_read",
-            "no sample in 50 ms; null is right when there is no sensor", answer, "answer");
+                              "no sample in 50 ms; null is right when there is no sensor", answer, "answer");
         return;
     }
     selftest_expect(test, isfinite(x_n) && isfinite(z_n), "tip_force_read", "finite", "a force is not finite");

@@ -8,11 +8,12 @@ static bool shape(selftest_t *test)
     const brace_nvm_shape_t *const s = &test->hal->nvm_shape;
     const uint32_t unit = s->write_bytes;
     if (!selftest_expect(test, s->slot_bytes >= SLOT_BYTES_MIN, "nvm_shape", "slots are large enough",
-            "slots of less than 4096 bytes")) {
+                         "slots of less than 4096 bytes")) {
         return false;
     }
     return selftest_expect(test, (unit == 1u || unit == 2u || unit == 4u || unit == 8u) && s->slot_bytes % unit == 0u,
-        "nvm_shape", "the unit of writing is possible", "write_bytes is not 1, 2, 4 or 8, or does not divide a slot");
+                           "nvm_shape", "the unit of writing is possible",
+                           "write_bytes is not 1, 2, 4 or 8, or does not divide a slot");
 }
 
 static void bounds(selftest_t *test)
@@ -21,13 +22,15 @@ static void bounds(selftest_t *test)
     uint8_t bytes[UNIT_MAX];
     const uint32_t end = hal->nvm_shape.slot_bytes;
     const bool refused = hal->nvm_read(hal->context, BRACE_NVM_SLOT_COUNT, 0u, bytes, 1u) == BRACE_HAL_E_RANGE &&
-        hal->nvm_read(hal->context, 0u, end, bytes, 1u) == BRACE_HAL_E_RANGE &&
-        hal->nvm_read(hal->context, 0u, UINT32_MAX, bytes, 2u) == BRACE_HAL_E_RANGE;
+                         hal->nvm_read(hal->context, 0u, end, bytes, 1u) == BRACE_HAL_E_RANGE &&
+                         hal->nvm_read(hal->context, 0u, UINT32_MAX, bytes, 2u) == BRACE_HAL_E_RANGE;
     selftest_expect(test, refused, "nvm_read", "what lies outside is refused",
-        "slot 2, or bytes behind a slot's end, are not refused with E_RANGE");
-    selftest_expect(test, hal->nvm_read(hal->context, 0u, end - 1u, bytes, 1u) == BRACE_HAL_OK &&
-            hal->nvm_read(hal->context, 1u, 0u, bytes, 1u) == BRACE_HAL_OK,
-        "nvm_read", "both slots are read to their ends", "the first or last byte of a slot can not be read");
+                    "slot 2, or bytes behind a slot's end, are not refused with E_RANGE");
+    selftest_expect(test,
+                    hal->nvm_read(hal->context, 0u, end - 1u, bytes, 1u) == BRACE_HAL_OK &&
+                        hal->nvm_read(hal->context, 1u, 0u, bytes, 1u) == BRACE_HAL_OK,
+                    "nvm_read", "both slots are read to their ends",
+                    "the first or last byte of a slot can not be read");
 }
 
 /* A checksum over a slot, to distinguish one content from another; false: the slot cannot be read. */
@@ -61,16 +64,16 @@ static bool erase(selftest_t *test, uint32_t slot)
     const uint32_t took_us = hal->now_us(hal->context) - began_us;
     hal->watchdog_feed(hal->context);
     if (answer != BRACE_HAL_OK) {
-        selftest_report_value(test, BRACE_SELFTEST_FAIL, "nvm_erase", "refused: is the memory write-protected?",
-            answer, "answer");
+        selftest_report_value(test, BRACE_SELFTEST_FAIL, "nvm_erase", "refused: is the memory write-protected?", answer,
+                              "answer");
         return false;
     }
     if (took_us > ERASE_MAX_US) {
         selftest_report_value(test, BRACE_SELFTEST_FAIL, "nvm_erase", "takes longer than 2 s: the watchdog will bite",
-            (int32_t)took_us, "us");
+                              (int32_t)took_us, "us");
     }
-    return selftest_expect(test, fingerprint(test, slot, &sum, &erased) && erased, "nvm_erase",
-        "leaves 0xff throughout",
+    return selftest_expect(
+        test, fingerprint(test, slot, &sum, &erased) && erased, "nvm_erase", "leaves 0xff throughout",
         "does not leave 0xff throughout: wrong sector, or memory that erases to another value (invert it)");
 }
 
@@ -93,12 +96,12 @@ static bool write_unit(selftest_t *test, uint32_t slot, uint32_t offset)
     const uint32_t took_us = hal->now_us(hal->context) - began_us;
     if (answer != BRACE_HAL_OK) {
         selftest_report_value(test, BRACE_SELFTEST_FAIL, "nvm_write",
-            "a unit of write_bytes is refused: is the unit's size right?", answer, "answer");
+                              "a unit of write_bytes is refused: is the unit's size right?", answer, "answer");
         return false;
     }
     if (test->clock_runs && took_us > WRITE_MAX_US) {
         selftest_report_value(test, BRACE_SELFTEST_NOTE, "nvm_write", "a unit took longer than 1 ms", (int32_t)took_us,
-            "us");
+                              "us");
     }
     return true;
 }
@@ -139,7 +142,7 @@ static void keeps(selftest_t *test, uint32_t slot)
         }
         if (at == lonely && !(holds(test, slot, at, true) && holds(test, slot, at + s->write_bytes, false))) {
             selftest_report(test, BRACE_SELFTEST_FAIL, "nvm_shape",
-                "the unit's size lies: writing one unit changed its neighbour, or not all of itself");
+                            "the unit's size lies: writing one unit changed its neighbour, or not all of itself");
             return;
         }
     }
@@ -147,13 +150,14 @@ static void keeps(selftest_t *test, uint32_t slot)
         right = right && holds(test, slot, at, true);
     }
     selftest_expect(test, right, "nvm_write", "what is written reads back, at every address line",
-        "does not keep what is written: wrong address, cache not flushed, or offsets that alias");
+                    "does not keep what is written: wrong address, cache not flushed, or offsets that alias");
     if (s->write_bytes > 1u) {
         const uint8_t bytes[UNIT_MAX] = {0};
         const uint32_t blank = 3u * s->write_bytes;
         const int32_t off_grid = hal->nvm_write(hal->context, slot, blank + 1u, bytes, s->write_bytes);
         const int32_t part = hal->nvm_write(hal->context, slot, blank, bytes, s->write_bytes - 1u);
-        selftest_expect(test, off_grid == BRACE_HAL_E_RANGE && part == BRACE_HAL_E_RANGE, "nvm_write",
+        selftest_expect(
+            test, off_grid == BRACE_HAL_E_RANGE && part == BRACE_HAL_E_RANGE, "nvm_write",
             "only whole units on their grid are taken",
             "a write off the grid or of part of a unit is not refused with E_RANGE: is the unit's size right?");
     }
@@ -179,6 +183,6 @@ void selftest_nvm(selftest_t *test)
     keeps(test, slot);
     if (erase(test, slot)) {
         selftest_expect(test, readable && fingerprint(test, other, &after, &erased) && before == after, "nvm_erase",
-            "the other slot stays as it is", "the other slot changed: the slots are not apart");
+                        "the other slot stays as it is", "the other slot changed: the slots are not apart");
     }
 }

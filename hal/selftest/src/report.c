@@ -4,7 +4,7 @@
 enum { QUESTIONS_MAX = 200000 };
 
 void selftest_report_value(selftest_t *test, brace_selftest_verdict_t verdict, const char *entry, const char *what,
-    int32_t value, const char *unit)
+                           int32_t value, const char *unit)
 {
     const brace_selftest_finding_t finding = {verdict, entry, what, unit[0] != '\0', value, unit};
     switch (verdict) {
@@ -42,6 +42,5 @@ bool selftest_waiting(const selftest_t *test, selftest_wait_t *wait)
     if (!test->clock_runs && wait->asked > QUESTIONS_MAX / 100) {
         return false;
     }
-    return wait->asked <= QUESTIONS_MAX &&
-        test->hal->now_us(test->hal->context) - wait->began_us < wait->window_us;
+    return wait->asked <= QUESTIONS_MAX && test->hal->now_us(test->hal->context) - wait->began_us < wait->window_us;
 }

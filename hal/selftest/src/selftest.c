@@ -5,7 +5,7 @@ static void is_there(selftest_t *test, bool there, const char *entry, bool *all)
 {
     if (!there) {
         selftest_report(test, BRACE_SELFTEST_FAIL, entry,
-            "null, and not optional: fill it in (hal/blank has every entry)");
+                        "null, and not optional: fill it in (hal/blank has every entry)");
         *all = false;
     }
 }
@@ -41,7 +41,7 @@ static void start_and_stop(selftest_t *test)
     const brace_hal_t *const hal = test->hal;
     const brace_reset_cause_t cause = hal->reset_cause(hal->context);
     selftest_expect(test, (uint32_t)cause <= BRACE_RESET_PIN, "reset_cause", "one of the known causes",
-        "a cause that brace_hal.h does not have");
+                    "a cause that brace_hal.h does not have");
     brace_crash_record_t record;
     const int32_t crashed = hal->crash_read(hal->context, &record);
     selftest_expect(test, crashed == 0 || crashed == 1, "crash_read", "answers 0 or 1", "answers neither 0 nor 1");
@@ -53,15 +53,14 @@ static void start_and_stop(selftest_t *test)
     }
 }
 
-int32_t brace_selftest_run(const brace_hal_t *hal, const brace_selftest_setup_t *setup,
-    brace_selftest_result_t *result)
+int32_t brace_selftest_run(const brace_hal_t *hal, const brace_selftest_setup_t *setup, brace_selftest_result_t *result)
 {
     static const brace_selftest_setup_t quiet = {.scratch_slot = BRACE_SELFTEST_KEEP_NVM};
     selftest_t test = {.hal = hal, .setup = setup != 0 ? setup : &quiet};
     const brace_selftest_setup_t *const asked = test.setup;
     if (hal == 0 || asked->scratch_slot < BRACE_SELFTEST_KEEP_NVM || asked->scratch_slot >= BRACE_NVM_SLOT_COUNT ||
         (asked->reference_count != 0 &&
-            (asked->reference_bits < 8u || asked->reference_bits > 32u || asked->reference_hz == 0u))) {
+         (asked->reference_bits < 8u || asked->reference_bits > 32u || asked->reference_hz == 0u))) {
         return BRACE_HAL_E_RANGE;
     }
     if (door(&test)) {

@@ -13,7 +13,7 @@ typedef struct {
 
 void selftest_report(selftest_t *test, brace_selftest_verdict_t verdict, const char *entry, const char *what);
 void selftest_report_value(selftest_t *test, brace_selftest_verdict_t verdict, const char *entry, const char *what,
-    int32_t value, const char *unit);
+                           int32_t value, const char *unit);
 
 /* Reports PASS with `right`, or FAIL with `wrong`; returns ok. */
 bool selftest_expect(selftest_t *test, bool ok, const char *entry, const char *right, const char *wrong);

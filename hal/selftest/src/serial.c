@@ -4,8 +4,8 @@
 
 enum { BAUD = 115200, ROOM = 16 };
 
-static const char *const names[BRACE_SERIAL_PORT_COUNT] = {
-    "serial(console)", "serial(modbus)", "serial(slcan)", "serial(modbus tcp)"};
+static const char *const names[BRACE_SERIAL_PORT_COUNT] = {"serial(console)", "serial(modbus)", "serial(slcan)",
+                                                           "serial(modbus tcp)"};
 
 static void one_port(selftest_t *test, brace_serial_port_t port)
 {
@@ -17,8 +17,8 @@ static void one_port(selftest_t *test, brace_serial_port_t port)
         return;
     }
     if (answer != BRACE_HAL_OK) {
-        selftest_report_value(test, BRACE_SELFTEST_FAIL, name,
-            "115200 baud without parity is refused", answer, "answer");
+        selftest_report_value(test, BRACE_SELFTEST_FAIL, name, "115200 baud without parity is refused", answer,
+                              "answer");
         return;
     }
     uint8_t bytes[ROOM + 1];
@@ -29,7 +29,7 @@ static void one_port(selftest_t *test, brace_serial_port_t port)
     const int32_t read = port == BRACE_SERIAL_CONSOLE ? 0 : hal->serial_read(hal->context, port, bytes, ROOM);
     const bool within = read >= 0 && read <= ROOM && bytes[ROOM] == 0x5au;
     selftest_expect(test, nothing && within, name, "there, and its counts keep to the room given",
-        "a count is negative or larger than the room given, or bytes are written beyond it");
+                    "a count is negative or larger than the room given, or bytes are written beyond it");
 }
 
 void selftest_serial(selftest_t *test)
@@ -40,5 +40,5 @@ void selftest_serial(selftest_t *test)
     }
     const int32_t answer = hal->serial_setup(hal->context, BRACE_SERIAL_PORT_COUNT, BAUD, BRACE_PARITY_NONE);
     selftest_expect(test, answer < 0, "serial_setup", "a port that can not be is refused",
-        "port 4 is accepted: check the port first");
+                    "port 4 is accepted: check the port first");
 }

@@ -38,7 +38,7 @@ typedef struct {
 typedef struct {
     uint32_t core_hz;
     uint32_t apb1_hz, apb2_hz; /* rates of the buses: CAN, USART2, USART3 on the first, USART1 on the second */
-    uint32_t timer_hz;         /* rate of TIM2: twice APB1 when APB1 is divided */
+    uint32_t timer_hz; /* rate of TIM2: twice APB1 when APB1 is divided */
 } stm32f405_clocks_t;
 
 /* A half-duplex line to servos: USART6, its bytes moved by DMA 2, streams 1 and 6. The direction pin is high from
@@ -47,7 +47,7 @@ typedef struct {
  *   is_polled: for emulators without DMA; bytes then move within the calls
  * returns OK, or E_RANGE */
 typedef struct {
-    stm32f405_pin_t tx, rx;       /* PC6 PC7 or PG14 PG9, alternate function 8 */
+    stm32f405_pin_t tx, rx; /* PC6 PC7 or PG14 PG9, alternate function 8 */
     stm32f405_pin_t drive_enable;
     uint32_t baud;
     bool is_polled;
@@ -156,8 +156,8 @@ const brace_hal_t *brace_hal_stm32f405(const stm32f405_board_t *board);
 /* The clocks as they run, for the banner. */
 typedef struct {
     stm32f405_clocks_t clocks;
-    bool crystal;   /* the crystal feeds them */
-    bool pll;       /* the PLL runs; else 16 MHz */
+    bool crystal; /* the crystal feeds them */
+    bool pll; /* the PLL runs; else 16 MHz */
     bool crystal_was_lost; /* it stopped while it fed the clocks: CAN has stopped, and reports bus_off */
 } stm32f405_clock_report_t;
 stm32f405_clock_report_t stm32f405_clock_report(void);

@@ -229,10 +229,10 @@ static stored_frame_t frame_of_fifo(uint32_t at)
 {
     const uint32_t dlc = *can(CAN_RDT0R + at) & CAN_RDT0R_DLC; /* a sender may write up to 15 for 8 bytes */
     const uint32_t length = dlc < 8u ? dlc : 8u;
-    return (stored_frame_t){
-        .id_and_length = (*can(CAN_RI0R + at) & CAN_RI0R_STID) / FIELD(CAN_RI0R_STID, 1u) | length << 16,
-        .data_low = *can(CAN_RDL0R + at),
-        .data_high = *can(CAN_RDH0R + at)};
+    return (stored_frame_t){.id_and_length =
+                                (*can(CAN_RI0R + at) & CAN_RI0R_STID) / FIELD(CAN_RI0R_STID, 1u) | length << 16,
+                            .data_low = *can(CAN_RDL0R + at),
+                            .data_high = *can(CAN_RDH0R + at)};
 }
 
 static void give_frame(const stored_frame_t *stored, brace_can_frame_t *frame)

@@ -8,8 +8,8 @@
 /* One bit in quanta of prescaler / clock: 1 + before + after. The sample is taken between before and after. */
 typedef struct {
     uint32_t prescaler;      /* [1, 1024] */
-    uint32_t before, after;  /* quanta before the sample point (synchronising one excluded) and after [1, 16], [1, 8] */
-    uint32_t jump;           /* most quanta by which a bit may be moved to stay in step [1, 4] */
+    uint32_t before, after; /* quanta before the sample point (synchronising one excluded) and after [1, 16], [1, 8] */
+    uint32_t jump; /* most quanta by which a bit may be moved to stay in step [1, 4] */
 } can_timing_t;
 
 /* Finds exact bit rates only. Among all ways to make one with 8 to 25 quanta it takes the sample point nearest to 87.5

@@ -70,10 +70,9 @@ static bool start_pll(uint32_t source_hz, bool crystal)
     if (!poll_until(&REGISTER(FLASH_BASE, FLASH_ACR), FLASH_ACR_LATENCY, latency, SWITCH_POLLS)) {
         return false;
     }
-    change(RCC_PLLCFGR,
-           RCC_PLLCFGR_PLLM | RCC_PLLCFGR_PLLN | RCC_PLLCFGR_PLLP | RCC_PLLCFGR_PLLSRC | RCC_PLLCFGR_PLLQ,
-           FIELD(RCC_PLLCFGR_PLLM, divider) | FIELD(RCC_PLLCFGR_PLLN, multiplier) |
-               FIELD(RCC_PLLCFGR_PLLP, 0) | FIELD(RCC_PLLCFGR_PLLSRC, crystal) | FIELD(RCC_PLLCFGR_PLLQ, 7));
+    change(RCC_PLLCFGR, RCC_PLLCFGR_PLLM | RCC_PLLCFGR_PLLN | RCC_PLLCFGR_PLLP | RCC_PLLCFGR_PLLSRC | RCC_PLLCFGR_PLLQ,
+           FIELD(RCC_PLLCFGR_PLLM, divider) | FIELD(RCC_PLLCFGR_PLLN, multiplier) | FIELD(RCC_PLLCFGR_PLLP, 0) |
+               FIELD(RCC_PLLCFGR_PLLSRC, crystal) | FIELD(RCC_PLLCFGR_PLLQ, 7));
     change(RCC_CR, RCC_CR_PLLON, RCC_CR_PLLON);
     if (!rcc_becomes(RCC_CR, RCC_CR_PLLRDY, RCC_CR_PLLRDY, PLL_POLLS)) {
         change(RCC_CR, RCC_CR_PLLON, 0u);

@@ -107,8 +107,8 @@ int32_t flash_slots_erase(void *context, uint32_t slot)
         serial_finish(FINISH_US);
         servo_line_finish(FINISH_US);
         return slot_bytes == 0u ? BRACE_HAL_E_DEVICE
-                                : flash_erase_sector(layout->nvm_sector[slot], slot_bytes > 0x4000u ? ERASE_LARGE_US
-                                                                                                    : ERASE_SMALL_US);
+                                : flash_erase_sector(layout->nvm_sector[slot],
+                                                     slot_bytes > 0x4000u ? ERASE_LARGE_US : ERASE_SMALL_US);
     }
     volatile uint8_t *place = (volatile uint8_t *)slot_address(slot);
     for (uint32_t i = 0; i < (uint32_t)STM32F405_NVM_RAM_SLOT_BYTES; i++) {

@@ -10,9 +10,8 @@
 enum { PIN_FUNCTION = 8, CHANNEL = 5, FROM_MEMORY = 1, RECEIVED_BYTES = 256, BAUD_MIN = 9600, BAUD_MAX = 4500000 };
 enum { STOP_POLLS = 1000 };
 
-#define SENT_FLAGS                                                                                                     \
-    (DMA2_HIFCR_CFEIF6 | DMA2_HIFCR_CDMEIF6 | DMA2_HIFCR_CTEIF6 | DMA2_HIFCR_CHTIF6 | DMA2_HIFCR_CTCIF6)
-#define RECEIVED_FLAGS                                                                                                 \
+#define SENT_FLAGS (DMA2_HIFCR_CFEIF6 | DMA2_HIFCR_CDMEIF6 | DMA2_HIFCR_CTEIF6 | DMA2_HIFCR_CHTIF6 | DMA2_HIFCR_CTCIF6)
+#define RECEIVED_FLAGS \
     (DMA2_LIFCR_CFEIF1 | DMA2_LIFCR_CDMEIF1 | DMA2_LIFCR_CTEIF1 | DMA2_LIFCR_CHTIF1 | DMA2_LIFCR_CTCIF1)
 
 static struct {

@@ -8,6 +8,7 @@
  * a cubic), joint 1 by Newton steps kept inside a bracket. */
 #include <math.h>
 
+// clang-format off
 enum parameter { /* the order of plant.py's KEYS */
     FEMUR, TIBIA,
     AXIAL1, BENDING1, TILT1, TRANSFER1, AXIAL2, BENDING2, TILT2,
@@ -23,6 +24,7 @@ enum parameter { /* the order of plant.py's KEYS */
     COGGING, COGGING_PERIOD,   /* torque ripple [N mm] over the joint's deflection [rad] */
     PARAMETERS
 };
+// clang-format on
 
 typedef struct {
     double stiffness, hardening, half_gap, gap_centre, coulomb, asymmetry, cogging, period;
@@ -66,12 +68,16 @@ static double settle_one(const Joint *j, double load, double rest, double *yield
     high = 1e30;
     for (int i = 0; i < 200; ++i) {
         double f = drive - rest * q - torque(j, q - j->crept, &slope), step, next;
-        if (f > 0.0) low = q;
-        else high = q;
-        if (f == 0.0) break;
+        if (f > 0.0)
+            low = q;
+        else
+            high = q;
+        if (f == 0.0)
+            break;
         step = f / (rest + slope);
         next = q + step;
-        if (!(next > low && next < high) && low > -1e29 && high < 1e29) next = 0.5 * (low + high);
+        if (!(next > low && next < high) && low > -1e29 && high < 1e29)
+            next = 0.5 * (low + high);
         if (fabs(next - q) <= 1e-16 * (1e-3 + fabs(q))) {
             q = next;
             break;
@@ -98,11 +104,15 @@ static void settle(const Joint j[2], const double a[3], const double b[2], doubl
         double f, next;
         q2 = settle_one(&j[1], b[1] - a[1] * q1, a[2], &yield);
         f = drive - a[0] * q1 - a[1] * q2 - torque(&j[0], q1 - j[0].crept, &slope);
-        if (f > 0.0) low = q1;
-        else high = q1;
-        if (f == 0.0) break;
+        if (f > 0.0)
+            low = q1;
+        else
+            high = q1;
+        if (f == 0.0)
+            break;
         next = q1 + f / (a[0] - a[1] * a[1] * yield + slope);
-        if (!(next > low && next < high) && low > -1e29 && high < 1e29) next = 0.5 * (low + high);
+        if (!(next > low && next < high) && low > -1e29 && high < 1e29)
+            next = 0.5 * (low + high);
         if (fabs(next - q1) <= 1e-16 * (1e-3 + fabs(q1))) {
             q1 = next;
             break;
@@ -122,8 +132,10 @@ static void add(double c[3], double s, double x, double z)
 
 static double play_operator(double was, double imposed, double half)
 {
-    if (imposed - was > half) return imposed - half;
-    if (was - imposed > half) return imposed + half;
+    if (imposed - was > half)
+        return imposed - half;
+    if (was - imposed > half)
+        return imposed + half;
     return was;
 }
 
@@ -162,7 +174,8 @@ void blind_play(const double *p, const double *rows, int count, double *out)
         if (first) {
             run = row[0];
             tip[0] = tip[1] = 0.0;
-            for (int n = 0; n < 2; ++n) crept[n] = elastic[n] = j[n].before = 0.0;
+            for (int n = 0; n < 2; ++n)
+                crept[n] = elastic[n] = j[n].before = 0.0;
             t_before = t;
         }
         tip[0] = play_operator(tip[0], row[5], 0.5 * p[PLAY]);
@@ -199,8 +212,8 @@ void blind_play(const double *p, const double *rows, int count, double *out)
             k[0] = c[2] / det;
             k[1] = -c[1] / det;
             k[2] = c[0] / det;
-            load[0] = -(p[WEIGHT_FEMUR] * 0.5 * L1 * ux + p[WEIGHT_KNEE] * L1 * ux
-                        + p[WEIGHT_TIBIA] * (L1 * ux + 0.5 * wx));
+            load[0] =
+                -(p[WEIGHT_FEMUR] * 0.5 * L1 * ux + p[WEIGHT_KNEE] * L1 * ux + p[WEIGHT_TIBIA] * (L1 * ux + 0.5 * wx));
             load[1] = -p[WEIGHT_TIBIA] * 0.5 * wx;
             a[0] = P1[0] * (k[0] * P1[0] + k[1] * P1[1]) + P1[1] * (k[1] * P1[0] + k[2] * P1[1]);
             a[1] = P1[0] * (k[0] * P2[0] + k[1] * P2[1]) + P1[1] * (k[1] * P2[0] + k[2] * P2[1]);

@@ -113,8 +113,8 @@ static void start(const brace_parameters_t *parameters)
     bench_board();
     brace_fake_fail(&fake, BRACE_FAKE_TIP_FORCE_READ, 1, UINT32_MAX, BRACE_HAL_E_UNSUPPORTED);
     for (int i = 0; i < SERVOS; i++) {
-        fake.joint[BRACE_FEMUR + i].sample = (brace_hal_joint_t){.motor_rad = NAN, .link_rad = (float)angle_rad[i],
-                                                                 .temp_degc = NAN};
+        fake.joint[BRACE_FEMUR + i].sample =
+            (brace_hal_joint_t){.motor_rad = NAN, .link_rad = (float)angle_rad[i], .temp_degc = NAN};
     }
     bench_store(parameters);
     if (brace_app_start(&app, &fake.hal) != BRACE_OK) {
@@ -158,8 +158,8 @@ static void tell(const char *kind)
     double turned[SERVOS];
     limb_turned(&limb, turned);
     printf("%s %.9g %.9g %.9g %.9g %.9g %.9g %.9g %.9g", kind, limb.force_n[0], (double)s->force_x_interval_n.low,
-           (double)s->force_x_interval_n.high, (double)s->force_x_n, limb.force_n[1],
-           (double)s->force_z_interval_n.low, (double)s->force_z_interval_n.high, (double)s->force_z_n);
+           (double)s->force_x_interval_n.high, (double)s->force_x_n, limb.force_n[1], (double)s->force_z_interval_n.low,
+           (double)s->force_z_interval_n.high, (double)s->force_z_n);
     for (int i = 0; i < SERVOS; i++) {
         const brace_interval_t load = s->load_interval_n_mm[BRACE_FEMUR + i];
         printf(" %.9g %.9g %.9g", -1e3 * turned[i], (double)load.low, (double)load.high);

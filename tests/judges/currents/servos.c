@@ -2,18 +2,32 @@
 
 #include <math.h>
 
-const fit_t mx106_m5 = {.kt = 2.2087822411811935, .r = 2.0142427292798475, .armature = 0.026018155628771758,
-                        .base = 0.0, .base_stribeck = 0.12242747179820507, .motor = 0.20763710226562626,
-                        .motor_stribeck = 0.19519320110890795, .outside = 0.022684350817709906,
-                        .outside_stribeck = 0.08490162305974122, .stribeck_rad_per_s = 1.7457130513692263,
-                        .alpha = 1.138313248724122, .viscous = 0.05066487276724427};
+const fit_t mx106_m5 = {.kt = 2.2087822411811935,
+                        .r = 2.0142427292798475,
+                        .armature = 0.026018155628771758,
+                        .base = 0.0,
+                        .base_stribeck = 0.12242747179820507,
+                        .motor = 0.20763710226562626,
+                        .motor_stribeck = 0.19519320110890795,
+                        .outside = 0.022684350817709906,
+                        .outside_stribeck = 0.08490162305974122,
+                        .stribeck_rad_per_s = 1.7457130513692263,
+                        .alpha = 1.138313248724122,
+                        .viscous = 0.05066487276724427};
 
-const fit_t mx106_m6 = {.kt = 2.209828156174588, .r = 2.033661749312417, .armature = 0.026016184370993383,
-                        .base = 1.0232526438525893e-05, .base_stribeck = 0.12195409579603411,
-                        .motor = 0.19800553725822115, .motor_stribeck = 0.19859970173941574,
-                        .motor_quad = 0.009999930103371748, .outside = 0.022215529897348624,
-                        .outside_stribeck = 0.08710328264676681, .outside_quad = 7.326919843140997e-05,
-                        .stribeck_rad_per_s = 1.7463251741328727, .alpha = 1.142827788004191,
+const fit_t mx106_m6 = {.kt = 2.209828156174588,
+                        .r = 2.033661749312417,
+                        .armature = 0.026016184370993383,
+                        .base = 1.0232526438525893e-05,
+                        .base_stribeck = 0.12195409579603411,
+                        .motor = 0.19800553725822115,
+                        .motor_stribeck = 0.19859970173941574,
+                        .motor_quad = 0.009999930103371748,
+                        .outside = 0.022215529897348624,
+                        .outside_stribeck = 0.08710328264676681,
+                        .outside_quad = 7.326919843140997e-05,
+                        .stribeck_rad_per_s = 1.7463251741328727,
+                        .alpha = 1.142827788004191,
                         .viscous = 0.05071566473605552};
 
 /* The test bench of the fits: supply, gain of the firmware's position loop and its greatest duty. */
@@ -28,8 +42,8 @@ static double friction(const servo_t *servo, double motor, double outside)
     double held = f->base + stuck * f->base_stribeck + fabs(f->outside * outside - f->motor * motor) +
                   stuck * fabs(f->outside_stribeck * outside - f->motor_stribeck * motor);
     if (outside * motor < 0.0) {
-        held += stuck * (fabs(outside) < fabs(motor) ? f->outside_quad * outside * outside
-                                                     : f->motor_quad * motor * motor);
+        held +=
+            stuck * (fabs(outside) < fabs(motor) ? f->outside_quad * outside * outside : f->motor_quad * motor * motor);
     }
     return servo->friction_factor * (held + f->viscous * speed);
 }

@@ -89,18 +89,18 @@ static state_t tick_once(int32_t tick, fault_t *fault)
     const brace_snapshot_t *s = now();
     const brace_stiffness_t *k = &s->stiffness.now;
     state_t state = {.is_usable = s->k_is_valid && k->flags == 0u,
-                   .has_sigma = s->sigma_is_known,
-                   .flags = k->flags,
-                   .faults = s->faults,
-                   .taken_tick = tick - (int32_t)((tick_us - s->taken_us) / (uint32_t)TICK_US),
-                   .k_n_per_mm = {k->k_xx_n_per_mm, k->k_xz_n_per_mm, k->k_zz_n_per_mm}};
+                     .has_sigma = s->sigma_is_known,
+                     .flags = k->flags,
+                     .faults = s->faults,
+                     .taken_tick = tick - (int32_t)((tick_us - s->taken_us) / (uint32_t)TICK_US),
+                     .k_n_per_mm = {k->k_xx_n_per_mm, k->k_xz_n_per_mm, k->k_zz_n_per_mm}};
     if (state.is_usable) {
         brace_stiffness_sigma_t sigma = s->sigma;
         brace_limb_t limb = plant.parameters.limb;
         const float unseen_rad = state.taken_tick < tick ? 1.5f * limb.uncertainty.angle_rad + 0.001f : 0.0f;
         limb.uncertainty.angle_rad = hypotf(limb.uncertainty.angle_rad, unseen_rad);
-        if (!state.has_sigma && brace_uncertainty_known(&limb, s->theta_rad[BRACE_FEMUR],
-                                                       s->theta_rad[BRACE_TIBIA], k, &sigma) != BRACE_OK) {
+        if (!state.has_sigma && brace_uncertainty_known(&limb, s->theta_rad[BRACE_FEMUR], s->theta_rad[BRACE_TIBIA], k,
+                                                        &sigma) != BRACE_OK) {
             sigma = (brace_stiffness_sigma_t){0};
         }
         state.sigma_n_per_mm[0] = sigma.k_xx_n_per_mm;

@@ -225,8 +225,8 @@ static void spoil_samples(fault_t *f, const plant_t *plant, int32_t tick, uint32
         *angle_of(f, now) += (float)f->size;
         break;
     case KIND_STAMPS:
-        joint->taken_us = f->size == 0.0 ? tick_us - (uint32_t)(tick - f->from) * (uint32_t)TICK_US
-                                         : tick_us + (uint32_t)f->size;
+        joint->taken_us =
+            f->size == 0.0 ? tick_us - (uint32_t)(tick - f->from) * (uint32_t)TICK_US : tick_us + (uint32_t)f->size;
         break;
     case KIND_SAMPLES_OLD: {
         sensors_t earlier;
@@ -262,7 +262,7 @@ static void spoil_others(fault_t *f, sensors_t *now)
         for (int i = 0; i < BRACE_LINK_COUNT; i++) { /* one sensor stands in for another: all of them */
             const float degc = now->joint[i].temp_degc + (float)f->size;
             now->joint[i].temp_degc = f->kind == KIND_DEGC_OFFSET ? degc
-                                      : f->variant % 4u == 0u         ? (float)NAN
+                                      : f->variant % 4u == 0u     ? (float)NAN
                                                                   : (float)f->size;
         }
         break;

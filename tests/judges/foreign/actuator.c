@@ -6,25 +6,49 @@
 #include <math.h>
 
 enum {
-    STIFFNESS, GAP, ZERO, HARDENING, SOFT_AT, ONE_SIDED, STOP_AT, STOP, CREEP, CREEP_S,
-    COGGING, COGGING_PERIOD, COGGING_PHASE,
-    VISCOUS, INERTIA,
-    COULOMB, PER_LOAD, BRISTLE, BRISTLE_DAMPING, PEAK, STRIBECK,
-    SLIP, SLIP_TORQUE, SLIP_STIFFNESS,
+    STIFFNESS,
+    GAP,
+    ZERO,
+    HARDENING,
+    SOFT_AT,
+    ONE_SIDED,
+    STOP_AT,
+    STOP,
+    CREEP,
+    CREEP_S,
+    COGGING,
+    COGGING_PERIOD,
+    COGGING_PHASE,
+    VISCOUS,
+    INERTIA,
+    COULOMB,
+    PER_LOAD,
+    BRISTLE,
+    BRISTLE_DAMPING,
+    PEAK,
+    STRIBECK,
+    SLIP,
+    SLIP_TORQUE,
+    SLIP_STIFFNESS,
     MAXWELL, /* 0: LuGre */
     PARAMETERS
 };
 enum { ANGLE, SPEED, BRISTLE_BENT, SLIDER, CREPT, LATEST, ELEMENTS = 8, STATE = LATEST + 1 + ELEMENTS };
 
-static double beyond(double x, double half) { return x > half ? x - half : x < -half ? x + half : 0.0; }
+static double beyond(double x, double half)
+{
+    return x > half ? x - half : x < -half ? x + half : 0.0;
+}
 
 static double spring(const double *p, const double *s, double angle, double *elastic)
 {
     double bent = beyond(angle - p[ZERO], 0.5 * p[GAP]) - s[CREPT];
     double k = p[STIFFNESS] * (bent > 0.0 ? 1.0 + p[ONE_SIDED] : 1.0);
     double torque = k * bent + p[HARDENING] * bent * bent * bent;
-    if (p[SOFT_AT] > 0.0) torque = k * bent / sqrt(1.0 + (bent / p[SOFT_AT]) * (bent / p[SOFT_AT]));
-    if (p[STOP] > 0.0 && bent > p[STOP_AT]) torque += p[STOP] * (bent - p[STOP_AT]);
+    if (p[SOFT_AT] > 0.0)
+        torque = k * bent / sqrt(1.0 + (bent / p[SOFT_AT]) * (bent / p[SOFT_AT]));
+    if (p[STOP] > 0.0 && bent > p[STOP_AT])
+        torque += p[STOP] * (bent - p[STOP_AT]);
     *elastic = bent;
     return torque;
 }
@@ -50,8 +74,10 @@ static double friction(const double *p, double *s, double moved, double dt, doub
     if (p[SLIP_TORQUE] > 0.0) {
         double most = p[SLIP_TORQUE] / p[SLIP_STIFFNESS], angle = s[ANGLE] - p[ZERO];
         double bent = beyond(angle - s[SLIDER], 0.5 * p[SLIP]);
-        if (bent > most) s[SLIDER] += bent - most;
-        if (bent < -most) s[SLIDER] += bent + most;
+        if (bent > most)
+            s[SLIDER] += bent - most;
+        if (bent < -most)
+            s[SLIDER] += bent + most;
         torque += p[SLIP_STIFFNESS] * beyond(angle - s[SLIDER], 0.5 * p[SLIP]);
     }
     return torque + p[VISCOUS] * speed;
@@ -84,9 +110,11 @@ void actuator_play(const double *p, double *s, const double *command, int rows, 
                 s[LATEST] = friction(p, s, moved, dt, load);
                 /* The start of a test is no blow: the first reading has no speed before it. */
                 sum = load + ripple + s[LATEST] + (row ? p[INERTIA] * (speed - s[SPEED]) / interval : 0.0);
-                if (k == many) s[SPEED] = speed;
+                if (k == many)
+                    s[SPEED] = speed;
             }
-            if (p[CREEP] > 0.0) s[CREPT] += dt / p[CREEP_S] * (p[CREEP] * elastic - s[CREPT]);
+            if (p[CREEP] > 0.0)
+                s[CREPT] += dt / p[CREEP_S] * (p[CREEP] * elastic - s[CREPT]);
         }
         angle[row] = s[ANGLE];
         torque[row] = sum;

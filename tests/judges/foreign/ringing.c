@@ -1,8 +1,9 @@
-/* A limb in its plane on a rig, in time: two joints with inertia that ring after each step of the rig, and friction that
- * bends before it slides.
+/* A limb in its plane on a rig, in time: two joints with inertia that ring after each step of the rig, and friction
+ * that bends before it slides.
  *
  * LuGre (Canudas de Wit, Olsson, Astrom, Lischinsky 1995; Dahl's law (1968) without a Stribeck peak), and Maxwell slip
- * (the rate-independent part of Al-Bender, Lampaert, Swevers 2005: equal springs that begin to slide one after another).
+ * (the rate-independent part of Al-Bender, Lampaert, Swevers 2005: equal springs that begin to slide one after
+ * another).
  * Each link yields at its end by an ellipsoid that turns with it. The rig holds the tip: it moves within `move_s`, and
  * is read when the joints have had `wait_s` to come to rest. Nothing here is shared with the product's plant, which
  * knows rests only. Units: N, mm, rad, s. */
@@ -10,11 +11,42 @@
 #include <string.h>
 
 enum {
-    FEMUR, TIBIA, AXIAL1, BENDING1, TILT1, AXIAL2, BENDING2, TILT2, BASE_X, BASE_Z,
-    COMPLIANCE1, COMPLIANCE2, GAP1, GAP2, HARDENING1, HARDENING2, ZERO1, ZERO2,
-    CHANGE_AT, CHANGED_LINK, CHANGE, WARMTH, WARMTH_FROM, PLAY,
-    INERTIA1, INERTIA2, DAMPING1, DAMPING2,
-    LEVEL1, LEVEL2, MAXWELL, BRISTLE_RAD, PEAK, STRIBECK_RAD_PER_S, MOVE_S, WAIT_S,
+    FEMUR,
+    TIBIA,
+    AXIAL1,
+    BENDING1,
+    TILT1,
+    AXIAL2,
+    BENDING2,
+    TILT2,
+    BASE_X,
+    BASE_Z,
+    COMPLIANCE1,
+    COMPLIANCE2,
+    GAP1,
+    GAP2,
+    HARDENING1,
+    HARDENING2,
+    ZERO1,
+    ZERO2,
+    CHANGE_AT,
+    CHANGED_LINK,
+    CHANGE,
+    WARMTH,
+    WARMTH_FROM,
+    PLAY,
+    INERTIA1,
+    INERTIA2,
+    DAMPING1,
+    DAMPING2,
+    LEVEL1,
+    LEVEL2,
+    MAXWELL,
+    BRISTLE_RAD,
+    PEAK,
+    STRIBECK_RAD_PER_S,
+    MOVE_S,
+    WAIT_S,
     PARAMETERS
 };
 enum { RUN, THETA1, THETA2, TIME, TEMP, DX, DZ, COLUMNS };
@@ -36,7 +68,8 @@ static pose_t pose_of(const double *p, const double *row)
 {
     const double changed = row[TIME] >= p[CHANGE_AT] ? p[CHANGE] : 1.0;
     const double warm = 1.0 + p[WARMTH] * (row[TEMP] - p[WARMTH_FROM]);
-    pose_t at = {row[THETA1] + p[ZERO1], row[THETA2] + p[ZERO2],
+    pose_t at = {row[THETA1] + p[ZERO1],
+                 row[THETA2] + p[ZERO2],
                  p[BENDING1] * (p[CHANGED_LINK] < 0.5 ? changed : 1.0),
                  p[BENDING2] * (p[CHANGED_LINK] > 0.5 ? changed : 1.0),
                  {1.0 / (p[COMPLIANCE1] * warm), 1.0 / (p[COMPLIANCE2] * warm)}};
@@ -83,7 +116,8 @@ static double spring(const double *p, const pose_t *at, int joint, double q)
 static double friction(const double *p, state_t *s, int joint, double moved, double dt)
 {
     const double level = p[LEVEL1 + joint];
-    if (level <= 0.0) return 0.0;
+    if (level <= 0.0)
+        return 0.0;
     const double bristle = level / p[BRISTLE_RAD];
     if (p[MAXWELL] > 0.0) {
         double sum = 0.0;
@@ -109,8 +143,8 @@ static void step(const double *p, const pose_t *at, state_t *s, const double *pl
         const double moved = s->speed[joint] * dt;
         const double rubbed = friction(p, s, joint, moved, dt);
         const double left = torque[joint] - spring(p, at, joint, s->q[joint]) - rubbed;
-        s->speed[joint] = (s->speed[joint] + dt * left / p[INERTIA1 + joint])
-            / (1.0 + dt * p[DAMPING1 + joint] / p[INERTIA1 + joint]);
+        s->speed[joint] = (s->speed[joint] + dt * left / p[INERTIA1 + joint]) /
+                          (1.0 + dt * p[DAMPING1 + joint] / p[INERTIA1 + joint]);
         s->q[joint] += s->speed[joint] * dt;
     }
 }
@@ -139,11 +173,13 @@ void ringing_play(const double *p, const double *rows, int count, double dt, dou
         double fastest = 0.0;
         for (int n = 1; n <= all; n++) {
             const double share = n < moving ? (double)n / moving : 1.0;
-            const double place[2] = {zero[0] + tip[0] + share * (to[0] - tip[0]), zero[1] + tip[1] + share * (to[1] - tip[1])};
+            const double place[2] = {zero[0] + tip[0] + share * (to[0] - tip[0]),
+                                     zero[1] + tip[1] + share * (to[1] - tip[1])};
             step(p, &at, &s, place, dt, force);
             fastest = fmax(fastest, fmax(fabs(s.speed[0]), fabs(s.speed[1])));
             if (n > moving && (n - moving) % look == 0) {
-                if (fastest < REST_RAD_PER_S) break;
+                if (fastest < REST_RAD_PER_S)
+                    break;
                 fastest = 0.0;
             }
         }

@@ -136,7 +136,7 @@ static void check_k(const uint8_t *request)
         return;
     }
     const double reported[3] = {signed24(answer[0], 2) * 0.0005, signed24(answer[0], 5) * 0.0005,
-                            signed24(answer[1], 2) * 0.0005};
+                                signed24(answer[1], 2) * 0.0005};
     const double room = 0.00025 + 5e-6 * (k[0] > k[2] ? k[0] : k[2]);
     for (int i = 0; i < 3; i++) {
         if (!(fabs(reported[i] - k[i]) <= room)) {

@@ -22,10 +22,10 @@ static float real(float low, float high)
 
 static uint32_t edge(void)
 {
-    static const float floats[] = {0.0f, 1e-45f, 1e-30f, 1e-9f, 1e-7f,  1e-5f, 1e-4f, 1e-3f, 0.01f,
-                                   0.1f, 0.5f,   0.9f,   1.0f,  1.5f,   3.1f,  7.9f,  22.0f, 100.0f,
-                                   1e3f, 1e4f,   1e5f,   1e6f,  1e9f,   1e20f, 1e30f, 3e38f, INFINITY};
-    static const uint32_t words[] = {0,   1,    2,    5,    10,   127,   247,    500,    999,
+    static const float floats[] = {0.0f, 1e-45f, 1e-30f, 1e-9f, 1e-7f, 1e-5f, 1e-4f, 1e-3f, 0.01f,
+                                   0.1f, 0.5f,   0.9f,   1.0f,  1.5f,  3.1f,  7.9f,  22.0f, 100.0f,
+                                   1e3f, 1e4f,   1e5f,   1e6f,  1e9f,  1e20f, 1e30f, 3e38f, INFINITY};
+    static const uint32_t words[] = {0,    1,    2,    5,    10,    127,    247,     500,     999,
                                      1000, 1001, 5000, 9600, 19200, 125000, 1000000, 8000000, 10000000};
     uint32_t word;
     if (dice(6) == 0u) {

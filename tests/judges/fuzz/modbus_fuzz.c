@@ -141,7 +141,8 @@ static void exchange(brace_serial_port_t port, const uint8_t *bytes, uint32_t co
     }
     uint32_t quiet = 0;
     for (uint32_t i = 0; i < ANSWER_TICKS && quiet < QUIET_TICKS + (is_sound && reply_count == 0u ? ANSWER_TICKS : 0u) +
-                                                      (is_sound ? 0u : LINE_QUIET_TICKS); i++) {
+                                                         (is_sound ? 0u : LINE_QUIET_TICKS);
+         i++) {
         const uint32_t before = reply_count;
         tick(port);
         quiet = reply_count == before ? quiet + 1u : 0u;
@@ -232,8 +233,13 @@ static void over_line(bool was_configuring)
 
 static void over_tcp(bool was_configuring)
 {
-    uint8_t frame[310] = {(uint8_t)dice(256), (uint8_t)dice(256), 0, 0, (uint8_t)((pdu_count + 1u) >> 8),
-                          (uint8_t)(pdu_count + 1u), UNIT};
+    uint8_t frame[310] = {(uint8_t)dice(256),
+                          (uint8_t)dice(256),
+                          0,
+                          0,
+                          (uint8_t)((pdu_count + 1u) >> 8),
+                          (uint8_t)(pdu_count + 1u),
+                          UNIT};
     memcpy(frame + 7, pdu, pdu_count);
     note();
     exchange(BRACE_SERIAL_MODBUS_TCP, frame, pdu_count + 7u, true);

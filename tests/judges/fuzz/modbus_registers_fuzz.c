@@ -12,8 +12,14 @@
 #include "brace/measured.h"
 #include "modbus_crc.h"
 
-enum { UNIT = 17, WORDS = BRACE_PARAMETER_NUMBERS, MOST_TICKS = 120, HEADER = 7,
-       ANSWERED = 42, COMMANDS = 41 /* values from 4096 and from 16384 on, by docs/modbus.md */ };
+enum {
+    UNIT = 17,
+    WORDS = BRACE_PARAMETER_NUMBERS,
+    MOST_TICKS = 120,
+    HEADER = 7,
+    ANSWERED = 42,
+    COMMANDS = 41 /* values from 4096 and from 16384 on, by docs/modbus.md */
+};
 
 static const uint32_t key = 0xc0de0000u;
 
@@ -94,8 +100,8 @@ static uint32_t some_start(void)
 {
     static const uint16_t edge[] = {0,     2,     114,   116,   208,   210,   4096,  4108,  4110,  16384,
                                     16386, 16388, 16390, 16392, 16394, 16396, 16398, 16400, 16406, 16410,
-                                    16414, 16416, 16418, 16422, 16430, 16440, 16452, 16454, 16456, 16460, 4122,  4126,
-                                    4152,  4180,  65535, 65534, 32768};
+                                    16414, 16416, 16418, 16422, 16430, 16440, 16452, 16454, 16456, 16460,
+                                    4122,  4126,  4152,  4180,  65535, 65534, 32768};
     return dice(4) == 0u ? dice(65536) : edge[dice(sizeof edge / sizeof *edge)];
 }
 

@@ -10,8 +10,15 @@
 
 enum { NODE = 5, WORDS = BRACE_BLOCK_BYTES / 4, HEADER = 5, STORE_TICKS = 4000, SILENCE_TICKS = 10100 };
 enum { READ = 1, SET_MODE = 9, BEGIN = 10, WORD = 11, COMMIT = 12, ROLLBACK = 13 };
-enum { BLOCK_GOOD, BLOCK_NOT_FINITE, BLOCK_OUT_OF_RANGE, BLOCK_OTHER_SCHEMA, BLOCK_OTHER_HEADER, BLOCK_BAD_CRC,
-       BLOCK_KINDS };
+enum {
+    BLOCK_GOOD,
+    BLOCK_NOT_FINITE,
+    BLOCK_OUT_OF_RANGE,
+    BLOCK_OTHER_SCHEMA,
+    BLOCK_OTHER_HEADER,
+    BLOCK_BAD_CRC,
+    BLOCK_KINDS
+};
 
 static struct {
     bool open;
@@ -120,8 +127,8 @@ static void ask(const uint8_t data[8])
             unchanged(data);
         }
         if (i > 0u && i == meddles) {
-            (void)brace_fake_frame_arrives(&fake, &(brace_can_frame_t){.id = 0x600u + NODE, .length = 8,
-                                                                       .data = {BEGIN, 0xfe, 3, 0, 1, 2, 3, 4}});
+            (void)brace_fake_frame_arrives(
+                &fake, &(brace_can_frame_t){.id = 0x600u + NODE, .length = 8, .data = {BEGIN, 0xfe, 3, 0, 1, 2, 3, 4}});
         }
         ticks(1);
         take_frames(data);
@@ -271,9 +278,9 @@ static uint32_t disturb(uint32_t at)
 {
     uint8_t data[8] = {WORD, (uint8_t)dice(250)};
     switch (dice(13)) {
-    case 0: return at + 1u;                                                             /* a word is lost */
+    case 0: return at + 1u; /* a word is lost */
     case 1: say_word(at > 0u ? at - 1u : 0u, block[at > 0u ? at - 1u : 0u]); return at; /* one comes twice */
-    case 2: say_word(at > 0u ? at - 1u : 0u, dice(0x10000)); return at;                 /* and not the same */
+    case 2: say_word(at > 0u ? at - 1u : 0u, dice(0x10000)); return at; /* and not the same */
     case 3: say_word(at, block[at] ^ 1u << dice(32)); return at + 1u;
     case 4: say_word(dice(2) == 0u ? dice(WORDS + 3) : dice(65536), block[at]); return at;
     case 5: say_begin(); return dice(2) == 0u ? 0u : at;

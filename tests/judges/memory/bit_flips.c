@@ -27,7 +27,10 @@ typedef struct {
 } part_t;
 
 #define AT(member) offsetof(controller_t, member)
-#define PART(member, judged) {#member, AT(member), AT(member) + sizeof(((controller_t *)0)->member), judged}
+#define PART(member, judged) \
+    { \
+        #member, AT(member), AT(member) + sizeof(((controller_t *)0)->member), judged \
+    }
 static const part_t parts[] = {
     {"parameters.in_force", AT(parameters.in_force), AT(parameters.store), true},
     PART(model.is_spatial, true),
@@ -40,8 +43,7 @@ static const part_t parts[] = {
     PART(model.loaded_space, true),
     {"tip_force, its constants", AT(tip_force.fitted), AT(tip_force) + sizeof(tip_force_t), true},
     PART(gravity, true),
-    {"flank, coxa joint's constants", AT(flank.joint[BRACE_COXA]), AT(flank.joint[BRACE_COXA].machine.started),
-     true},
+    {"flank, coxa joint's constants", AT(flank.joint[BRACE_COXA]), AT(flank.joint[BRACE_COXA].machine.started), true},
     {"flank, femur joint's constants", AT(flank.joint[BRACE_FEMUR]), AT(flank.joint[BRACE_FEMUR].machine.started),
      true},
     {"flank, tibia joint's constants", AT(flank.joint[BRACE_TIBIA]), AT(flank.joint[BRACE_TIBIA].machine.started),

@@ -18,11 +18,11 @@
 #include "nvm_model.h"
 
 enum {
-    SETS = 12,            /* set 0: the safe defaults; the others differ in their femur, and in every drive */
+    SETS = 12, /* set 0: the safe defaults; the others differ in their femur, and in every drive */
     NO_SET = -1,
-    STARTS_UNSTABLE = 4,  /* starts after a failure that leaves unstable units; else one */
-    STEPS_MAX = 2000,     /* of an operation, a store step each */
-    ROTTEN_BEFORE = 1,    /* the set in force while the newer one has rotted */
+    STARTS_UNSTABLE = 4, /* starts after a failure that leaves unstable units; else one */
+    STEPS_MAX = 2000, /* of an operation, a store step each */
+    ROTTEN_BEFORE = 1, /* the set in force while the newer one has rotted */
     PAIR_MANNERS = 4,
     TURNS = PAIR_MANNERS * PAIR_MANNERS /* rounds of pairs in turn: then every pair has been tried */
 };
@@ -140,8 +140,8 @@ static int set_to_go_back_to(const limb_t *limb)
 /* Runs an operation to its end, or to the power failure. */
 static brace_store_state_t operate(limb_t *limb, operation_t operation, int new_set)
 {
-    const brace_status_t status = operation == UPDATE ? brace_store_begin(&limb->store, &set[new_set], NULL)
-                                                      : brace_store_rollback(&limb->store);
+    const brace_status_t status =
+        operation == UPDATE ? brace_store_begin(&limb->store, &set[new_set], NULL) : brace_store_rollback(&limb->store);
     require(status == BRACE_OK, "an operation is refused", status);
     brace_store_state_t state = BRACE_STORE_BUSY;
     for (int i = 0; i < STEPS_MAX && state == BRACE_STORE_BUSY && !limb->nvm->dead; i++) {
@@ -355,8 +355,8 @@ static void stop_everywhere(const nvm_t *left, operation_t operation, int new_se
         allowed_t allowed = {.count = 0};
         allow(&allowed, limb.in_force);
         allow(&allowed, operation == UPDATE ? new_set : set_to_go_back_to(&limb));
-        const brace_status_t status = operation == UPDATE ? brace_store_offer(&limb.store, &set[new_set])
-                                                          : brace_store_rollback(&limb.store);
+        const brace_status_t status =
+            operation == UPDATE ? brace_store_offer(&limb.store, &set[new_set]) : brace_store_rollback(&limb.store);
         require(status == BRACE_OK, "an operation is refused", status);
         for (int i = 0; i < now.first_step; i++) {
             state = brace_store_step(&limb.store);

@@ -2,10 +2,8 @@
 
 #include <cmath>
 
-namespace soak
-{
-namespace
-{
+namespace soak {
+namespace {
 
 // One sigma each, as the controllers' parameters say.
 constexpr double kLength_mm = 0.3, kAngle_rad = 0.002, kCompliance_rel = 0.03, kGain_rel = 0.01;
@@ -14,11 +12,10 @@ struct Setting {
     const char *name;
     bool has_play, is_heavy, is_in_space;
 };
-constexpr Setting kSettings[kLimbs] = {
-    {"plain", false, false, false},
-    {"play", true, false, false},
-    {"heavy", false, true, false},
-    {"in space", false, false, true}};
+constexpr Setting kSettings[kLimbs] = {{"plain", false, false, false},
+                                       {"play", true, false, false},
+                                       {"heavy", false, true, false},
+                                       {"in space", false, false, true}};
 
 brace_node_limb_t nominal(const Setting &setting)
 {

@@ -10,8 +10,7 @@ extern "C" {
 #include "brace/parameters.h"
 }
 
-namespace soak
-{
+namespace soak {
 
 constexpr int kLimbs = 4;
 constexpr int kFemur = 1, kTibia = 2;

@@ -16,10 +16,8 @@ extern "C" {
 #include "brace/can_messages.h"
 }
 
-namespace soak
-{
-namespace
-{
+namespace soak {
+namespace {
 
 constexpr int kHeader = 7, kRegisters = 62, kAnswer = kHeader + 2 + 2 * kRegisters;
 
@@ -128,8 +126,7 @@ bool ModbusMaster::judge(const brace_snapshot_t &snapshot) const
         return is_right; // an older snapshot's K is not kept here
     }
     const brace_stiffness_t &k = snapshot.stiffness.engaged;
-    return value_at(come_, 32) == bits_of(k.k_xx_n_per_mm) &&
-           value_at(come_, 34) == bits_of(k.k_xz_n_per_mm) &&
+    return value_at(come_, 32) == bits_of(k.k_xx_n_per_mm) && value_at(come_, 34) == bits_of(k.k_xz_n_per_mm) &&
            value_at(come_, 36) == bits_of(k.k_zz_n_per_mm);
 }
 

@@ -9,12 +9,10 @@
 
 #include "limbs.h"
 
-namespace soak
-{
+namespace soak {
 
 // A file descriptor of a connection.
-class Socket
-{
+class Socket {
 public:
     Socket() = default;
     ~Socket() { drop(); }
@@ -40,8 +38,7 @@ struct Answered {
 constexpr std::uint32_t kPatience_ticks = 100;
 
 // Asks a limb for its whole snapshot by Modbus TCP, registers 0 to 61.
-class ModbusMaster
-{
+class ModbusMaster {
 public:
     // returns false: an answer came that is none, or whose K is not the snapshot's of the same number
     bool step(brace_node_t *node, int limb, Chance &chance, bool is_calm, Answered &answered);
@@ -59,8 +56,7 @@ private:
 };
 
 // Asks any limb on the CAN bus for K at a posture, as text over TCP (SLCAN).
-class CanMaster
-{
+class CanMaster {
 public:
     void step(const std::string &place, Chance &chance, bool is_calm, Answered &answered);
     std::uint64_t connections = 0;

@@ -38,8 +38,7 @@ extern "C" {
 #include "brace/app_memory.h"
 }
 
-namespace
-{
+namespace {
 
 using namespace soak;
 
@@ -78,8 +77,8 @@ public:
     {
         std::uint64_t below = 0;
         std::size_t bin = 0;
-        while (bin + 1u < bins_.size() && 100.0 * static_cast<double>(below + bins_[bin])
-                                              < percent * static_cast<double>(count_)) {
+        while (bin + 1u < bins_.size() &&
+               100.0 * static_cast<double>(below + bins_[bin]) < percent * static_cast<double>(count_)) {
             below += bins_[bin++];
         }
         return count_ == 0u ? 0.0 : kWidth * (static_cast<double>(bin) + 0.5);
@@ -160,8 +159,7 @@ double mean_ticks(const Answered &answered)
     return static_cast<double>(answered.ticks_sum) / static_cast<double>(std::max<std::uint64_t>(1, answered.count));
 }
 
-class Soak
-{
+class Soak {
 public:
     Soak(std::uint64_t seed, bool is_alone, bool is_blind)
         : chance_(seed), limbs_(four_limbs(chance_)), is_alone_(is_alone)
@@ -232,9 +230,9 @@ private:
     Reported sensed_, unsensed_;
     std::uint64_t saved_ = 0;         // K that would be wrong were no more allowed than the parameters leave open
     std::uint64_t since_sampled_ = 0; // K that are wrong by what has happened since the motors were sampled
-    std::uint64_t not_moved_ = 0;     // and by what has happened a tick before, of which the motors have not yet moved
+    std::uint64_t not_moved_ = 0; // and by what has happened a tick before, of which the motors have not yet moved
     std::array<std::uint32_t, kLimbs> denied_ticks_{}; // an open gap is not reported for so long
-    std::uint32_t gap_reported_ticks_ = 0;                  // the longest
+    std::uint32_t gap_reported_ticks_ = 0; // the longest
     std::clock_t since_ = std::clock();
     Found found_;
     Lies lies_;
@@ -389,8 +387,8 @@ void Soak::finish(Tenth &tenth, std::uint64_t ticks)
     tenth.files = open_files();
     std::printf("| %d | %.0f | %d | %.1f | %llu, %.2f, %u | %llu, %.2f, %u | %llu | %.2f |\n", ++finished_,
                 tenth.memory_kb, tenth.files, tenth.cpu_us, number(tenth.modbus.count), mean_ticks(tenth.modbus),
-                tenth.modbus.ticks_most, number(tenth.can.count), mean_ticks(tenth.can),
-                tenth.can.ticks_most, number(tenth.judged), tenth.worst);
+                tenth.modbus.ticks_most, number(tenth.can.count), mean_ticks(tenth.can), tenth.can.ticks_most,
+                number(tenth.judged), tenth.worst);
     (void)std::fflush(stdout);
 }
 
@@ -412,8 +410,7 @@ int Soak::report(std::uint64_t ticks, std::uint64_t seed) const
     std::printf("\nseed %llu, %llu ticks of four limbs, %.0f s of simulated time; %.1f %% of ticks with a valid K\n",
                 number(seed), number(ticks), 1e-3 * static_cast<double>(ticks),
                 100.0 * static_cast<double>(valid_) / static_cast<double>(std::max<std::uint64_t>(1, ticks_seen_)));
-    std::printf("%llu events, %llu connections; faults:", number(events),
-                number(connections));
+    std::printf("%llu events, %llu connections; faults:", number(events), number(connections));
     for (int fault = 0; fault < BRACE_NODE_FAULT_COUNT; ++fault) {
         std::printf(" %s %llu", brace_node_fault_name(fault), number(faults[fault]));
     }
@@ -431,9 +428,8 @@ int Soak::report(std::uint64_t ticks, std::uint64_t seed) const
     std::printf("an open gap was reported after %u ticks at most\n", gap_reported_ticks_);
     std::printf("wrong K %llu, gaps denied %llu, wrong answers %llu, late in the calm %llu, not back %llu, "
                 "counted in the calm %llu, watchdog resets %u\n",
-                number(found_.wrong), number(found_.gaps_denied),
-                number(found_.answers_wrong), number(found_.late_in_calm),
-                number(found_.not_back), number(found_.counted_in_calm),
+                number(found_.wrong), number(found_.gaps_denied), number(found_.answers_wrong),
+                number(found_.late_in_calm), number(found_.not_back), number(found_.counted_in_calm),
                 stats.watchdog_resets);
     const Tenth &first = tenths_[2], &last = tenths_[static_cast<std::size_t>(std::max(finished_, 3) - 1)];
     const double grows_kb = last.memory_kb - first.memory_kb;

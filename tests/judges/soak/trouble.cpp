@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-namespace soak
-{
-namespace
-{
+namespace soak {
+namespace {
 
 constexpr double kMeanPause_s = 1.5;  // between two events of a limb
 constexpr double kLongestFault_s = 2.0;

@@ -6,21 +6,19 @@
 
 #include "limbs.h"
 
-namespace soak
-{
+namespace soak {
 
 constexpr double kRound_s = 60.0, kCalm_s = 20.0;
 constexpr double kSettle_s = 10.0; // of the calm, until the controller has to be in MONITOR again
 
-class Trouble
-{
+class Trouble {
 public:
     // One tick of a limb, before it. t_s: the simulation's time
     void step(brace_node_t *node, int limb, double t_s, Chance &chance);
 
-    bool is_calm(double t_s) const;    // nothing new happens
+    bool is_calm(double t_s) const; // nothing new happens
     bool is_settled(double t_s) const; // and nothing has for kSettle_s
-    bool lies(double t_s) const { return t_s < lies_until_s_; }   // a sensor reports what is not so, or did just now
+    bool lies(double t_s) const { return t_s < lies_until_s_; } // a sensor reports what is not so, or did just now
     bool is_near(double t_s) const { return t_s < near_until_s_; } // something has just happened
     std::uint64_t events = 0, faults[BRACE_NODE_FAULT_COUNT] = {};
 

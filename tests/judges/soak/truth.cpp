@@ -10,10 +10,8 @@ extern "C" {
 #include "brace/uncertainty.h"
 }
 
-namespace soak
-{
-namespace
-{
+namespace soak {
+namespace {
 
 constexpr double kSigmas = 3.0, kLoadedShare = 6e-3;
 

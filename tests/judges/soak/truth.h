@@ -11,17 +11,16 @@ extern "C" {
 #include "brace/snapshot.h"
 }
 
-namespace soak
-{
+namespace soak {
 
 // How a K that is called valid agrees with the limb.
 struct Agreement {
-    bool is_reported = false;         // there was a valid K to judge
-    bool is_judged = false;       // and the reference has an answer
+    bool is_reported = false; // there was a valid K to judge
+    bool is_judged = false; // and the reference has an answer
     // K's largest sigma / its norm; and what the parameters alone make of it
     double reported = 0.0, by_parameters = 0.0;
-    bool is_sensed = false;       // a sensor at the tip measures the load
-    double share = 0.0;           // error of the worst entry / allowed error; K is wrong above 1
+    bool is_sensed = false; // a sensor at the tip measures the load
+    double share = 0.0; // error of the worst entry / allowed error; K is wrong above 1
     double share_by_parameters = 0.0; // the same, were no more allowed than for what the parameters leave open
 };
 

@@ -31,11 +31,12 @@ static int32_t receive(void *context, uint8_t *bytes, uint32_t room)
 
 int32_t start(void)
 {
-    const brace_servo_setup_t setup = {
-        .joint = {{.id = 11u, .torque_ratio = 1.0f},
-                  {.id = 12u, .torque_ratio = 1.0f},
-                  {.id = 13u, .torque_ratio = 1.0f}},
-        .period_us = 500u, .timeout_us = 700u, .holds = true};
+    const brace_servo_setup_t setup = {.joint = {{.id = 11u, .torque_ratio = 1.0f},
+                                                 {.id = 12u, .torque_ratio = 1.0f},
+                                                 {.id = 13u, .torque_ratio = 1.0f}},
+                                       .period_us = 500u,
+                                       .timeout_us = 700u,
+                                       .holds = true};
     const brace_servo_line_t line = {0, send, receive};
     return brace_dynamixel_start(&driver, &setup, &line);
 }

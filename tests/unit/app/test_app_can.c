@@ -210,8 +210,11 @@ static void test_a_port_that_is_closed_has_no_owner(void)
             session->silent_us = 0;
             app.controller.takeup.count = 0;
             brace_app_t *const same = &app;
-            const wire_tick_t tick = {.hal = &fake.hal, .app = same, .counters = &app.controller.counters,
-                                      .measured = &app.wires.measured, .now_us = fake.now_us};
+            const wire_tick_t tick = {.hal = &fake.hal,
+                                      .app = same,
+                                      .counters = &app.controller.counters,
+                                      .measured = &app.wires.measured,
+                                      .now_us = fake.now_us};
             (void)can_speak(&app.wires.can, &tick, 2);
             const bool is_gone = i == 1 || (i == 0 && is_off != 0);
             TEST_ASSERT_EQUAL(!is_gone, session->is_open);
@@ -243,12 +246,11 @@ static void test_only_a_request_that_does_not_exist_is_unknown(void)
     static const struct {
         brace_can_frame_t frame;
         int32_t status;
-    } row[] = {
-        {{.id = 0x605, .length = 8, .data = {BRACE_REQUEST_IDENTIFY, 1}}, BRACE_OK},
-        {{.id = 0x605, .length = 8, .data = {BRACE_REQUEST_K_AT_POSTURE, 1, 0, 0, 0x80, 0, 0, 0x80}},
-         BRACE_E_NOT_FINITE},
-        {{.id = 0x605, .length = 8, .data = {BRACE_REQUEST_SET_MODE, 1}}, BRACE_REFUSED_KEY},
-        {{.id = 0x605, .length = 8, .data = {0, 1}}, BRACE_REFUSED_UNKNOWN}};
+    } row[] = {{{.id = 0x605, .length = 8, .data = {BRACE_REQUEST_IDENTIFY, 1}}, BRACE_OK},
+               {{.id = 0x605, .length = 8, .data = {BRACE_REQUEST_K_AT_POSTURE, 1, 0, 0, 0x80, 0, 0, 0x80}},
+                BRACE_E_NOT_FINITE},
+               {{.id = 0x605, .length = 8, .data = {BRACE_REQUEST_SET_MODE, 1}}, BRACE_REFUSED_KEY},
+               {{.id = 0x605, .length = 8, .data = {0, 1}}, BRACE_REFUSED_UNKNOWN}};
     for (uint32_t i = 0; i < sizeof row / sizeof *row; i++) {
         brace_can_frame_t answer = {.id = 0};
         const uint32_t before = counters().frames_unknown;

@@ -209,8 +209,8 @@ static void test_only_a_set_that_is_not_the_one_named_is_counted(void)
         if (before != 0) {
             TEST_ASSERT_EQUAL(BRACE_OK, brace_app_parameters_stage(
                                             &app, brace_parameter_number(BRACE_PARAMETER_GEOMETRY_FEMUR_MM), 1, &word));
-            TEST_ASSERT_EQUAL(BRACE_OK, brace_app_parameters_commit_named(&app, brace_parameters_crc(&p) ^ 1u,
-                                                                          &wrong_index));
+            TEST_ASSERT_EQUAL(BRACE_OK,
+                              brace_app_parameters_commit_named(&app, brace_parameters_crc(&p) ^ 1u, &wrong_index));
             ticks(1000);
             TEST_ASSERT_EQUAL(BRACE_E_CHECKSUM, app.controller.parameters.store.refusal);
             TEST_ASSERT_EQUAL_UINT32(count, *refused);

@@ -282,10 +282,14 @@ static void test_every_wire_names_the_cause_of_a_drift(void)
     TEST_ASSERT_EQUAL(BRACE_DRIFT_CAUSE_TIBIA_LINK_OR_KNEE_JOINT, emergency.drift_cause);
     TEST_ASSERT_TRUE(report->evidence >= BRACE_DRIFT_ALARM);
     ASSERT_CLOSE(1.0 - 1.0 / 1.5, report->loss_ratio, 0.1);
-    const uint32_t drifted[DRIFT_VALUES] = {BRACE_DRIFT_DRIFTED, BRACE_DRIFT_CAUSE_TIBIA_LINK_OR_KNEE_JOINT,
-                                            1u << BRACE_DRIFT_TIBIA_OR_KNEE, bits(report->evidence),
-                                            bits(report->loss_ratio), bits(report->loss_sigma_ratio),
-                                            report->since_steps, report->steps,
+    const uint32_t drifted[DRIFT_VALUES] = {BRACE_DRIFT_DRIFTED,
+                                            BRACE_DRIFT_CAUSE_TIBIA_LINK_OR_KNEE_JOINT,
+                                            1u << BRACE_DRIFT_TIBIA_OR_KNEE,
+                                            bits(report->evidence),
+                                            bits(report->loss_ratio),
+                                            bits(report->loss_sigma_ratio),
+                                            report->since_steps,
+                                            report->steps,
                                             BRACE_DRIFT_NEXT_INSPECT_TIBIA_LINK_AND_KNEE_JOINT};
     assert_every_wire_reports(drifted);
     TEST_ASSERT_EQUAL(BRACE_OK, brace_app_clear(&app, BRACE_FAULT_MODEL_DRIFT));
@@ -294,8 +298,9 @@ static void test_every_wire_names_the_cause_of_a_drift(void)
     TEST_ASSERT_EQUAL_HEX32(0, emergency.faults);
     TEST_ASSERT_EQUAL(BRACE_DRIFT_CAUSE_NONE, emergency.drift_cause);
     const uint32_t unknown = bits(__builtin_nanf(""));
-    const uint32_t watching[DRIFT_VALUES] = {BRACE_DRIFT_WATCHING, BRACE_DRIFT_CAUSE_NONE, 0, 0, unknown, unknown,
-                                             UINT32_MAX, report->steps, BRACE_DRIFT_NEXT_NOTHING};
+    const uint32_t watching[DRIFT_VALUES] = {
+        BRACE_DRIFT_WATCHING, BRACE_DRIFT_CAUSE_NONE,  0, 0, unknown, unknown, UINT32_MAX,
+        report->steps,        BRACE_DRIFT_NEXT_NOTHING};
     assert_every_wire_reports(watching);
 }
 

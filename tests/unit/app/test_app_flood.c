@@ -22,15 +22,23 @@ enum {
     TICKS_HELD = 30,         /* with the backlash taken up, before the joints are let go */
     REGISTERS_MOST = 125,
     ASKED_THETA1 = 0x400c,   /* docs/modbus.md */
-    COLLAPSED = 0, GENERAL, HARDENING, IN_SPACE, LIMB_COUNT,
-    FLOOD_CAN = 1, FLOOD_SLCAN = 2, FLOOD_LINE = 4, FLOOD_TCP = 8, FLOOD_PORTS = 4,
+    COLLAPSED = 0,
+    GENERAL,
+    HARDENING,
+    IN_SPACE,
+    LIMB_COUNT,
+    FLOOD_CAN = 1,
+    FLOOD_SLCAN = 2,
+    FLOOD_LINE = 4,
+    FLOOD_TCP = 8,
+    FLOOD_PORTS = 4,
     K_MOST_TICKS = 4 * 2 + 3,    /* four ports, two steps each, */
     SPACE_MOST_TICKS = 4 * 9 + 15, /* and nine of a limb in space; K's uncertainty has each fourth tick of all */
-    JOBS_TICKS = 1 + 1 + 1,  /* other jobs have a step after eight, a tick that sends much has none, nor the watch's, */
+    JOBS_TICKS = 1 + 1 + 1, /* other jobs have a step after eight, a tick that sends much has none, nor the watch's, */
     SPACE_JOBS_TICKS = 4 + 4, /* and a step towards the buckling factor is due in each ninth tick */
     SIGMA_TICKS = 4 * 80, /* a round of K's uncertainty: 2 to 3 steps a K, 23 K, each fourth tick has a step, */
     SPACE_SIGMA_TICKS = 4 * 300, /* and nine steps, 32 K */
-    LINE_TICKS = 4 + 5,      /* on the line: bytes and the silence that ends them, read in every other tick; and a long
+    LINE_TICKS = 4 + 5, /* on the line: bytes and the silence that ends them, read in every other tick; and a long
                                 answer, which leaves in five */
 };
 
@@ -58,7 +66,7 @@ static struct {
 static uint32_t sequence_before;
 static reply_t on_line; /* as much of the answer on the line as has come */
 static uint32_t asked_ticks[FLOOD_PORTS]; /* how long the port's question waits for its answer; 0: none does */
-static bool asks_k[FLOOD_PORTS];          /* all else is answered in the tick that takes it */
+static bool asks_k[FLOOD_PORTS]; /* all else is answered in the tick that takes it */
 static uint32_t turn; /* the number of the loading test or take-up */
 static brace_mode_t mode_before;
 static uint32_t ticks_in_mode; /* or since the last take-up began in it */
@@ -121,9 +129,7 @@ static bool question(uint32_t tick, uint8_t data[8])
     case 0:
         brace_can_pack_k_at_tip_knee_up_request(&(brace_can_k_at_tip_knee_up_request_t){1, 300.0f, -100.0f}, data);
         return true;
-    case 1:
-        brace_can_pack_k_at_posture_request(&(brace_can_k_at_posture_request_t){1, 0.8f, 1.1f}, data);
-        return true;
+    case 1: brace_can_pack_k_at_posture_request(&(brace_can_k_at_posture_request_t){1, 0.8f, 1.1f}, data); return true;
     case 2:
         if (app.controller.model.is_spatial) {
             brace_can_pack_k_in_space_at_posture_request(
@@ -253,7 +259,7 @@ static uint32_t answer_bytes(const uint8_t *byte)
 static bool is_answered_on_line(void)
 {
     on_line.count += brace_fake_bytes_take(&fake, BRACE_SERIAL_MODBUS, on_line.byte + on_line.count,
-                                              (uint32_t)sizeof on_line.byte - on_line.count);
+                                           (uint32_t)sizeof on_line.byte - on_line.count);
     if (on_line.count < 5u || on_line.count < answer_bytes(on_line.byte) ||
         crc_by_bits(on_line.byte, on_line.count) != 0u) {
         return false;
@@ -278,9 +284,14 @@ static void every_port_answers_in_time(uint32_t ports)
 
 /* ------------------------------------------------------------------------------------- what goes on beside -- */
 
-static const brace_loading_setup_t along_x = {.axis = BRACE_AXIS_X, .steps_per_side = 2, .step_mm = 0.2f,
-                                              .dwell_us = 20000, .rate_mm_per_s = 100.0f, .force_max_n = 1000.0f,
-                                              .torque_max_n_mm = 8000.0f, .source = BRACE_LOADING_COMMANDED};
+static const brace_loading_setup_t along_x = {.axis = BRACE_AXIS_X,
+                                              .steps_per_side = 2,
+                                              .step_mm = 0.2f,
+                                              .dwell_us = 20000,
+                                              .rate_mm_per_s = 100.0f,
+                                              .force_max_n = 1000.0f,
+                                              .torque_max_n_mm = 8000.0f,
+                                              .source = BRACE_LOADING_COMMANDED};
 
 /* Loading tests, and where there is play take-ups of every joint: one after the other, for ever. */
 static void go_on(bool is_spatial)
@@ -353,8 +364,7 @@ static void watch(void)
     const bool is_whole = snapshot->k_is_valid && snapshot->space.is_valid == snapshot->space.is_fitted;
     TEST_ASSERT_TRUE(mode_tells_k(snapshot->mode));
     share->ticks++;
-    share->with_k += is_whole && is_of_these_samples && !is_old(snapshot) &&
-                     snapshot->sequence == sequence_before + 1u;
+    share->with_k += is_whole && is_of_these_samples && !is_old(snapshot) && snapshot->sequence == sequence_before + 1u;
     TEST_ASSERT_LESS_OR_EQUAL(snapshot->space.is_fitted ? SPACE_SIGMA_TICKS : SIGMA_TICKS,
                               app.controller.sigma.round.ticks_old); /* no flood keeps K's sigma from being renewed */
     remember(snapshot);
@@ -382,8 +392,8 @@ static void flood_limb(int limb, bool has_play)
             every_port_answers_in_time(flood[i].ports);
         }
         printf("flood,%s%s,%s,%u,%u,%u,%u,%u,%u\n", limb_name[limb], has_play ? " with play" : "", flood[i].name,
-               (unsigned)monitor.ticks, (unsigned)monitor.with_k, (unsigned)taking_up.ticks,
-               (unsigned)taking_up.with_k, (unsigned)loading_test.ticks, (unsigned)loading_test.with_k);
+               (unsigned)monitor.ticks, (unsigned)monitor.with_k, (unsigned)taking_up.ticks, (unsigned)taking_up.with_k,
+               (unsigned)loading_test.ticks, (unsigned)loading_test.with_k);
         TEST_ASSERT_TRUE(monitor.ticks > 100u && loading_test.ticks > 100u);
         TEST_ASSERT_EQUAL(has_play, taking_up.ticks > 100u);
         TEST_ASSERT_GREATER_OR_EQUAL(TURNS_LEAST, turn); /* no flood stops a job: tests come to their ends, */

@@ -45,10 +45,18 @@ static void test_the_first_snapshot_knows_its_set_and_no_number(void)
     TEST_ASSERT_EQUAL(fake.now_us, first->taken_us);
     TEST_ASSERT_EQUAL_FLOAT(-1.2f, first->gravity_direction_rad);
     TEST_ASSERT_EQUAL_FLOAT(0.2f, first->gravity_lean_rad);
-    const float none[] = {first->tip_mm.x_mm,        first->tip_mm.z_mm,  first->play_shift_mm.x_mm,
-                          first->play_shift_mm.z_mm, first->force_x_n,    first->force_y_n,
-                          first->force_z_n,          first->temp_degc,    first->load.force_x_n,
-                          first->load.moved_z_mm,    first->load.buckling_factor, first->space.across_n_per_mm};
+    const float none[] = {first->tip_mm.x_mm,
+                          first->tip_mm.z_mm,
+                          first->play_shift_mm.x_mm,
+                          first->play_shift_mm.z_mm,
+                          first->force_x_n,
+                          first->force_y_n,
+                          first->force_z_n,
+                          first->temp_degc,
+                          first->load.force_x_n,
+                          first->load.moved_z_mm,
+                          first->load.buckling_factor,
+                          first->space.across_n_per_mm};
     for (uint32_t i = 0; i < sizeof none / sizeof *none; i++) {
         TEST_ASSERT_TRUE(isnan(none[i]));
     }

@@ -177,9 +177,8 @@ static void test_the_parameters_say_where_down_is(void)
         parameters.gravity.direction_rad = direction_rad[i];
         parameters.gravity.lean_rad = lean_rad[i];
         start_pressed(1.0f, 6.0f);
-        const brace_loaded_stiffness_t expected =
-            equilibrium(&parameters, 1.0f, 1.4f, (brace_force_t){1.0f, 6.0f},
-                        down_at((double)direction_rad[i], (double)lean_rad[i]));
+        const brace_loaded_stiffness_t expected = equilibrium(&parameters, 1.0f, 1.4f, (brace_force_t){1.0f, 6.0f},
+                                                              down_at((double)direction_rad[i], (double)lean_rad[i]));
         expect_k(&expected);
         TEST_ASSERT_EQUAL_FLOAT(direction_rad[i], now()->gravity_direction_rad);
         TEST_ASSERT_EQUAL_FLOAT(lean_rad[i], now()->gravity_lean_rad);

@@ -113,8 +113,8 @@ static void test_what_is_off_the_axis_is_taken_off_by_the_model(void)
         test->dx_mm = 0.6f * (float)i;
         test->dz_mm = 0.2f * (float)i * (i % 2 == 0 ? 1.0f : -1.0f);
         const double x = (double)test->dx_mm, z = (double)test->dz_mm;
-        TEST_ASSERT_TRUE(reading_add_to_slope(test, (float)(truth.xx * x + truth.xz * z),
-                                              (float)(truth.xz * x + truth.zz * z)));
+        TEST_ASSERT_TRUE(
+            reading_add_to_slope(test, (float)(truth.xx * x + truth.xz * z), (float)(truth.xz * x + truth.zz * z)));
     }
     brace_slope_column_t column;
     TEST_ASSERT_EQUAL(BRACE_OK, brace_slope_column(&test->slope, BRACE_SLOPE_LEAST_SQUARES, &column));
@@ -240,9 +240,21 @@ static void test_runs_repetitions_and_postures_are_counted(void)
 
 static void test_a_row_s_columns_are_those_of_a_dataset(void)
 {
-    const brace_row_t row = {.run = 1, .config = 2, .theta1_rad = 3.0f, .theta2_rad = 4.0f, .axis = 5, .rep = 6,
-                             .step = 7, .t_s = 8.0f, .temp_degc = 9.0f, .dx_mm = 10.0f, .dz_mm = 11.0f, .fx_n = 12.0f,
-                             .fz_n = 13.0f, .enc1_rad = 14.0f, .enc2_rad = 15.0f};
+    const brace_row_t row = {.run = 1,
+                             .config = 2,
+                             .theta1_rad = 3.0f,
+                             .theta2_rad = 4.0f,
+                             .axis = 5,
+                             .rep = 6,
+                             .step = 7,
+                             .t_s = 8.0f,
+                             .temp_degc = 9.0f,
+                             .dx_mm = 10.0f,
+                             .dz_mm = 11.0f,
+                             .fx_n = 12.0f,
+                             .fz_n = 13.0f,
+                             .enc1_rad = 14.0f,
+                             .enc2_rad = 15.0f};
     float value = 0.0f;
     for (uint32_t column = 0; column < (uint32_t)BRACE_ROW_COLUMNS; column++) {
         TEST_ASSERT_EQUAL(BRACE_OK, brace_row_value(&row, column, &value));

@@ -151,8 +151,13 @@ static void test_device_identification(void)
                   other[] = {43, 13, 0, 0}, longer[] = {43, 14, 1, 0, 0};
     const uint8_t bad[] = {43, 14, 5, 0}, zero[] = {43, 14, 0, 0}, later[] = {43, 14, 2, 1};
     reply_t reply = line_asks(UNIT, stream, 4);
-    static const char all[] =
-        "\x2b\x0e\x01\x81\0\0\x03" "\0\x05" "Brace" "\x01\x0f" "limb controller" "\x02\x05" "0.1.0";
+    static const char all[] = "\x2b\x0e\x01\x81\0\0\x03"
+                              "\0\x05"
+                              "Brace"
+                              "\x01\x0f"
+                              "limb controller"
+                              "\x02\x05"
+                              "0.1.0";
     TEST_ASSERT_EQUAL(sizeof all - 1u, reply.count);
     TEST_ASSERT_EQUAL_MEMORY(all, reply.byte, sizeof all - 1u);
     reply = line_asks(UNIT, single, 4);

@@ -316,7 +316,9 @@ static void test_a_line_may_begin_to_echo(void)
     const struct {
         uint8_t *frame;
         uint32_t count;
-    } asked[] = {{block, with_crc(block, 11)}, {read, with_crc(read, 6)}, {who, with_crc(who, 2)},
+    } asked[] = {{block, with_crc(block, 11)},
+                 {read, with_crc(read, 6)},
+                 {who, with_crc(who, 2)},
                  {device, with_crc(device, 5)}};
     for (uint32_t i = 0; i < sizeof asked / sizeof *asked; i++) {
         setUp();

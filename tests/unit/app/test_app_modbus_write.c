@@ -5,8 +5,16 @@
 #include "brace/words.h"
 #include "modbus_master.h"
 
-enum { CONFIGURE = 16384, COMMIT = 16386, ROLLBACK = 16388, CLEAR = 16390, TAKE_UP = 16392, LET_GO = 16394,
-       ASKED = 16396, END_TEST = 16464 };
+enum {
+    CONFIGURE = 16384,
+    COMMIT = 16386,
+    ROLLBACK = 16388,
+    CLEAR = 16390,
+    TAKE_UP = 16392,
+    LET_GO = 16394,
+    ASKED = 16396,
+    END_TEST = 16464
+};
 enum { TO_CONFIGURATION = 0, TO_MONITOR = 1 };
 static const uint32_t mode_word[] = {0xc0de0002u, 0xc0de0001u}, go = 0xc0de0001u;
 
@@ -322,7 +330,7 @@ static void test_without_a_k_there_is_no_answer_from_it(void)
 
 static void test_a_posture_needs_both_angles_and_they_must_be_angles(void)
 {
-    const uint32_t not[] = {bits(__builtin_nanf("")), bits(1.0f)}, far[] = {bits(1.0f), bits(1e6f)};
+    const uint32_t not [] = {bits(__builtin_nanf("")), bits(1.0f)}, far[] = {bits(1.0f), bits(1e6f)};
     refused(write_value(ASKED, bits(1.0f)), 16, 3);
     refused(write_value(ASKED + 2, bits(1.0f)), 16, 3);
     refused(write_values(ASKED, not, 2), 16, 3);

@@ -9,8 +9,12 @@ enum {
     ALL_PORTS_TICKS = 8 + 1 + 3, /* four ports ask at once; process data may leave meanwhile, and K's
                                     uncertainty has each fourth tick */
     LINE_TICKS = 3,      /* a request on the line: bytes and silence */
-    ASKED_THETA1 = 0x400c, ASKED_GRAVITY = 16418, ASKED_POSTURE_FORCE = 16422, ASKED_TIP_FORCE = 16430,
-    LOADED = 4128, TAKEN_GRAVITY = 4148 /* docs/modbus.md */
+    ASKED_THETA1 = 0x400c,
+    ASKED_GRAVITY = 16418,
+    ASKED_POSTURE_FORCE = 16422,
+    ASKED_TIP_FORCE = 16430,
+    LOADED = 4128,
+    TAKEN_GRAVITY = 4148 /* docs/modbus.md */
 };
 
 static brace_parameters_t parameters;
@@ -283,12 +287,11 @@ static void asked_over_modbus(asks_t asks)
     const uint8_t read[] = {4, LOADED >> 8, LOADED & 0xff, 0, 20};
     for (int tip = 0; tip < 2; tip++) {
         uint8_t pdu[64];
-        const uint32_t count = tip ? write_of(ASKED_TIP_FORCE, at_tip, 4, 0, pdu)
-                                   : write_of(ASKED_POSTURE_FORCE, at_posture, 4, -1, pdu);
+        const uint32_t count =
+            tip ? write_of(ASKED_TIP_FORCE, at_tip, 4, 0, pdu) : write_of(ASKED_POSTURE_FORCE, at_posture, 4, -1, pdu);
         TEST_ASSERT_EQUAL(5, asks(UNIT, pdu, count).count);
         const reply_t reported = asks(UNIT, read, sizeof read);
-        const brace_loaded_stiffness_t k =
-            tip ? expected(0.7f, 1.2f, -6.0f, 3.0f) : expected(0.8f, 1.2f, 0.0f, 10.0f);
+        const brace_loaded_stiffness_t k = tip ? expected(0.7f, 1.2f, -6.0f, 3.0f) : expected(0.8f, 1.2f, 0.0f, 10.0f);
         ASSERT_CLOSE(k.stiffness.k_xx_n_per_mm, float_at(&reported, 0), 1e-4);
         ASSERT_CLOSE(k.stiffness.k_zz_n_per_mm, float_at(&reported, 2), 1e-4);
         ASSERT_CLOSE(k.displacement.x_mm, float_at(&reported, 6), 1e-3);

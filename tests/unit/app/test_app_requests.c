@@ -4,7 +4,7 @@
 #include "loading_bench.h"
 
 enum { MODES = 6, IN_START = 1, IN_MONITOR = 2, IN_CONFIGURATION = 4, IN_FAULT = 8, IN_TAKING_UP = 16, IN_TEST = 32 };
-static const brace_mode_t modes[MODES] = {BRACE_MODE_START, BRACE_MODE_MONITOR, BRACE_MODE_CONFIGURATION,
+static const brace_mode_t modes[MODES] = {BRACE_MODE_START, BRACE_MODE_MONITOR,   BRACE_MODE_CONFIGURATION,
                                           BRACE_MODE_FAULT, BRACE_MODE_TAKING_UP, BRACE_MODE_LOADING_TEST};
 
 void setUp(void)

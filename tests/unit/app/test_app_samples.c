@@ -155,7 +155,8 @@ static void test_one_wild_angle_changes_nothing(void)
 /* Each joint of a limb in space has its fault, its clearing, and no K while it stands. */
 static void test_each_joint_that_jumps_is_named(void)
 {
-    static const uint32_t fault[] = {[BRACE_COXA] = BRACE_FAULT_JUMP_COXA, [BRACE_FEMUR] = BRACE_FAULT_JUMP_FEMUR,
+    static const uint32_t fault[] = {[BRACE_COXA] = BRACE_FAULT_JUMP_COXA,
+                                     [BRACE_FEMUR] = BRACE_FAULT_JUMP_FEMUR,
                                      [BRACE_TIBIA] = BRACE_FAULT_JUMP_TIBIA};
     fake.joint[BRACE_COXA].absent = false;
     TEST_ASSERT_EQUAL(BRACE_OK, brace_app_start(&app, &fake.hal));
@@ -382,8 +383,8 @@ static void test_one_wild_torque_while_the_limb_stands_blames_no_encoder(void)
 
 static void test_wild_torques_that_go_on_are_the_sensor_s(void)
 {
-    static const uint32_t named[] = {[BRACE_FEMUR] = BRACE_FAULT_SENSOR_FEMUR,
-                                     [BRACE_TIBIA] = BRACE_FAULT_SENSOR_TIBIA};
+    static const uint32_t named[] = {
+        [BRACE_FEMUR] = BRACE_FAULT_SENSOR_FEMUR, [BRACE_TIBIA] = BRACE_FAULT_SENSOR_TIBIA};
     for (int joint = BRACE_FEMUR; joint <= BRACE_TIBIA; joint++) {
         setUp();
         ticks(50);

@@ -9,8 +9,14 @@
 #define SERVO_N_MM_PER_RAD 50000.0f
 #define SPRING_N_MM_PER_RAD 80000.0f
 
-enum { DETAILS_ID = 0x200 + NODE, FIRST_PART = 16, PARTS = 7, KEPT = 256, ASKED_SPACE_FORCE = 16440,
-       ASKED_SPACE_K = 4152 };
+enum {
+    DETAILS_ID = 0x200 + NODE,
+    FIRST_PART = 16,
+    PARTS = 7,
+    KEPT = 256,
+    ASKED_SPACE_FORCE = 16440,
+    ASKED_SPACE_K = 4152
+};
 
 static bool link_is_free[BRACE_LINK_COUNT];
 static float middle_rad[BRACE_LINK_COUNT];
@@ -104,8 +110,8 @@ static void test_K_in_space_elsewhere_is_the_reference(void)
     brace_can_k_in_space_at_posture_answer_2_t c;
     brace_can_k_in_space_at_posture_answer_4_t e;
     const reference_spatial_t r = reference_spatial(&brace_app_parameters(&app)->limb, -0.5, 0.8, 1.1);
-    brace_can_pack_k_in_space_at_posture_request(
-        &(brace_can_k_in_space_at_posture_request_t){9, -0.5f, 0.8f, 1.1f}, data);
+    brace_can_pack_k_in_space_at_posture_request(&(brace_can_k_in_space_at_posture_request_t){9, -0.5f, 0.8f, 1.1f},
+                                                 data);
     const answer_t answer = ask(data);
     TEST_ASSERT_EQUAL(6, answer.count);
     for (uint32_t part = 0; part < 6u; part++) {
@@ -127,8 +133,8 @@ static void test_K_in_space_beyond_the_travel_is_flagged(void)
 {
     uint8_t data[8];
     brace_can_k_in_space_at_posture_answer_4_t e;
-    brace_can_pack_k_in_space_at_posture_request(
-        &(brace_can_k_in_space_at_posture_request_t){9, -0.5f, -2.5f, 1.0f}, data);
+    brace_can_pack_k_in_space_at_posture_request(&(brace_can_k_in_space_at_posture_request_t){9, -0.5f, -2.5f, 1.0f},
+                                                 data);
     const answer_t answer = ask(data);
     TEST_ASSERT_EQUAL(6, answer.count);
     brace_can_unpack_k_in_space_at_posture_answer_4(answer.part[4], &e);
@@ -224,12 +230,12 @@ static void test_K_here_is_K_as_asked_for_here(void)
     ticks(200);
     TEST_ASSERT_TRUE(now()->space.is_valid && now()->load.is_counted);
     TEST_ASSERT_TRUE(fabsf(now()->load.force_y_n) > 2.0f);
-    const brace_k_question_t question = {
-        .where = BRACE_K_IN_SPACE,
-        .theta_rad = {app.controller.posture.unbent_rad[0], app.controller.posture.unbent_rad[1],
-                      app.controller.posture.unbent_rad[2]},
-        .tip_force = {now()->load.force_x_n, now()->load.force_z_n},
-        .force_across_n = now()->load.force_y_n};
+    const brace_k_question_t question = {.where = BRACE_K_IN_SPACE,
+                                         .theta_rad = {app.controller.posture.unbent_rad[0],
+                                                       app.controller.posture.unbent_rad[1],
+                                                       app.controller.posture.unbent_rad[2]},
+                                         .tip_force = {now()->load.force_x_n, now()->load.force_z_n},
+                                         .force_across_n = now()->load.force_y_n};
     brace_k_answer_t answer;
     int32_t status = BRACE_APP_LATER;
     for (int i = 0; i < 30 && status == BRACE_APP_LATER; i++) {
@@ -270,8 +276,8 @@ static void test_K_in_space_elsewhere_counts_a_force_once(void)
 static void test_K_in_space_elsewhere_under_a_force_that_folds_the_limb_is_refused(void)
 {
     uint8_t data[8];
-    brace_can_pack_tip_force_in_space_request(
-        &(brace_can_tip_force_in_space_request_t){3, -300.0f, 0.0f, -300.0f}, data);
+    brace_can_pack_tip_force_in_space_request(&(brace_can_tip_force_in_space_request_t){3, -300.0f, 0.0f, -300.0f},
+                                              data);
     (void)ask(data);
     answer_t answer = ask_in_space();
     TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, refusal_of(&answer, BRACE_REQUEST_K_IN_SPACE_AT_POSTURE).status);
@@ -288,8 +294,8 @@ static void asked_over_modbus(reply_t (*asks)(uint8_t unit, const uint8_t *pdu, 
         memcpy(pdu, head, sizeof head);
         for (uint32_t at = 0; at < 24u; at++) {
             const uint32_t value = at / 4u;
-            pdu[sizeof head + at] = (uint8_t)(
-                bits(value < 3u ? forces_n[i][value] : load_posture_rad[value - 3u]) >> (24u - 8u * (at % 4u)));
+            pdu[sizeof head + at] = (uint8_t)(bits(value < 3u ? forces_n[i][value] : load_posture_rad[value - 3u]) >>
+                                              (24u - 8u * (at % 4u)));
         }
         TEST_ASSERT_EQUAL(5, asks(UNIT, pdu, sizeof pdu).count);
         const reply_t reported = asks(UNIT, read, sizeof read);
@@ -556,8 +562,15 @@ static float entry_float(uint32_t entry)
     return value;
 }
 
-enum { ENTRY_IN_SPACE = 0x1000 + 58, ENTRY_THETA0, ENTRY_K_XX, ENTRY_K_ACROSS = 0x1000 + 73, ENTRY_PLAY_COXA,
-       ENTRY_FAULTS = 0x1000 + 7, ENTRY_TAKE_UP = 0x1000 + 97 };
+enum {
+    ENTRY_IN_SPACE = 0x1000 + 58,
+    ENTRY_THETA0,
+    ENTRY_K_XX,
+    ENTRY_K_ACROSS = 0x1000 + 73,
+    ENTRY_PLAY_COXA,
+    ENTRY_FAULTS = 0x1000 + 7,
+    ENTRY_TAKE_UP = 0x1000 + 97
+};
 
 /* One read of registers is one snapshot, and an entry over CAN is the same number. */
 static void test_registers_and_entries_report_it(void)
@@ -567,9 +580,18 @@ static void test_registers_and_entries_report_it(void)
     ticks(2);
     const brace_stiffness_spatial_t *k = &now()->space.now, *engaged = &now()->space.engaged;
     const reply_t reply = read_asks(4, 116, 84);
-    const float wanted[] = {now()->theta_rad[BRACE_COXA], k->k_xx_n_per_mm, k->k_xy_n_per_mm, k->k_xz_n_per_mm,
-                            k->k_yy_n_per_mm, k->k_yz_n_per_mm, k->k_zz_n_per_mm, k->lambda_n_per_mm[0],
-                            k->lambda_n_per_mm[1], k->lambda_n_per_mm[2], k->stiff_axis[0], k->stiff_axis[1],
+    const float wanted[] = {now()->theta_rad[BRACE_COXA],
+                            k->k_xx_n_per_mm,
+                            k->k_xy_n_per_mm,
+                            k->k_xz_n_per_mm,
+                            k->k_yy_n_per_mm,
+                            k->k_yz_n_per_mm,
+                            k->k_zz_n_per_mm,
+                            k->lambda_n_per_mm[0],
+                            k->lambda_n_per_mm[1],
+                            k->lambda_n_per_mm[2],
+                            k->stiff_axis[0],
+                            k->stiff_axis[1],
                             k->stiff_axis[2]};
     TEST_ASSERT_EQUAL(1, value_at(&reply, 0));
     for (uint32_t i = 0; i < sizeof wanted / sizeof *wanted; i++) {

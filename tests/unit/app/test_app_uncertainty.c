@@ -41,9 +41,8 @@ static brace_stiffness_sigma_t by_parameters(void)
     const brace_loaded_joint_t hip = joint_spring(BRACE_FEMUR), knee = joint_spring(BRACE_TIBIA);
     const brace_load_t load = {.tip = {counted->force_x_n, counted->force_z_n}, .down = DOWN, .hip = hip, .knee = knee};
     brace_stiffness_sigma_t sigma;
-    TEST_ASSERT_EQUAL(BRACE_OK, brace_uncertainty_loaded(&parameters.limb, &parameters.gravity,
-                                                         unbent_rad[BRACE_FEMUR], unbent_rad[BRACE_TIBIA], &load,
-                                                         &sigma));
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_uncertainty_loaded(&parameters.limb, &parameters.gravity, unbent_rad[BRACE_FEMUR],
+                                                         unbent_rad[BRACE_TIBIA], &load, &sigma));
     return sigma;
 }
 
@@ -128,8 +127,8 @@ static spans_t spans_to(float femur_n_mm, float tibia_n_mm)
     const brace_stiffness_sigma_t sigma = reported(), least = by_parameters();
     const brace_stiffness_t a = k_carrying(femur_n_mm, tibia_reported_n_mm);
     const brace_stiffness_t b = k_carrying(femur_reported_n_mm, tibia_n_mm);
-    const double span = fmax(fabs((double)(a.k_xz_n_per_mm - k.k_xz_n_per_mm)),
-                             fabs((double)(b.k_xz_n_per_mm - k.k_xz_n_per_mm)));
+    const double span =
+        fmax(fabs((double)(a.k_xz_n_per_mm - k.k_xz_n_per_mm)), fabs((double)(b.k_xz_n_per_mm - k.k_xz_n_per_mm)));
     TEST_ASSERT_TRUE(span > 0.05); /* or this test shows nothing */
     return (spans_t){
         .reported = sigma,

@@ -27,14 +27,29 @@ static uint32_t sum_of_tick(uint32_t start_us)
 {
     const brace_snapshot_t *s = now();
     const brace_stiffness_t *k = &s->stiffness.now;
-    const uint32_t words[] = {s->sequence,        s->taken_us - start_us, s->mode,           s->faults,
-                              s->k_is_valid,      k->flags,               s->play[1].state,  s->play[2].state,
-                              s->play[1].phase,   s->play[2].phase,       s->force_is_sensed,
-                               app.controller.loading.phase,
-                              app.controller.loading.step,   app.controller.parameters.crc};
-    const float numbers[] = {k->k_xx_n_per_mm, k->k_zz_n_per_mm, s->theta_rad[1], s->theta_rad[2], s->force_x_n,
-                             fake.joint[1].command.offset_rad, fake.joint[2].command.offset_rad,
-                             fake.joint[1].command.torque_limit_n_mm, s->play[1].load_n_mm};
+    const uint32_t words[] = {s->sequence,
+                              s->taken_us - start_us,
+                              s->mode,
+                              s->faults,
+                              s->k_is_valid,
+                              k->flags,
+                              s->play[1].state,
+                              s->play[2].state,
+                              s->play[1].phase,
+                              s->play[2].phase,
+                              s->force_is_sensed,
+                              app.controller.loading.phase,
+                              app.controller.loading.step,
+                              app.controller.parameters.crc};
+    const float numbers[] = {k->k_xx_n_per_mm,
+                             k->k_zz_n_per_mm,
+                             s->theta_rad[1],
+                             s->theta_rad[2],
+                             s->force_x_n,
+                             fake.joint[1].command.offset_rad,
+                             fake.joint[2].command.offset_rad,
+                             fake.joint[1].command.torque_limit_n_mm,
+                             s->play[1].load_n_mm};
     uint32_t sum = with(with(0, words, sizeof words), numbers, sizeof numbers);
     brace_can_frame_t frame;
     while (brace_fake_frame_take(&fake, &frame)) {

@@ -17,9 +17,7 @@ void setUp(void)
     dice = 0x2545f4914f6cdd1du;
 }
 
-void tearDown(void)
-{
-}
+void tearDown(void) {}
 
 static uint32_t below(uint32_t n)
 {
@@ -119,7 +117,7 @@ static void watch_k(void)
 {
     const brace_snapshot_t *snapshot = now();
     const bool reports_k = snapshot->mode == BRACE_MODE_MONITOR || snapshot->mode == BRACE_MODE_TAKING_UP ||
-                         snapshot->mode == BRACE_MODE_LOADING_TEST;
+                           snapshot->mode == BRACE_MODE_LOADING_TEST;
     ticks_watched += reports_k;
     ticks_with_k += reports_k && snapshot->k_is_valid && snapshot->taken_us == fake.now_us &&
                     snapshot->sequence == last_sequence + 1u;
@@ -164,15 +162,18 @@ static uint32_t worst_wait(const traffic_t *traffic)
     return worst;
 }
 
-static void nothing(void)
-{
-}
+static void nothing(void) {}
 
 static const traffic_t some = {nothing, something_is_asked};
 
-static const brace_loading_setup_t test_along_x = {
-    .axis = BRACE_AXIS_X, .steps_per_side = 2, .step_mm = 0.2f, .dwell_us = 20000, .rate_mm_per_s = 100.0f,
-    .force_max_n = 1000.0f, .torque_max_n_mm = 8000.0f, .source = BRACE_LOADING_COMMANDED};
+static const brace_loading_setup_t test_along_x = {.axis = BRACE_AXIS_X,
+                                                   .steps_per_side = 2,
+                                                   .step_mm = 0.2f,
+                                                   .dwell_us = 20000,
+                                                   .rate_mm_per_s = 100.0f,
+                                                   .force_max_n = 1000.0f,
+                                                   .torque_max_n_mm = 8000.0f,
+                                                   .source = BRACE_LOADING_COMMANDED};
 
 static uint32_t tests_run;
 

@@ -210,8 +210,8 @@ static void test_space_drift_and_take_up_are_reported_or_refused(void)
     brace_can_drift_answer_1_t loss;
     brace_can_drift_answer_2_t readings;
     brace_can_take_up_result_answer_0_t result;
-    brace_can_pack_k_in_space_at_posture_request(
-        &(brace_can_k_in_space_at_posture_request_t){1, 0.1f, 0.5f, 1.0f}, data);
+    brace_can_pack_k_in_space_at_posture_request(&(brace_can_k_in_space_at_posture_request_t){1, 0.1f, 0.5f, 1.0f},
+                                                 data);
     answer_t answer = ask(data);
     TEST_ASSERT_EQUAL(BRACE_E_UNSUPPORTED, refusal_of(&answer, BRACE_REQUEST_K_IN_SPACE_AT_POSTURE).status);
     const uint8_t ask_drift[8] = {BRACE_REQUEST_DRIFT, 1};

@@ -80,8 +80,7 @@ static void test_learning_anew_forgets_what_was_kept(void)
 {
     const brace_parameters_t parameters = bench_parameters();
     bench_board();
-    const drift_inputs_t inputs = {
-        .hal = &fake.hal, .parameters = &parameters, .origin = BRACE_PARAMETERS_DEFAULT};
+    const drift_inputs_t inputs = {.hal = &fake.hal, .parameters = &parameters, .origin = BRACE_PARAMETERS_DEFAULT};
     job.kept_state = BRACE_DRIFT_DRIFTED;
     job.kept_steps = 1234;
     job.kept_evidence[0] = job.kept_evidence[BRACE_DRIFT_CAUSE_COUNT] = 17.0f;
@@ -99,8 +98,11 @@ static void test_the_journal_of_a_fresh_set_is_not_searched(void)
 {
     const brace_parameters_t p = bench_parameters();
     bench_start(&p);
-    const drift_inputs_t inputs = {.hal = &fake.hal, .parameters = &p, .parameter_crc = brace_parameters_crc(&p),
-                                   .origin = BRACE_PARAMETERS_SLOT_A, .may_write = false};
+    const drift_inputs_t inputs = {.hal = &fake.hal,
+                                   .parameters = &p,
+                                   .parameter_crc = brace_parameters_crc(&p),
+                                   .origin = BRACE_PARAMETERS_SLOT_A,
+                                   .may_write = false};
     for (int is_fresh = 0; is_fresh < 2; is_fresh++) {
         memset(&job, 0, sizeof job);
         job.is_erased = is_fresh == 0; /* this belongs to the set before, like all that waits */
@@ -128,8 +130,11 @@ static void test_the_journal_is_written_in_one_tick_of_eight(void)
     const brace_parameters_t p = bench_parameters();
     int last = -100, kept = 0;
     bench_start(&p);
-    drift_inputs_t inputs = {.hal = &fake.hal, .parameters = &p, .parameter_crc = brace_parameters_crc(&p),
-                             .origin = BRACE_PARAMETERS_SLOT_A, .may_write = false};
+    drift_inputs_t inputs = {.hal = &fake.hal,
+                             .parameters = &p,
+                             .parameter_crc = brace_parameters_crc(&p),
+                             .origin = BRACE_PARAMETERS_SLOT_A,
+                             .may_write = false};
     memset(&job, 0, sizeof job);
     drift_job_configure(&job, true);
     for (int i = 0; i < 10; i++) {

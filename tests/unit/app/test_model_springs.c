@@ -109,8 +109,8 @@ static void test_k_takes_each_spring_at_its_joint(void)
     TEST_ASSERT_TRUE(linear.is_collapsed);
     brace_stiffness_t changing, fixed;
     float across_n_per_mm = 0.0f;
-    TEST_ASSERT_EQUAL(BRACE_OK, model_stiffness(&model, &parameters.limb, 1.0f, 1.4f, springs, &changing,
-                                                &across_n_per_mm));
+    TEST_ASSERT_EQUAL(BRACE_OK,
+                      model_stiffness(&model, &parameters.limb, 1.0f, 1.4f, springs, &changing, &across_n_per_mm));
     TEST_ASSERT_TRUE(across_n_per_mm != across_n_per_mm); /* a limb in its plane has none */
     TEST_ASSERT_EQUAL(BRACE_OK, model_stiffness(&linear, &other.limb, 1.0f, 1.4f, springs, &fixed, &across_n_per_mm));
     ASSERT_CLOSE(fixed.k_xx_n_per_mm, changing.k_xx_n_per_mm, 1e-4);
@@ -214,8 +214,8 @@ static void test_a_limb_that_its_load_folds_is_refused(void)
             place = (model_place_t){0};
             whole[i] = BRACE_E_SINGULAR;
             for (int tick = 0; tick < TICKS_TO_REST && whole[i] != BRACE_OK; tick++) {
-                whole[i] = model_loaded(&model, &parameters.limb, unbent_rad, springs, towards_hip(i), down, &place,
-                                        &rest);
+                whole[i] =
+                    model_loaded(&model, &parameters.limb, unbent_rad, springs, towards_hip(i), down, &place, &rest);
                 TEST_ASSERT_TRUE(whole[i] == BRACE_OK || memcmp(&untouched, &rest, sizeof rest) == 0);
             }
             answered += whole[i] == BRACE_OK;
@@ -250,8 +250,8 @@ static void test_a_limb_in_its_plane_is_reported_as_the_core_finds_it(void)
         model_rest_t rest;
         memset(&rest, 0x55, sizeof rest);
         model_springs(&model, &parameters, no_load_n_mm, at_25_degc, springs);
-        TEST_ASSERT_EQUAL(BRACE_OK, model_loaded(&model, &parameters.limb, unbent_rad, springs, forces_n[i], down,
-                                                 &place, &rest));
+        TEST_ASSERT_EQUAL(
+            BRACE_OK, model_loaded(&model, &parameters.limb, unbent_rad, springs, forces_n[i], down, &place, &rest));
         const brace_loaded_stiffness_t found = equilibrium(
             &parameters, 1.0f, 1.4f, (brace_force_t){forces_n[i].x, forces_n[i].z}, (brace_vec_t){down.x, down.z});
         const brace_displacement_t moved = found.displacement;

@@ -30,10 +30,15 @@ static inline brace_parameters_t bench_parameters(void)
     brace_parameters_default(&p);
     p.limb = sample_limb[SAMPLE_PAPER];
     for (int i = 0; i < BRACE_LINK_COUNT; i++) {
-        p.drive[i] = (brace_drive_t){.torque_range_n_mm = 10000.0f, .torque_noise_n_mm = 10.0f,
-                                     .torque_bias_n_mm = 10.0f, .motor_friction_n_mm = 20.0f,
-                                     .motor_friction_tolerance_ratio = 0.2f, .angle_step_rad = 1e-5f,
-                                     .angle_min_rad = -2.0f, .angle_max_rad = 3.0f, .takeup_torque_n_mm = 4000.0f};
+        p.drive[i] = (brace_drive_t){.torque_range_n_mm = 10000.0f,
+                                     .torque_noise_n_mm = 10.0f,
+                                     .torque_bias_n_mm = 10.0f,
+                                     .motor_friction_n_mm = 20.0f,
+                                     .motor_friction_tolerance_ratio = 0.2f,
+                                     .angle_step_rad = 1e-5f,
+                                     .angle_min_rad = -2.0f,
+                                     .angle_max_rad = 3.0f,
+                                     .takeup_torque_n_mm = 4000.0f};
     }
     p.sensor.noise_n = 0.05f;
     p.controller.node_id = 5;

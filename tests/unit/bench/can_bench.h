@@ -111,8 +111,8 @@ static inline void push_request(const uint8_t block[BRACE_BLOCK_BYTES], int step
         brace_can_pack_upload_begin_request(&(brace_can_upload_begin_request_t){1, BRACE_BLOCK_BYTES, crc}, data);
     } else if (step < PUSH_STEPS - 1) {
         memcpy(&word, &block[4 * (step - 1)], 4);
-        brace_can_pack_upload_word_request(&(brace_can_upload_word_request_t){(uint32_t)step & 0xffu,
-                                                                              (uint32_t)step - 1u, word}, data);
+        brace_can_pack_upload_word_request(
+            &(brace_can_upload_word_request_t){(uint32_t)step & 0xffu, (uint32_t)step - 1u, word}, data);
     } else {
         brace_can_pack_commit_request(&(brace_can_commit_request_t){3, crc}, data);
     }

@@ -135,8 +135,8 @@ static inline bool same_world(const world_t *a, const world_t *b)
 {
     return a->theta1 == b->theta1 && a->theta2 == b->theta2 && a->servo_n_mm_per_rad == b->servo_n_mm_per_rad &&
            a->preload_x_n == b->preload_x_n && a->preload_z_n == b->preload_z_n && a->weight_n == b->weight_n &&
-           a->drive_rad_per_n_mm == b->drive_rad_per_n_mm && a->truth.xx == b->truth.xx &&
-           a->truth.xz == b->truth.xz && a->truth.zz == b->truth.zz && a->command_rad[0] == b->command_rad[0] &&
+           a->drive_rad_per_n_mm == b->drive_rad_per_n_mm && a->truth.xx == b->truth.xx && a->truth.xz == b->truth.xz &&
+           a->truth.zz == b->truth.zz && a->command_rad[0] == b->command_rad[0] &&
            a->command_rad[1] == b->command_rad[1] && a->tip_is_free == b->tip_is_free;
 }
 
@@ -146,8 +146,16 @@ static inline void play(void *user, brace_fake_t *board, int32_t joint)
     (void)joint;
     static world_t last; /* zero: no limb stands so */
     static response_t r;
-    const world_t w = {theta1, theta2, servo_n_mm_per_rad, preload_x_n, preload_z_n, weight_n, drive_rad_per_n_mm,
-                       truth, {board->joint[1].command.offset_rad, board->joint[2].command.offset_rad}, tip_is_free};
+    const world_t w = {theta1,
+                       theta2,
+                       servo_n_mm_per_rad,
+                       preload_x_n,
+                       preload_z_n,
+                       weight_n,
+                       drive_rad_per_n_mm,
+                       truth,
+                       {board->joint[1].command.offset_rad, board->joint[2].command.offset_rad},
+                       tip_is_free};
     if (!same_world(&w, &last)) {
         last = w;
         r = response_of(&w);
@@ -164,9 +172,13 @@ static inline void play(void *user, brace_fake_t *board, int32_t joint)
     board->force_z_n = r.force_z_n + noise();
 }
 
-static const brace_loading_setup_t along_x = {.axis = BRACE_AXIS_X, .steps_per_side = 4, .step_mm = 0.635f,
-                                              .dwell_us = 100000 * TIMES_ON_HOST, .rate_mm_per_s = 10.0f,
-                                              .force_max_n = 100.0f, .torque_max_n_mm = 8000.0f,
+static const brace_loading_setup_t along_x = {.axis = BRACE_AXIS_X,
+                                              .steps_per_side = 4,
+                                              .step_mm = 0.635f,
+                                              .dwell_us = 100000 * TIMES_ON_HOST,
+                                              .rate_mm_per_s = 10.0f,
+                                              .force_max_n = 100.0f,
+                                              .torque_max_n_mm = 8000.0f,
                                               .source = BRACE_LOADING_ENCODED};
 
 static inline void stand(const brace_parameters_t *p)

@@ -33,8 +33,7 @@ static inline reference_planar_t reference_planar(const brace_limb_t *limb, doub
     const brace_link_t *femur = &limb->link[BRACE_FEMUR];
     const double p2x = -l2 * sin(theta12), p2z = l2 * cos(theta12);
     const double p1x = p2x - l1 * sin(theta1), p1z = p2z + l1 * cos(theta1);
-    reference_planar_t r = {
-        (double)limb->base.x_mm_per_n, 0.0, (double)limb->base.z_mm_per_n, 0, 0, 0, 0, 0, 0};
+    reference_planar_t r = {(double)limb->base.x_mm_per_n, 0.0, (double)limb->base.z_mm_per_n, 0, 0, 0, 0, 0, 0};
     reference_ellipsoid(&r, femur, theta1);
     reference_ellipsoid(&r, &limb->link[BRACE_TIBIA], theta12);
     const double bent = (double)femur->bending_mm_per_n * (double)femur->moment_transfer_ratio;
@@ -42,8 +41,7 @@ static inline reference_planar_t reference_planar(const brace_limb_t *limb, doub
     reference_add(&r, 3.0 * bent / l1, -sin(across), cos(across), p2x, p2z);
     reference_add(&r, 3.0 * bent / (l1 * l1), p2x, p2z, p2x, p2z);
     reference_add(&r,
-                  (double)limb->joint[BRACE_FEMUR].compliance_rad_per_n_mm +
-                      (double)limb->base.rotation_rad_per_n_mm,
+                  (double)limb->joint[BRACE_FEMUR].compliance_rad_per_n_mm + (double)limb->base.rotation_rad_per_n_mm,
                   p1x, p1z, p1x, p1z);
     reference_add(&r, (double)limb->joint[BRACE_TIBIA].compliance_rad_per_n_mm, p2x, p2z, p2x, p2z);
 

@@ -35,8 +35,7 @@ static inline void reference_dyad(reference_spatial_t *r, double s, reference_ve
     }
 }
 
-static inline void reference_turning(reference_spatial_t *r, float s, reference_vec_t axis,
-                                     reference_vec_t arm)
+static inline void reference_turning(reference_spatial_t *r, float s, reference_vec_t axis, reference_vec_t arm)
 {
     const reference_vec_t lever = reference_cross(axis, arm);
     reference_dyad(r, (double)s, lever, lever);
@@ -55,8 +54,8 @@ static inline void reference_bending(reference_spatial_t *r, double b, double ka
     }
 }
 
-static inline void reference_link(reference_spatial_t *r, const brace_link_t *link, double length,
-                                  double angle, reference_vec_t arm, double kappa)
+static inline void reference_link(reference_spatial_t *r, const brace_link_t *link, double length, double angle,
+                                  reference_vec_t arm, double kappa)
 {
     const reference_vec_t own = reference_in_plane(angle), y = {0.0, 1.0, 0.0}, minus_y = {0.0, -1.0, 0.0};
     const double tilted = angle + (double)link->tilt_rad;
@@ -100,8 +99,7 @@ static inline reference_spatial_t reference_spatial(const brace_limb_t *limb, do
     reference_turning(&flat, limb->base.rotation_rad_per_n_mm, y, tip);
     reference_turning(&flat, limb->joint[BRACE_TIBIA].compliance_rad_per_n_mm, y, shank);
     reference_link(&flat, &link[BRACE_COXA], l0, 0.0, tip, (double)link[BRACE_COXA].moment_transfer_ratio);
-    reference_link(&flat, &link[BRACE_FEMUR], l1, theta1, shank,
-                   (double)link[BRACE_FEMUR].moment_transfer_ratio);
+    reference_link(&flat, &link[BRACE_FEMUR], l1, theta1, shank, (double)link[BRACE_FEMUR].moment_transfer_ratio);
     reference_link(&flat, &link[BRACE_TIBIA], l2, theta1 - theta2, none, 0.0);
     reference_dyad(&flat, (double)limb->base.x_mm_per_n, x, x);
     reference_dyad(&flat, (double)limb->base.z_mm_per_n, z, z);

@@ -9,8 +9,8 @@ static uint8_t memory_before[BRACE_NVM_SLOT_COUNT][BRACE_FAKE_SLOT_BYTES];
 static brace_parameters_t in_store;
 static const uint8_t the_key[BRACE_HAL_KEY_BYTES] = {9};
 
-static const char *const words[] = {"help", "?", "k", "banner", "forget", "restart", "test", "test slot", "test drives",
-                                    "key",  "bench"};
+static const char *const words[] = {"help", "?",         "k",           "banner", "forget", "restart",
+                                    "test", "test slot", "test drives", "key",    "bench"};
 enum { WORDS = sizeof words / sizeof words[0] };
 
 static void start_at(far_end_t at_the_end)

@@ -74,9 +74,15 @@ static void test_two_that_differ_are_not_kept(void)
 
 static void test_a_slip_ends_the_entry(void)
 {
-    static const char *const slips[] = {"", KEY "0", "00010203", "g00102030405060708090a0b0c0d0e0f", KEY "g",
-                                        "/00102030405060708090a0b0c0d0e0f", ":00102030405060708090a0b0c0d0e0f",
-                                        "@00102030405060708090a0b0c0d0e0f", "`00102030405060708090a0b0c0d0e0f"};
+    static const char *const slips[] = {"",
+                                        KEY "0",
+                                        "00010203",
+                                        "g00102030405060708090a0b0c0d0e0f",
+                                        KEY "g",
+                                        "/00102030405060708090a0b0c0d0e0f",
+                                        ":00102030405060708090a0b0c0d0e0f",
+                                        "@00102030405060708090a0b0c0d0e0f",
+                                        "`00102030405060708090a0b0c0d0e0f"};
     for (uint32_t i = 0; i < sizeof slips / sizeof slips[0]; i++) {
         key_entry_begin(&entry, &text);
         type(slips[i]);

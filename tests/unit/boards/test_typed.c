@@ -52,7 +52,11 @@ static void test_what_is_empty_is_no_line(void)
 /* Such a line is reported, but holds nothing that could be a word. */
 static void test_what_no_key_types_is_no_word(void)
 {
-    static const char *const lines[] = {"rest\x01" "art\r", "\x1b[A\r", "restart\x80\r", "\xff" "restart\r"};
+    static const char *const lines[] = {"rest\x01"
+                                        "art\r",
+                                        "\x1b[A\r", "restart\x80\r",
+                                        "\xff"
+                                        "restart\r"};
     for (uint32_t i = 0; i < sizeof lines / sizeof lines[0]; i++) {
         TEST_ASSERT_EQUAL_MESSAGE(TYPED_LINE, take(lines[i]), lines[i]);
         TEST_ASSERT_EQUAL_STRING("", typed.line);

@@ -187,8 +187,7 @@ static void bad_and_late_samples_are_a_fault_that_heals(void)
         TEST_ASSERT_TRUE(out.valid);
         if (i < 4) {
             now_us += 1000u;
-            const brace_backlash_sample_t sample = {
-                .now_us = now_us, .motor_rad = bad[i][0], .torque_n_mm = bad[i][1]};
+            const brace_backlash_sample_t sample = {.now_us = now_us, .motor_rad = bad[i][0], .torque_n_mm = bad[i][1]};
             TEST_ASSERT_EQUAL_INT(i < 2 ? BRACE_E_NOT_FINITE : BRACE_E_RANGE,
                                   brace_backlash_tick(&joint, &sample, &out));
         } else {
@@ -423,20 +422,19 @@ static void each_parameter_has_its_bounds(void)
     static const struct {
         size_t offset;
         float least, most; /* INFINITY: another parameter's bound comes first */
-    } row[] = {
-        {offsetof(brace_backlash_params_t, gap_rad), 1e-5f, 0.5f},
-        {offsetof(brace_backlash_params_t, friction_n_mm), 0.0f, INFINITY},
-        {offsetof(brace_backlash_params_t, friction_tolerance_ratio), 0.0f, 1.0f},
-        {offsetof(brace_backlash_params_t, inertia_n_mm_s2_per_rad), 0.0f, 1e6f},
-        {offsetof(brace_backlash_params_t, torque_range_n_mm), 4500.0f, 1e6f},
-        {offsetof(brace_backlash_params_t, torque_noise_n_mm), 0.0f, INFINITY},
-        {offsetof(brace_backlash_params_t, torque_bias_n_mm), 0.0f, INFINITY},
-        {offsetof(brace_backlash_params_t, angle_step_rad), 1e-7f, 0.01f},
-        {offsetof(brace_backlash_params_t, takeup.torque_max_n_mm), INFINITY, 8000.0f},
-        {offsetof(brace_backlash_params_t, takeup.preload_n_mm), 0.0f, 4500.0f},
-        {offsetof(brace_backlash_params_t, takeup.travel_max_rad), 1e-6f, 1.0f},
-        {offsetof(brace_backlash_params_t, takeup.reach_max_rad), 1e-6f, 2.0f},
-        {offsetof(brace_backlash_params_t, takeup.rate_rad_per_s), 1e-6f, 10.0f}};
+    } row[] = {{offsetof(brace_backlash_params_t, gap_rad), 1e-5f, 0.5f},
+               {offsetof(brace_backlash_params_t, friction_n_mm), 0.0f, INFINITY},
+               {offsetof(brace_backlash_params_t, friction_tolerance_ratio), 0.0f, 1.0f},
+               {offsetof(brace_backlash_params_t, inertia_n_mm_s2_per_rad), 0.0f, 1e6f},
+               {offsetof(brace_backlash_params_t, torque_range_n_mm), 4500.0f, 1e6f},
+               {offsetof(brace_backlash_params_t, torque_noise_n_mm), 0.0f, INFINITY},
+               {offsetof(brace_backlash_params_t, torque_bias_n_mm), 0.0f, INFINITY},
+               {offsetof(brace_backlash_params_t, angle_step_rad), 1e-7f, 0.01f},
+               {offsetof(brace_backlash_params_t, takeup.torque_max_n_mm), INFINITY, 8000.0f},
+               {offsetof(brace_backlash_params_t, takeup.preload_n_mm), 0.0f, 4500.0f},
+               {offsetof(brace_backlash_params_t, takeup.travel_max_rad), 1e-6f, 1.0f},
+               {offsetof(brace_backlash_params_t, takeup.reach_max_rad), 1e-6f, 2.0f},
+               {offsetof(brace_backlash_params_t, takeup.rate_rad_per_s), 1e-6f, 10.0f}};
     for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
         for (int side = 0; side < 2; side++) {
             brace_backlash_params_t p = sound_params();
@@ -539,8 +537,11 @@ static void parameters_out_of_range_are_refused(void)
     p.takeup.verify_us = 0;
     TEST_ASSERT_EQUAL_INT(BRACE_E_RANGE, brace_backlash_init(&fresh, &p));
     static const uint32_t times_us[][3] = { /* tick, whole take-up, verifying; one of them beyond its range */
-        {5001, 3000000, 100000}, {1000, 0, 100000}, {1000, 60000001, 100000}, {1000, 3000000, 19999},
-        {1000, 3000000, 10000001}};
+                                           {5001, 3000000, 100000},
+                                           {1000, 0, 100000},
+                                           {1000, 60000001, 100000},
+                                           {1000, 3000000, 19999},
+                                           {1000, 3000000, 10000001}};
     for (size_t i = 0; i < sizeof times_us / sizeof *times_us; i++) {
         p = sound_params();
         p.tick_us = times_us[i][0], p.takeup.time_max_us = times_us[i][1], p.takeup.verify_us = times_us[i][2];

@@ -20,15 +20,21 @@ static uint32_t now_us;
 
 void setUp(void)
 {
-    const brace_backlash_params_t params = {.tick_us = TICK_US, .gap_rad = 0.01f, .friction_n_mm = (float)FRICTION_N_MM,
+    const brace_backlash_params_t params = {.tick_us = TICK_US,
+                                            .gap_rad = 0.01f,
+                                            .friction_n_mm = (float)FRICTION_N_MM,
                                             .friction_tolerance_ratio = (float)TOLERANCE,
-                                            .inertia_n_mm_s2_per_rad = 20.0f, .torque_range_n_mm = 8000.0f,
+                                            .inertia_n_mm_s2_per_rad = 20.0f,
+                                            .torque_range_n_mm = 8000.0f,
                                             .torque_noise_n_mm = (float)NOISE_N_MM,
                                             .torque_bias_n_mm = (float)BIAS_N_MM,
                                             .angle_step_rad = (float)STEP_RAD,
-                                            .takeup = {.torque_max_n_mm = 4500.0f, .preload_n_mm = 800.0f,
-                                                       .travel_max_rad = 0.06f, .reach_max_rad = 0.15f,
-                                                       .rate_rad_per_s = 0.1f, .time_max_us = 3000000,
+                                            .takeup = {.torque_max_n_mm = 4500.0f,
+                                                       .preload_n_mm = 800.0f,
+                                                       .travel_max_rad = 0.06f,
+                                                       .reach_max_rad = 0.15f,
+                                                       .rate_rad_per_s = 0.1f,
+                                                       .time_max_us = 3000000,
                                                        .verify_us = 100000}};
     TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_backlash_init(&joint, &params));
     now_us = 0;
@@ -38,8 +44,8 @@ void tearDown(void) {}
 
 static brace_backlash_sample_t sample_of(double motor_rad, double torque_n_mm)
 {
-    return (brace_backlash_sample_t){.now_us = now_us, .motor_rad = (float)motor_rad,
-                                     .torque_n_mm = (float)torque_n_mm};
+    return (brace_backlash_sample_t){
+        .now_us = now_us, .motor_rad = (float)motor_rad, .torque_n_mm = (float)torque_n_mm};
 }
 
 static void begin(double motor_rad, double torque_n_mm)
@@ -245,10 +251,10 @@ static void an_expected_load_narrows_what_is_shown(void)
     static const struct {
         float expected_n_mm, off_n_mm;
         int flank;
-    } row[] = {{150.0f, 100.0f, 1}, {-150.0f, 100.0f, -1}, {0.0f, 100.0f, 0}, {90.0f, 100.0f, 0},
-               {-90.0f, 100.0f, 0}, {1e4f, 10.0f, 0},      {-1e4f, 10.0f, 0},
-               {100.05f, 100.0f, 1}, {-100.05f, 100.0f, -1}, {99.95f, 100.0f, 0}, {-99.95f, 100.0f, 0},
-               {100.0f, 100.0f, 0},  {-100.0f, 100.0f, 0}}; /* a load that may be zero shows no flank */
+    } row[] = {{150.0f, 100.0f, 1},    {-150.0f, 100.0f, -1}, {0.0f, 100.0f, 0},    {90.0f, 100.0f, 0},
+               {-90.0f, 100.0f, 0},    {1e4f, 10.0f, 0},      {-1e4f, 10.0f, 0},    {100.05f, 100.0f, 1},
+               {-100.05f, 100.0f, -1}, {99.95f, 100.0f, 0},   {-99.95f, 100.0f, 0}, {100.0f, 100.0f, 0},
+               {-100.0f, 100.0f, 0}}; /* a load that may be zero shows no flank */
     for (uint32_t i = 0; i < sizeof row / sizeof *row; i++) {
         brace_backlash_sample_t sample = sample_of(0.0, 100.0);
         TEST_ASSERT_EQUAL_INT(0, backlash_load_decided(&joint, &sample, 0.7f));
@@ -337,8 +343,8 @@ static void every_parameter_has_its_bounds(void)
     brace_backlash_params_t p;
     const struct {
         uint32_t *time_us, least, most;
-    } times[] = {{&p.tick_us, 100u, 5000u}, {&p.takeup.time_max_us, 1u, 60000000u},
-                 {&p.takeup.verify_us, 20000u, 10000000u}};
+    } times[] = {
+        {&p.tick_us, 100u, 5000u}, {&p.takeup.time_max_us, 1u, 60000000u}, {&p.takeup.verify_us, 20000u, 10000000u}};
     for (int i = 0; i < 3; i++) {
         const uint32_t values[4] = {times[i].least, times[i].most, times[i].least - 1u, times[i].most + 1u};
         for (int v = 0; v < 4; v++) {

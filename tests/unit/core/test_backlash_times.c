@@ -12,13 +12,21 @@ static uint32_t now_us, tick_us;
 
 static void start(uint32_t with_tick_us)
 {
-    const brace_backlash_params_t params = {.tick_us = with_tick_us, .gap_rad = (float)GAP_RAD, .friction_n_mm = 200.0f,
-                                            .friction_tolerance_ratio = 0.2f, .inertia_n_mm_s2_per_rad = 20.0f,
-                                            .torque_range_n_mm = 8000.0f, .torque_noise_n_mm = 40.0f,
-                                            .torque_bias_n_mm = 80.0f, .angle_step_rad = 2e-5f,
-                                            .takeup = {.torque_max_n_mm = 4500.0f, .preload_n_mm = 800.0f,
-                                                       .travel_max_rad = 0.06f, .reach_max_rad = 0.15f,
-                                                       .rate_rad_per_s = 0.1f, .time_max_us = 3000000,
+    const brace_backlash_params_t params = {.tick_us = with_tick_us,
+                                            .gap_rad = (float)GAP_RAD,
+                                            .friction_n_mm = 200.0f,
+                                            .friction_tolerance_ratio = 0.2f,
+                                            .inertia_n_mm_s2_per_rad = 20.0f,
+                                            .torque_range_n_mm = 8000.0f,
+                                            .torque_noise_n_mm = 40.0f,
+                                            .torque_bias_n_mm = 80.0f,
+                                            .angle_step_rad = 2e-5f,
+                                            .takeup = {.torque_max_n_mm = 4500.0f,
+                                                       .preload_n_mm = 800.0f,
+                                                       .travel_max_rad = 0.06f,
+                                                       .reach_max_rad = 0.15f,
+                                                       .rate_rad_per_s = 0.1f,
+                                                       .time_max_us = 3000000,
                                                        .verify_us = VERIFY_TICKS * TICK_US}};
     now_us = 0;
     tick_us = with_tick_us;

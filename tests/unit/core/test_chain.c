@@ -19,9 +19,7 @@ void setUp(void)
     memset(&chain, 0, sizeof chain);
 }
 
-void tearDown(void)
-{
-}
+void tearDown(void) {}
 
 static brace_limb_t on_a_yielding_base(void)
 {
@@ -50,8 +48,7 @@ static void against_reference(const brace_limb_t *limb)
             TEST_ASSERT_DOUBLE_WITHIN(ERROR_LIMIT * scale, r.c_xx, (double)c.c_xx_mm_per_n);
             TEST_ASSERT_DOUBLE_WITHIN(ERROR_LIMIT * scale, r.c_xz, (double)c.c_xz_mm_per_n);
             TEST_ASSERT_DOUBLE_WITHIN(ERROR_LIMIT * scale, r.c_zz, (double)c.c_zz_mm_per_n);
-            TEST_ASSERT_DOUBLE_WITHIN(2.0 * ERROR_LIMIT, 1.0,
-                                      (double)det / (r.c_xx * r.c_zz - r.c_xz * r.c_xz));
+            TEST_ASSERT_DOUBLE_WITHIN(2.0 * ERROR_LIMIT, 1.0, (double)det / (r.c_xx * r.c_zz - r.c_xz * r.c_xz));
         }
     }
 }

@@ -26,9 +26,7 @@ void setUp(void)
     }
 }
 
-void tearDown(void)
-{
-}
+void tearDown(void) {}
 
 /* Bits, not values: -0 is not 0 here. */
 static void same_bits(float expected, float found)

@@ -31,8 +31,7 @@ static brace_stiffness_t stiffness_of(double smaller, double larger, double axis
 }
 
 /* Round limbs and slender ones, soft and hard, axes all round. */
-static const double eigenvalues[][2] = {
-    {0.6235, 5.2765}, {1.0, 1.0}, {0.0385, 15.35}, {1e-3, 1e3}, {0.1, 1e6}};
+static const double eigenvalues[][2] = {{0.6235, 5.2765}, {1.0, 1.0}, {0.0385, 15.35}, {1e-3, 1e3}, {0.1, 1e6}};
 enum { LIMBS = sizeof eigenvalues / sizeof eigenvalues[0], AXES = 25 };
 static double axis_of(int i)
 {
@@ -95,7 +94,7 @@ static void sag_and_force_of_the_cores_own_k(void)
             const float theta1 = -3.0f + 0.25f * (float)(i / 2 % 13), theta2 = -3.1f + 0.37f * (float)(i / 26);
             const reference_planar_t r = reference_planar(&sample_limb[s], (double)theta1, (double)theta2);
             brace_stiffness_t k;
-            const brace_status_t status = i % 2 == 0   ? brace_chain_stiffness(&chain, theta1, theta2, &k)
+            const brace_status_t status = i % 2 == 0 ? brace_chain_stiffness(&chain, theta1, theta2, &k)
                                           : has_tick ? brace_planar_stiffness(&planar, theta1, theta2, &k)
                                                      : BRACE_E_UNSUPPORTED;
             if (status != BRACE_OK || k.flags != 0u) {
@@ -168,8 +167,8 @@ static brace_contact_grip_t grip_of(double x, double z, double normal_rad, doubl
 {
     brace_contact_grip_t grip;
     const brace_force_t force = {(float)x, (float)z};
-    TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_contact_grip(force, (float)cos(normal_rad), (float)sin(normal_rad),
-                                                       (float)mu, &grip));
+    TEST_ASSERT_EQUAL_INT(BRACE_OK,
+                          brace_contact_grip(force, (float)cos(normal_rad), (float)sin(normal_rad), (float)mu, &grip));
     return grip;
 }
 
@@ -180,8 +179,7 @@ static void margin_and_angle_in_the_cone(void)
         const double normal = 2.0 * axis_of(i);
         for (double off = -1.5; off <= 1.5; off += 0.125) {
             const double size = 20.0, mu = 0.7;
-            const brace_contact_grip_t grip =
-                grip_of(size * cos(normal + off), size * sin(normal + off), normal, mu);
+            const brace_contact_grip_t grip = grip_of(size * cos(normal + off), size * sin(normal + off), normal, mu);
             const double margin = size * (mu * cos(off) - fabs(sin(off)));
             ASSERT_CLOSE(size * cos(off), grip.normal_n, 5e-7 * size);
             ASSERT_CLOSE(size * fabs(sin(off)), grip.tangent_n, 5e-7 * size);
@@ -190,8 +188,7 @@ static void margin_and_angle_in_the_cone(void)
             TEST_ASSERT_EQUAL_INT(margin >= 0.0 ? BRACE_CONTACT_HOLDS : BRACE_CONTACT_SLIDES, grip.state);
         }
         for (double off = 1.625; off <= 3.125; off += 0.25) {
-            const brace_contact_grip_t away =
-                grip_of(9.0 * cos(normal + off), 9.0 * sin(normal + off), normal, 0.7);
+            const brace_contact_grip_t away = grip_of(9.0 * cos(normal + off), 9.0 * sin(normal + off), normal, 0.7);
             TEST_ASSERT_EQUAL_INT(BRACE_CONTACT_LIFTS, away.state);
             TEST_ASSERT_TRUE(away.normal_n < 0.0f && away.margin_n < 0.0f);
             ASSERT_CLOSE(atan(0.7) - off, away.angle_left_rad, 7e-7);
@@ -204,8 +201,7 @@ static void the_cone_has_edges(void)
     TEST_ASSERT_EQUAL_INT(BRACE_CONTACT_HOLDS, grip_of(-1.0, 2.0, PI / 2.0, 0.5625).state);
     TEST_ASSERT_EQUAL_INT(BRACE_CONTACT_SLIDES, grip_of(-1.0, 2.0, PI / 2.0, 0.4375).state);
     TEST_ASSERT_EQUAL_INT(BRACE_CONTACT_SLIDES, grip_of(1e-3, 2.0, PI / 2.0, 0.0).state);
-    const brace_contact_grip_t light =
-        grip_of(-1e-4, 1e-3, PI / 2.0, 0.5); /* a tenth of a gram still presses */
+    const brace_contact_grip_t light = grip_of(-1e-4, 1e-3, PI / 2.0, 0.5); /* a tenth of a gram still presses */
     TEST_ASSERT_EQUAL_INT(BRACE_CONTACT_HOLDS, light.state);
     ASSERT_CLOSE(atan(0.5) - atan(0.1), light.angle_left_rad, 7e-7);
     brace_contact_grip_t grip;
@@ -215,8 +211,7 @@ static void the_cone_has_edges(void)
     brace_contact_grip((brace_force_t){0.0f, 0.0f}, 0.0f, 1.0f, 0.5f, &grip);
     TEST_ASSERT_EQUAL_INT(BRACE_CONTACT_LIFTS, grip.state);
     TEST_ASSERT_TRUE(grip.margin_n == 0.0f && grip.angle_left_rad == 0.0f && grip.normal_n == 0.0f);
-    brace_contact_grip((brace_force_t){3.0f, 0.0f}, 0.0f, 1.0f, 0.5f,
-                       &grip); /* along the surface: no press */
+    brace_contact_grip((brace_force_t){3.0f, 0.0f}, 0.0f, 1.0f, 0.5f, &grip); /* along the surface: no press */
     TEST_ASSERT_EQUAL_INT(BRACE_CONTACT_LIFTS, grip.state);
     ASSERT_CLOSE(-3.0, grip.margin_n, 1e-6);
     brace_contact_grip((brace_force_t){0.0f, -2.0f}, 0.0f, 1.0f, 0.0f, &grip); /* straight off, no friction */
@@ -228,8 +223,7 @@ static void the_cone_has_edges(void)
 static void the_normal_is_made_one(void)
 {
     brace_contact_grip_t grip;
-    TEST_ASSERT_EQUAL_INT(BRACE_OK,
-                          brace_contact_grip((brace_force_t){-3.0f, 4.0f}, 0.71f, 0.71f, 0.5f, &grip));
+    TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_contact_grip((brace_force_t){-3.0f, 4.0f}, 0.71f, 0.71f, 0.5f, &grip));
     ASSERT_CLOSE(sqrt(0.5), grip.normal_n, 1e-6);
     ASSERT_CLOSE(7.0 * sqrt(0.5), grip.tangent_n, 3e-6);
 }
@@ -262,8 +256,7 @@ static void expect_refused_stiffness(brace_stiffness_t stiffness, brace_status_t
     memset(&contact, 0x5a, sizeof contact);
     before = contact;
     TEST_ASSERT_EQUAL_INT(expected, brace_contact_sag(&stiffness, (brace_force_t){1.0f, 1.0f}, &sag));
-    TEST_ASSERT_EQUAL_INT(expected,
-                          brace_contact_force(&stiffness, (brace_displacement_t){1.0f, 1.0f}, &contact));
+    TEST_ASSERT_EQUAL_INT(expected, brace_contact_force(&stiffness, (brace_displacement_t){1.0f, 1.0f}, &contact));
     TEST_ASSERT_TRUE(sag.x_mm == 11.0f && sag.z_mm == 12.0f);
     TEST_ASSERT_EQUAL_INT(0, memcmp(&before, &contact, sizeof contact));
 }
@@ -337,35 +330,25 @@ static void bad_input_is_refused_and_touches_nothing(void)
         const float b = bad[i];
         TEST_ASSERT_EQUAL_INT(expected[i], brace_contact_sag(&good, (brace_force_t){b, 0.0f}, &sag));
         TEST_ASSERT_EQUAL_INT(expected[i], brace_contact_sag(&good, (brace_force_t){0.0f, b}, &sag));
-        TEST_ASSERT_EQUAL_INT(expected[i],
-                              brace_contact_force(&good, (brace_displacement_t){b, 0.0f}, &contact));
-        TEST_ASSERT_EQUAL_INT(expected[i],
-                              brace_contact_force(&good, (brace_displacement_t){0.0f, -b}, &contact));
-        TEST_ASSERT_EQUAL_INT(expected[i],
-                              brace_contact_grip((brace_force_t){b, 0.0f}, 0.0f, 1.0f, 0.5f, &grip));
-        TEST_ASSERT_EQUAL_INT(expected[i],
-                              brace_contact_grip((brace_force_t){0.0f, b}, 0.0f, 1.0f, 0.5f, &grip));
-        TEST_ASSERT_EQUAL_INT(expected[i],
-                              brace_contact_grip((brace_force_t){0.0f, 1.0f}, b, 1.0f, 0.5f, &grip));
-        TEST_ASSERT_EQUAL_INT(expected[i],
-                              brace_contact_grip((brace_force_t){0.0f, 1.0f}, 0.0f, b, 0.5f, &grip));
-        TEST_ASSERT_EQUAL_INT(expected[i],
-                              brace_contact_grip((brace_force_t){0.0f, 1.0f}, 0.0f, 1.0f, b, &grip));
+        TEST_ASSERT_EQUAL_INT(expected[i], brace_contact_force(&good, (brace_displacement_t){b, 0.0f}, &contact));
+        TEST_ASSERT_EQUAL_INT(expected[i], brace_contact_force(&good, (brace_displacement_t){0.0f, -b}, &contact));
+        TEST_ASSERT_EQUAL_INT(expected[i], brace_contact_grip((brace_force_t){b, 0.0f}, 0.0f, 1.0f, 0.5f, &grip));
+        TEST_ASSERT_EQUAL_INT(expected[i], brace_contact_grip((brace_force_t){0.0f, b}, 0.0f, 1.0f, 0.5f, &grip));
+        TEST_ASSERT_EQUAL_INT(expected[i], brace_contact_grip((brace_force_t){0.0f, 1.0f}, b, 1.0f, 0.5f, &grip));
+        TEST_ASSERT_EQUAL_INT(expected[i], brace_contact_grip((brace_force_t){0.0f, 1.0f}, 0.0f, b, 0.5f, &grip));
+        TEST_ASSERT_EQUAL_INT(expected[i], brace_contact_grip((brace_force_t){0.0f, 1.0f}, 0.0f, 1.0f, b, &grip));
     }
     const float normals[][2] = {{0.0f, 0.0f}, {0.0f, 0.98f}, {0.0f, -1.02f}, {0.8f, 0.8f}};
     for (int i = 0; i < 4; i++) {
-        TEST_ASSERT_EQUAL_INT(BRACE_E_RANGE, brace_contact_grip((brace_force_t){0.0f, 1.0f}, normals[i][0],
-                                                                normals[i][1], 0.5f, &grip));
+        TEST_ASSERT_EQUAL_INT(
+            BRACE_E_RANGE, brace_contact_grip((brace_force_t){0.0f, 1.0f}, normals[i][0], normals[i][1], 0.5f, &grip));
     }
-    TEST_ASSERT_EQUAL_INT(BRACE_E_RANGE,
-                          brace_contact_grip((brace_force_t){0.0f, 1.0f}, 0.0f, 1.0f, -0.1f, &grip));
+    TEST_ASSERT_EQUAL_INT(BRACE_E_RANGE, brace_contact_grip((brace_force_t){0.0f, 1.0f}, 0.0f, 1.0f, -0.1f, &grip));
     TEST_ASSERT_EQUAL_INT(BRACE_E_NULL, brace_contact_sag(NULL, (brace_force_t){0.0f, 1.0f}, &sag));
     TEST_ASSERT_EQUAL_INT(BRACE_E_NULL, brace_contact_sag(&good, (brace_force_t){0.0f, 1.0f}, NULL));
-    TEST_ASSERT_EQUAL_INT(BRACE_E_NULL,
-                          brace_contact_force(NULL, (brace_displacement_t){0.0f, 1.0f}, &contact));
+    TEST_ASSERT_EQUAL_INT(BRACE_E_NULL, brace_contact_force(NULL, (brace_displacement_t){0.0f, 1.0f}, &contact));
     TEST_ASSERT_EQUAL_INT(BRACE_E_NULL, brace_contact_force(&good, (brace_displacement_t){0.0f, 1.0f}, NULL));
-    TEST_ASSERT_EQUAL_INT(BRACE_E_NULL,
-                          brace_contact_grip((brace_force_t){0.0f, 1.0f}, 0.0f, 1.0f, 0.5f, NULL));
+    TEST_ASSERT_EQUAL_INT(BRACE_E_NULL, brace_contact_grip((brace_force_t){0.0f, 1.0f}, 0.0f, 1.0f, 0.5f, NULL));
     TEST_ASSERT_TRUE(sag.x_mm == 11.0f && sag.z_mm == 12.0f);
     TEST_ASSERT_EQUAL_INT(0, memcmp(&contact_before, &contact, sizeof contact));
     TEST_ASSERT_EQUAL_INT(0, memcmp(&grip_before, &grip, sizeof grip));

@@ -31,9 +31,7 @@ void setUp(void)
     TEST_ASSERT_EQUAL(BRACE_OK, brace_drift_learn(&drift, &believed, &setup));
 }
 
-void tearDown(void)
-{
-}
+void tearDown(void) {}
 
 static brace_stiffness_t stiffness_of(const brace_limb_t *limb, const float posture[2])
 {
@@ -65,9 +63,13 @@ static int run(int posture, int along_z)
         const float d = 0.635f * (float)(i % 2 == 0 ? i / 2 : -(i / 2)), dx = along_z ? 0.0f : d,
                     dz = along_z ? d : 0.0f;
         const brace_drift_reading_t reading = {
-            postures[posture][0], postures[posture][1], 30.0f + dx, dz - 20.0f,
+            postures[posture][0],
+            postures[posture][1],
+            30.0f + dx,
+            dz - 20.0f,
             12.0f + k.k_xx_n_per_mm * dx + k.k_xz_n_per_mm * dz + noise_n * (float)noise_normal(),
-            -9.0f + k.k_xz_n_per_mm * dx + k.k_zz_n_per_mm * dz + noise_n * (float)noise_normal(), warmer_degc};
+            -9.0f + k.k_xz_n_per_mm * dx + k.k_zz_n_per_mm * dz + noise_n * (float)noise_normal(),
+            warmer_degc};
         TEST_ASSERT_EQUAL(BRACE_OK, brace_drift_step(&drift, &believed, &model, &reading));
         readings += drift.state == BRACE_DRIFT_WATCHING;
     }
@@ -151,16 +153,16 @@ static void test_trust_in_each_number_of_the_calibration(void)
         trusting.joint_compliance_trust_ratio = doubted == 4 ? 0.4f : 0.0f;
         TEST_ASSERT_EQUAL(BRACE_OK, brace_drift_learn(&drift, &believed, &trusting));
         const double femur = 2.0 / (double)believed.femur_mm, tibia = 2.0 / (double)believed.tibia_mm;
-        const double hip_c = (double)believed.joint[BRACE_FEMUR].compliance_rad_per_n_mm +
-                             (double)believed.base.rotation_rad_per_n_mm;
+        const double hip_c =
+            (double)believed.joint[BRACE_FEMUR].compliance_rad_per_n_mm + (double)believed.base.rotation_rad_per_n_mm;
         const double bends = (double)believed.link[BRACE_FEMUR].bending_mm_per_n;
         const double beside = hip_c * (double)believed.femur_mm * (double)believed.femur_mm / bends;
         const double length = doubted == 2 ? femur * femur + tibia * tibia : 0.0;
         const double known = doubted == 0 ? 0.07 * 0.07 : 0.0, gain = doubted == 1 ? 0.03 * 0.03 : 0.0;
         const double common = gain + 4.0 * length;
         const double angle = doubted == 3 ? 0.02 * 0.02 : 0.0, heat = doubted == 4 ? 0.4 * 0.4 : 0.0;
-        const double wanted[7] = {known + common + beside * beside * length, -1.0, known + common, 2.0 * angle, angle,
-                                  heat, known};
+        const double wanted[7] = {
+            known + common + beside * beside * length, -1.0, known + common, 2.0 * angle, angle, heat, known};
         if (doubted == 0) { /* of each bending as a share of itself; the tibia's is a part of what its estimate is of */
             const double knee_mm = (double)believed.joint[BRACE_TIBIA].compliance_rad_per_n_mm *
                                    (double)believed.tibia_mm * (double)believed.tibia_mm;
@@ -254,9 +256,13 @@ static void test_readings_are_counted_since_the_evidence_left_zero(void)
     }
     for (int j = 0; j < 60 && drift.state == BRACE_DRIFT_WATCHING; j++) {
         const float dz = 0.3f * (float)(j % 5 - 2);
-        const brace_drift_reading_t reading = {posture[0], posture[1], 0.0f, dz,
+        const brace_drift_reading_t reading = {posture[0],
+                                               posture[1],
+                                               0.0f,
+                                               dz,
                                                k.k_xz_n_per_mm * dz + noise_n * (float)noise_normal(),
-                                               k.k_zz_n_per_mm * dz + noise_n * (float)noise_normal(), 0.0f};
+                                               k.k_zz_n_per_mm * dz + noise_n * (float)noise_normal(),
+                                               0.0f};
         TEST_ASSERT_EQUAL(BRACE_OK, brace_drift_step(&drift, &believed, &model, &reading));
         for (int cause = 0; cause <= BRACE_DRIFT_CAUSE_COUNT; cause++) {
             if (drift.evidence[cause] <= 0.0f) {
@@ -286,9 +292,13 @@ static void test_watching_begins_without_evidence(void)
         for (int j = 0; j < RUN && drift.state == BRACE_DRIFT_LEARNING; j++) {
             const float d = 0.635f * (float)(j % 2 == 0 ? j / 2 : -(j / 2));
             const float dx = i % 2 ? d : 0.0f, dz = i % 2 ? 0.0f : d;
-            const brace_drift_reading_t reading = {posture[0], posture[1], dx, dz,
+            const brace_drift_reading_t reading = {posture[0],
+                                                   posture[1],
+                                                   dx,
+                                                   dz,
                                                    k.k_xx_n_per_mm * dx + k.k_xz_n_per_mm * dz,
-                                                   k.k_xz_n_per_mm * dx + k.k_zz_n_per_mm * dz, 0.0f};
+                                                   k.k_xz_n_per_mm * dx + k.k_zz_n_per_mm * dz,
+                                                   0.0f};
             TEST_ASSERT_EQUAL(BRACE_OK, brace_drift_step(&drift, &believed, &model, &reading));
         }
     }
@@ -333,7 +343,7 @@ static void test_what_the_model_may_be_off_is_no_evidence(void)
         for (int i = 0; i < 30; i++) {
             const float sign = i % 2 == 0 ? 1.0f : -1.0f, off = 1.0f + 0.018f * (float)(posture % 2 == 0 ? 1 : -1);
             const brace_drift_reading_t reading = {postures[posture][0], postures[posture][1], sign * dx, sign * dz,
-                                                   sign * x_n * off, sign * z_n * off, 0.0f};
+                                                   sign * x_n * off,     sign * z_n * off,     0.0f};
             TEST_ASSERT_EQUAL(BRACE_OK, brace_drift_step(&drift, &believed, &k, &reading));
             for (int cause = 0; cause <= BRACE_DRIFT_CAUSE_COUNT; cause++) {
                 TEST_ASSERT_TRUE(drift.evidence[cause] < 0.25f * BRACE_DRIFT_ALARM);
@@ -423,8 +433,13 @@ static void test_scatter_beyond_the_noise_is_told_apart(void)
     brace_drift_run(&drift);
     for (int i = 0; i < 60 && drift.state == BRACE_DRIFT_WATCHING; i++) {
         const float d = (float)(i % 5 - 2), off = noise_uniform() < 0.5 ? 0.4f : -0.4f;
-        const brace_drift_reading_t reading = {postures[0][0], postures[0][1], d, 0, k.k_xx_n_per_mm * d + off,
-                                               k.k_xz_n_per_mm * d + (noise_uniform() < 0.5 ? 0.4f : -0.4f), 0};
+        const brace_drift_reading_t reading = {postures[0][0],
+                                               postures[0][1],
+                                               d,
+                                               0,
+                                               k.k_xx_n_per_mm * d + off,
+                                               k.k_xz_n_per_mm * d + (noise_uniform() < 0.5 ? 0.4f : -0.4f),
+                                               0};
         TEST_ASSERT_EQUAL(BRACE_OK, brace_drift_step(&drift, &believed, &model, &reading));
     }
     TEST_ASSERT_EQUAL(BRACE_DRIFT_DRIFTED, report().state);
@@ -447,8 +462,8 @@ static void test_short_runs_count_the_noise_of_their_first_reading(void)
     learn_a_slightly_other_limb();
     const brace_stiffness_t model = stiffness_of(&believed, postures[0]);
     for (int i = 0; i < 800; i++) {
-        const brace_drift_reading_t reading = {postures[0][0], postures[0][1], 0, 0, NOISE_N * (float)noise_normal(),
-                                               NOISE_N * (float)noise_normal(), 0};
+        const brace_drift_reading_t reading = {
+            postures[0][0], postures[0][1], 0, 0, NOISE_N * (float)noise_normal(), NOISE_N * (float)noise_normal(), 0};
         if (i % 2 == 0) {
             brace_drift_run(&drift);
         }
@@ -550,7 +565,7 @@ static void test_refused_calls_leave_everything_as_it_was(void)
     reading = sound;
     reading.theta2_rad = 8.0f;
     TEST_ASSERT_EQUAL(BRACE_E_RANGE, brace_drift_step(&drift, &believed, &model, &reading));
-    float *const value[] = {&reading.theta1_rad, &reading.theta2_rad, &reading.dx_mm, &reading.dz_mm,
+    float *const value[] = {&reading.theta1_rad, &reading.theta2_rad, &reading.dx_mm,      &reading.dz_mm,
                             &reading.fx_n,       &reading.fz_n,       &reading.warmer_degc};
     static const float beyond[] = {8.0f, 8.0f, 1.1e4f, 1.1e4f, 1.1e6f, 1.1e6f, 201.0f};
     for (size_t i = 0; i < sizeof beyond / sizeof *beyond; i++) {

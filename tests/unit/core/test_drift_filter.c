@@ -292,7 +292,10 @@ static void run(int posture, float wild_n)
         const float dx = (float)(2.0 * noise_normal()), dz = (float)(2.0 * noise_normal());
         const float off_n = i == RUN - 1 ? wild_n : 0.0f;
         const brace_drift_reading_t reading = {
-            postures[posture][0], postures[posture][1], 30.0f + dx, dz - 20.0f,
+            postures[posture][0],
+            postures[posture][1],
+            30.0f + dx,
+            dz - 20.0f,
             12.0f + k.k_xx_n_per_mm * dx + k.k_xz_n_per_mm * dz + (float)(NOISE_N * noise_normal()),
             off_n - 9.0f + k.k_xz_n_per_mm * dx + k.k_zz_n_per_mm * dz + (float)(NOISE_N * noise_normal()),
             warmer_degc};
@@ -408,8 +411,9 @@ static void expect_bounds(const bound_t *bounds, int count, const void *sound, s
                           brace_status_t (*asks)(const void *bytes))
 {
     for (int i = 0; i < count; i++) {
-        const float values[] = {bounds[i].least, bounds[i].most, nextafterf(bounds[i].least, -1e9f),
-                                nextafterf(bounds[i].most, 1e9f), NAN, INFINITY};
+        const float values[] = {
+            bounds[i].least, bounds[i].most, nextafterf(bounds[i].least, -1e9f), nextafterf(bounds[i].most, 1e9f), NAN,
+            INFINITY};
         for (int v = 0; v < 6; v++) {
             uint8_t bytes[64];
             memcpy(bytes, sound, size);

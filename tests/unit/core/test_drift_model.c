@@ -66,8 +66,10 @@ static void test_the_force_shifts_as_the_limb_s_own_K_does(void)
     const double step = 1e-3;
     for (int i = 0; i < 45; i++) {
         be(i % 2 == 0 ? SAMPLE_PAPER : SAMPLE_BEAM, tilts[i % 3], ratios[i / 3 % 3]);
-        reading = (brace_drift_reading_t){.theta1_rad = postures[i % 5][0], .theta2_rad = postures[i % 5][1],
-                                          .dx_mm = 0.7f * cosf((float)i), .dz_mm = 0.7f * sinf((float)i)};
+        reading = (brace_drift_reading_t){.theta1_rad = postures[i % 5][0],
+                                          .theta2_rad = postures[i % 5][1],
+                                          .dx_mm = 0.7f * cosf((float)i),
+                                          .dz_mm = 0.7f * sinf((float)i)};
         const brace_stiffness_t k = model_k();
         const float none[DRIFT_OFFSETS] = {0.0f};
         drift_expected_t at;
@@ -102,8 +104,8 @@ static void test_a_softer_femur_is_that_limb(void)
     static const float ratios[] = {0.0f, 1.0f, 0.4f};
     for (int i = 0; i < 18; i++) {
         be(i % 2 == 0 ? SAMPLE_PAPER : SAMPLE_BEAM, 0.35f, ratios[i / 2 % 3]);
-        reading = (brace_drift_reading_t){.theta1_rad = 0.74f, .theta2_rad = 1.0f, .dx_mm = 0.7f * cosf((float)i),
-                                          .dz_mm = 0.7f * sinf((float)i)};
+        reading = (brace_drift_reading_t){
+            .theta1_rad = 0.74f, .theta2_rad = 1.0f, .dx_mm = 0.7f * cosf((float)i), .dz_mm = 0.7f * sinf((float)i)};
         const float share = i / 6 % 2 == 0 ? 0.33f : -0.33f;
         const brace_limb_t softer = changed_by(BRACE_DRIFT_FEMUR, share);
         const brace_stiffness_t k = model_k();
@@ -152,8 +154,11 @@ static void test_warmth_softens_both_joints(void)
     const float per_degc = 0.01f;
     for (int i = 0; i < 12; i++) {
         be(i % 2 == 0 ? SAMPLE_PAPER : SAMPLE_BEAM, 0.3f, 0.5f);
-        reading = (brace_drift_reading_t){.theta1_rad = 0.74f, .theta2_rad = 1.0f, .dx_mm = 0.7f * cosf((float)i),
-                                          .dz_mm = 0.7f * sinf((float)i), .warmer_degc = (float)(3 * (i % 5) - 6)};
+        reading = (brace_drift_reading_t){.theta1_rad = 0.74f,
+                                          .theta2_rad = 1.0f,
+                                          .dx_mm = 0.7f * cosf((float)i),
+                                          .dz_mm = 0.7f * sinf((float)i),
+                                          .warmer_degc = (float)(3 * (i % 5) - 6)};
         const brace_stiffness_t k = model_k();
         float offset[DRIFT_OFFSETS] = {0.0f};
         const float off[3] = {0.0f, 0.2f, -0.2f};

@@ -42,20 +42,29 @@ static void any_rest(double most, fixed_rest_t *rest)
     for (int i = 0; i < 8; i++) {
         w[i] = word(any(-most, most) * pow(10.0, any(-1.5, 0.0)), 27);
     }
-    *rest = (fixed_rest_t){.resists = {w[0], w[1], w[2], w[3], w[4], w[5]}, .end_resists = w[6],
+    *rest = (fixed_rest_t){.resists = {w[0], w[1], w[2], w[3], w[4], w[5]},
+                           .end_resists = w[6],
                            .root_softens = word(any(0.0, 0.2) * most, 27),
                            .end_softens = word(any(0.0, 0.2) * most, 27),
-                           .tip = any_vec(0.9, 28), .a = any_vec(0.7, 28), .b = any_vec(0.7, 28),
-                           .end = any_vec(0.2, 28), .aside = any_vec(0.2, 28),
-                           .root_spring = any_vec(0.3, 30), .end_spring = any_vec(0.3, 30)};
+                           .tip = any_vec(0.9, 28),
+                           .a = any_vec(0.7, 28),
+                           .b = any_vec(0.7, 28),
+                           .end = any_vec(0.2, 28),
+                           .aside = any_vec(0.2, 28),
+                           .root_spring = any_vec(0.3, 30),
+                           .end_spring = any_vec(0.3, 30)};
 }
 
 static void take_any_limb(double resists_most)
 {
     any_rest(resists_most, &limb.femur);
     any_rest(resists_most, &limb.tibia);
-    limb.stance = (fixed_stance_t){&limb.femur, &limb.tibia, word(any(0.1, 1.0), 29), word(any(0.1, 1.0), 29),
-                                   word(any(0.1, 1.5), 29), word(any(0.1, 1.5), 29)};
+    limb.stance = (fixed_stance_t){&limb.femur,
+                                   &limb.tibia,
+                                   word(any(0.1, 1.0), 29),
+                                   word(any(0.1, 1.0), 29),
+                                   word(any(0.1, 1.5), 29),
+                                   word(any(0.1, 1.5), 29)};
 }
 
 /* --- the matrix ----------------------------------------------------------------------------------------------- */
@@ -269,10 +278,11 @@ static double rounding_at(int octaves, int *scale)
 {
     const fixed_rest_t *f = &limb.femur, *t = &limb.tibia;
     const fixed_stance_t *s = &limb.stance;
-    const int32_t moments[] = {f->resists.rr, f->resists.ra, f->resists.rb, f->resists.aa, f->resists.ab,
-                               f->resists.bb, f->end_resists, 16 * f->root_softens, 16 * f->end_softens,
-                               t->resists.rr, t->resists.ra, t->resists.rb, t->resists.aa, t->resists.ab,
-                               t->resists.bb, t->end_resists, 16 * t->root_softens, 16 * t->end_softens};
+    const int32_t moments[] = {f->resists.rr,        f->resists.ra,      f->resists.rb,  f->resists.aa,
+                               f->resists.ab,        f->resists.bb,      f->end_resists, 16 * f->root_softens,
+                               16 * f->end_softens,  t->resists.rr,      t->resists.ra,  t->resists.rb,
+                               t->resists.aa,        t->resists.ab,      t->resists.bb,  t->end_resists,
+                               16 * t->root_softens, 16 * t->end_softens};
     const int32_t compliances[] = {s->femur_bend, s->tibia_bend, s->hip, s->knee};
     *scale = power_of(moments, 18, 27) + power_of(compliances, 4, 29) + 4 + octaves;
     return *scale > 1 ? 8.0 * *scale * ldexp(1.0, 3 * *scale - 30) : 16.0 * 0x1p-27;

@@ -100,8 +100,10 @@ static void test_a_link_is_solved_within_its_words(void)
         }
         const double bend = pow(10.0, any(-2.0, 0.4)), beyond = any(-0.3, 0.3), end = any(-0.2, 0.2);
         const double beyond_drives = any(-0.3, 0.3), end_drives = any(-0.2, 0.2), root = any(-1.0, 1.0);
-        const fixed_pull_t pull = {.resists = {w[0], w[1], w[2], w[3], w[4], w[5]}, .drives = {d[0], d[1], d[2]},
-                                   .end_resists = word(end, 27), .end_drives = word(end_drives, 27)};
+        const fixed_pull_t pull = {.resists = {w[0], w[1], w[2], w[3], w[4], w[5]},
+                                   .drives = {d[0], d[1], d[2]},
+                                   .end_resists = word(end, 27),
+                                   .end_drives = word(end_drives, 27)};
         for (int i = 0; i < 6; i++) { /* what acts at the link's end acts on each of its turns */
             m[i] = number(w[i], 27) + end + beyond;
         }
@@ -176,8 +178,10 @@ static void test_a_wide_product(void)
         TEST_ASSERT_TRUE(is.mantissa_q31 >= 1 << 30);
         TEST_ASSERT_DOUBLE_WITHIN(within, 1.0, ldexp((double)is.mantissa_q31, is.exponent - 31) / wanted);
     }
-    const fixed_pivots_t p = {.tibia = {.pivot_a = word(0.1, 27), .pivot_b = word(2.0, 27)}, .knee = word(0.3, 27),
-                              .femur = {.pivot_a = word(0.7, 27), .pivot_b = word(5.0, 27)}, .hip = word(1.1, 27)};
+    const fixed_pivots_t p = {.tibia = {.pivot_a = word(0.1, 27), .pivot_b = word(2.0, 27)},
+                              .knee = word(0.3, 27),
+                              .femur = {.pivot_a = word(0.7, 27), .pivot_b = word(5.0, 27)},
+                              .hip = word(1.1, 27)};
     is = fixed_product(&p);
     wanted = 0.1 * 2.0 * 0.3 * 0.7 * 5.0 * 1.1;
     TEST_ASSERT_DOUBLE_WITHIN(1e-6, 1.0, ldexp((double)is.mantissa_q31, is.exponent - 31) / wanted);
@@ -191,8 +195,14 @@ static fixed_vec_t any_vec(double most, int format)
 static fixed_link_t any_link(void)
 {
     const fixed_vec_t none = {0, 0}, beam = any_vec(0.6, 28), beyond = any_vec(1.0, 30);
-    return (fixed_link_t){.to_beam = none, .beam = beam, .rigid = none, .root_root = none, .end_root = none,
-                          .bend = word(pow(10.0, any(-2.0, 0.5)), 29), .beyond = beyond, .own = none,
+    return (fixed_link_t){.to_beam = none,
+                          .beam = beam,
+                          .rigid = none,
+                          .root_root = none,
+                          .end_root = none,
+                          .bend = word(pow(10.0, any(-2.0, 0.5)), 29),
+                          .beyond = beyond,
+                          .own = none,
                           .on_rigid = beyond};
 }
 
@@ -257,9 +267,9 @@ static void test_shifts_of_the_search(void)
 static void test_each_word_counts_in_the_unit_of_the_search(void)
 {
     fixed_rest_t rest = {.root_softens = 0};
-    int32_t *const words[] = {&rest.resists.rr, &rest.resists.ra, &rest.resists.rb, &rest.resists.aa,
-                              &rest.resists.ab, &rest.resists.bb, &rest.end_resists, &rest.root_softens,
-                              &rest.end_softens};
+    int32_t *const words[] = {&rest.resists.rr,  &rest.resists.ra,   &rest.resists.rb,
+                              &rest.resists.aa,  &rest.resists.ab,   &rest.resists.bb,
+                              &rest.end_resists, &rest.root_softens, &rest.end_softens};
     for (uint32_t i = 0; i < sizeof words / sizeof *words; i++) {
         const uint32_t times = i < 7u ? 1u : 16u;
         const int32_t size = 0x00765432;

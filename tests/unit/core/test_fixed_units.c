@@ -86,11 +86,22 @@ static void test_what_is_no_limb_takes_no_load(void)
     brace_loaded_t sound, loaded;
     brace_loaded_collapse(&limb, &weights, &sound);
     TEST_ASSERT_EQUAL(BRACE_OK, status_of(&sound));
-    float *const number[] = {&loaded.femur.length_mm, &loaded.tibia.length_mm, &loaded.femur.beam_mm.x,
-                             &loaded.tibia.beam_mm.z, &loaded.femur.to_beam_mm.z, &loaded.femur.root_root.x,
-                             &loaded.tibia.end_root.z, &loaded.femur.end_mm_per_n, &loaded.femur.bend_rad_per_n_mm,
-                             &loaded.femur.weight_n, &loaded.tibia.weight_n, &loaded.knee_n, &loaded.weight_n,
-                             &loaded.base_mm_per_n, &loaded.base_root.x, &loaded.base_rotation_rad_per_n_mm};
+    float *const number[] = {&loaded.femur.length_mm,
+                             &loaded.tibia.length_mm,
+                             &loaded.femur.beam_mm.x,
+                             &loaded.tibia.beam_mm.z,
+                             &loaded.femur.to_beam_mm.z,
+                             &loaded.femur.root_root.x,
+                             &loaded.tibia.end_root.z,
+                             &loaded.femur.end_mm_per_n,
+                             &loaded.femur.bend_rad_per_n_mm,
+                             &loaded.femur.weight_n,
+                             &loaded.tibia.weight_n,
+                             &loaded.knee_n,
+                             &loaded.weight_n,
+                             &loaded.base_mm_per_n,
+                             &loaded.base_root.x,
+                             &loaded.base_rotation_rad_per_n_mm};
     for (uint32_t i = 0; i < sizeof number / sizeof *number; i++) {
         loaded = sound;
         *number[i] = NAN;
@@ -134,9 +145,9 @@ static void test_each_word_is_looked_at(void)
         }
         *bound[i].exponent = was;
     }
-    int32_t *const from_0[] = {&fixed.femur.length_q28, &fixed.femur.bend_q31, &fixed.femur.end_q31,
-                               &fixed.tibia.length_q28, &fixed.tibia.bend_q31, &fixed.tibia.end_q31,
-                               &fixed.base_q31, &fixed.base_rotation_q31};
+    int32_t *const from_0[] = {&fixed.femur.length_q28, &fixed.femur.bend_q31,   &fixed.femur.end_q31,
+                               &fixed.tibia.length_q28, &fixed.tibia.bend_q31,   &fixed.tibia.end_q31,
+                               &fixed.base_q31,         &fixed.base_rotation_q31};
     for (uint32_t i = 0; i < sizeof from_0 / sizeof *from_0; i++) {
         const int32_t was = *from_0[i];
         *from_0[i] = -1;
@@ -157,9 +168,8 @@ static void test_a_lever_beyond_its_word_is_noted(void)
     static const struct {
         double lever, other, ratio;
         bool fits;
-    } row[] = {{7.0, 1.0, -0.999, true},  {7.0, 1.0, -1.001, false},
-               {-7.0, 1.0, 0.999, true}, {-7.0, 1.0, 1.001, false},
-               {5.0, 3.9, 3.3, true},     {-4.1, 3.9, 1.1, false},   {0.0, 4.5, 1.7, true},    {0.0, 4.5, 1.8, false},
+    } row[] = {{7.0, 1.0, -0.999, true}, {7.0, 1.0, -1.001, false}, {-7.0, 1.0, 0.999, true}, {-7.0, 1.0, 1.001, false},
+               {5.0, 3.9, 3.3, true},    {-4.1, 3.9, 1.1, false},   {0.0, 4.5, 1.7, true},    {0.0, 4.5, 1.8, false},
                {7.9, 7.9, -3.99, false}, {-7.9, 7.9, 3.99, false}};
     for (uint32_t i = 0; i < sizeof row / sizeof *row; i++) {
         const fixed_vec_t lever = {q28(row[i].lever), 0}, other = {q28(row[i].other), 0}, none = {0, 0};
@@ -168,8 +178,8 @@ static void test_a_lever_beyond_its_word_is_noted(void)
             const fixed_vec_t v = (part & 1) == 0 ? lever : fixed_quarter(lever);
             const fixed_vec_t a = (part & 1) == 0 ? other : fixed_quarter(other);
             const int32_t by = (int32_t)(row[i].ratio * 0x1p27);
-            const fixed_vec_t left = (part & 2) == 0 ? less_scaled(v, a, by, none, 0, &lost)
-                                                     : less_scaled(v, none, 0, a, by, &lost);
+            const fixed_vec_t left =
+                (part & 2) == 0 ? less_scaled(v, a, by, none, 0, &lost) : less_scaled(v, none, 0, a, by, &lost);
             TEST_ASSERT_EQUAL(row[i].fits, lost < LOST);
             if (row[i].fits) {
                 const double is = (double)((part & 1) == 0 ? left.x : left.z) / 0x1p28;

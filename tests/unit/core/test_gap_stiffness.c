@@ -134,8 +134,8 @@ static void both_free_carry_nothing_and_none_free_changes_nothing(void)
     brace_pose_t pose = pose_of(limb, postures[0]);
     brace_gap_stiffness_t gap;
     TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_gap_stiffness_known(&k, &pose, BRACE_GAP_FEMUR | BRACE_GAP_TIBIA, &gap));
-    TEST_ASSERT_TRUE(gap.now.k_xx_n_per_mm == 0.0f && gap.now.k_xz_n_per_mm == 0.0f &&
-                     gap.now.k_zz_n_per_mm == 0.0f && gap.now.lambda_max_n_per_mm == 0.0f);
+    TEST_ASSERT_TRUE(gap.now.k_xx_n_per_mm == 0.0f && gap.now.k_xz_n_per_mm == 0.0f && gap.now.k_zz_n_per_mm == 0.0f &&
+                     gap.now.lambda_max_n_per_mm == 0.0f);
     TEST_ASSERT_EQUAL_UINT32(BRACE_FLAG_GAP_OPEN, gap.now.flags & ~k.flags);
     const float straight[] = {0.5f, 0.0f};
     pose = pose_of(limb, straight);
@@ -165,8 +165,8 @@ static void the_axis_of_a_free_joint_is_reported_one_way(void)
 {
     static const brace_point_t lever[] = {{0.0f, 200.0f}, {0.0f, -200.0f}, {200.0f, 0.0f}, {-200.0f, 0.0f}};
     static const double axis_rad[] = {0.0, 0.0, 1.5707963, 1.5707963};
-    const brace_stiffness_t round = {.k_xx_n_per_mm = 2.0f, .k_zz_n_per_mm = 2.0f, .lambda_min_n_per_mm = 2.0f,
-                                     .lambda_max_n_per_mm = 2.0f};
+    const brace_stiffness_t round = {
+        .k_xx_n_per_mm = 2.0f, .k_zz_n_per_mm = 2.0f, .lambda_min_n_per_mm = 2.0f, .lambda_max_n_per_mm = 2.0f};
     for (int i = 0; i < 4; i++) {
         brace_pose_t pose = {.lever_femur = lever[i], .lever_tibia = {0.0f, 0.0f}};
         brace_gap_stiffness_t gap;

@@ -25,9 +25,7 @@ void setUp(void)
     dice = 0x9e3779b97f4a7c15u;
 }
 
-void tearDown(void)
-{
-}
+void tearDown(void) {}
 
 static float between(float low, float high)
 {

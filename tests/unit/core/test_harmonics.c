@@ -15,13 +15,9 @@ enum { LIMBS = 10 };
 enum { LIMBS = 500 };
 #endif
 
-void setUp(void)
-{
-}
+void setUp(void) {}
 
-void tearDown(void)
-{
-}
+void tearDown(void) {}
 
 static double at(const brace_harmonic_t *h, double half)
 {

@@ -136,8 +136,7 @@ static void inverse_undoes_forward(void)
                 brace_pose_t asked, got;
                 brace_kinematics_forward(&limb, theta1, theta2, &asked);
                 float back1, back2;
-                TEST_ASSERT_EQUAL_INT(BRACE_OK,
-                                      brace_kinematics_inverse(&limb, asked.tip, knee, &back1, &back2));
+                TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_kinematics_inverse(&limb, asked.tip, knee, &back1, &back2));
                 TEST_ASSERT_TRUE(back1 >= -3.1415930f && back1 <= 3.1415930f);
                 TEST_ASSERT_TRUE(knee == BRACE_KNEE_UP ? back2 >= 0.0f && back2 <= 3.1415930f
                                                        : back2 <= 0.0f && back2 >= -3.1415930f);
@@ -169,8 +168,8 @@ static void knees_lie_on_their_side(void)
         for (int knee = BRACE_KNEE_UP; knee <= BRACE_KNEE_DOWN; knee++) {
             float theta1, theta2;
             brace_pose_t pose;
-            TEST_ASSERT_EQUAL_INT(
-                BRACE_OK, brace_kinematics_inverse(&limb, tips[i], (brace_knee_t)knee, &theta1, &theta2));
+            TEST_ASSERT_EQUAL_INT(BRACE_OK,
+                                  brace_kinematics_inverse(&limb, tips[i], (brace_knee_t)knee, &theta1, &theta2));
             brace_kinematics_forward(&limb, theta1, theta2, &pose);
             const float left_of_line = tips[i].x_mm * pose.knee.z_mm - tips[i].z_mm * pose.knee.x_mm;
             TEST_ASSERT_TRUE(knee == BRACE_KNEE_UP ? left_of_line > 0.0f : left_of_line < 0.0f);
@@ -183,20 +182,20 @@ static void a_known_triangle(void)
 {
     const brace_limb_t limb = limb_of(0.0f, 3.0f, 4.0f);
     float theta1, theta2;
-    TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_kinematics_inverse(&limb, (brace_point_t){0.0f, 5.0f},
-                                                             BRACE_KNEE_UP, &theta1, &theta2));
+    TEST_ASSERT_EQUAL_INT(
+        BRACE_OK, brace_kinematics_inverse(&limb, (brace_point_t){0.0f, 5.0f}, BRACE_KNEE_UP, &theta1, &theta2));
     ASSERT_CLOSE(PI / 2.0, theta2, 1e-6);
     ASSERT_CLOSE(PI / 2.0 + asin(0.8), theta1, 1e-6);
-    TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_kinematics_inverse_polar(&limb, (brace_polar_t){5.0f, 0.0f},
-                                                                   BRACE_KNEE_DOWN, &theta1, &theta2));
+    TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_kinematics_inverse_polar(&limb, (brace_polar_t){5.0f, 0.0f}, BRACE_KNEE_DOWN,
+                                                                   &theta1, &theta2));
     ASSERT_CLOSE(-PI / 2.0, theta2, 1e-6);
     ASSERT_CLOSE(-asin(0.8), theta1, 1e-6);
     /* The direction is kept within half a turn, wherever it is asked from. */
-    TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_kinematics_inverse_polar(&limb, (brace_polar_t){5.0f, 7.5f},
-                                                                   BRACE_KNEE_UP, &theta1, &theta2));
+    TEST_ASSERT_EQUAL_INT(
+        BRACE_OK, brace_kinematics_inverse_polar(&limb, (brace_polar_t){5.0f, 7.5f}, BRACE_KNEE_UP, &theta1, &theta2));
     ASSERT_CLOSE(7.5 + asin(0.8) - 2.0 * PI, theta1, 1.5e-6);
-    TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_kinematics_inverse_polar(&limb, (brace_polar_t){5.0f, 3.0f},
-                                                                   BRACE_KNEE_UP, &theta1, &theta2));
+    TEST_ASSERT_EQUAL_INT(
+        BRACE_OK, brace_kinematics_inverse_polar(&limb, (brace_polar_t){5.0f, 3.0f}, BRACE_KNEE_UP, &theta1, &theta2));
     ASSERT_CLOSE(3.0 + asin(0.8) - 2.0 * PI, theta1, 1.5e-6);
 }
 
@@ -211,8 +210,7 @@ static void nearly_straight_is_sharp(void)
         const float r_mm = 384.0f - shortfalls_mm[i]; /* exact */
         TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_kinematics_inverse_polar(&limb, (brace_polar_t){r_mm, 0.0f},
                                                                        BRACE_KNEE_UP, &theta1, &theta2));
-        const double cosine =
-            ((double)r_mm * (double)r_mm - 128.0 * 128.0 - 256.0 * 256.0) / (2.0 * 128.0 * 256.0);
+        const double cosine = ((double)r_mm * (double)r_mm - 128.0 * 128.0 - 256.0 * 256.0) / (2.0 * 128.0 * 256.0);
         const double exact = 2.0 * asin(sqrt((1.0 - cosine) / 2.0));
         ASSERT_CLOSE(exact, theta2, 6e-7 * exact);
     }
@@ -220,8 +218,7 @@ static void nearly_straight_is_sharp(void)
     float theta1, theta2;
     const float r_mm = 128.0f + 1.0f / 65536.0f;
     brace_kinematics_inverse_polar(&limb, (brace_polar_t){r_mm, 0.0f}, BRACE_KNEE_UP, &theta1, &theta2);
-    const double cosine =
-        ((double)r_mm * (double)r_mm - 128.0 * 128.0 - 256.0 * 256.0) / (2.0 * 128.0 * 256.0);
+    const double cosine = ((double)r_mm * (double)r_mm - 128.0 * 128.0 - 256.0 * 256.0) / (2.0 * 128.0 * 256.0);
     ASSERT_CLOSE(PI - 2.0 * asin(sqrt((1.0 + cosine) / 2.0)), theta2, 6e-7);
 }
 
@@ -229,8 +226,8 @@ static void equal_links_reach_the_origin(void)
 {
     const brace_limb_t limb = limb_of(0.0f, 200.0f, 200.0f);
     float theta1, theta2;
-    TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_kinematics_inverse(&limb, (brace_point_t){0.0f, 0.0f},
-                                                             BRACE_KNEE_UP, &theta1, &theta2));
+    TEST_ASSERT_EQUAL_INT(
+        BRACE_OK, brace_kinematics_inverse(&limb, (brace_point_t){0.0f, 0.0f}, BRACE_KNEE_UP, &theta1, &theta2));
     ASSERT_CLOSE(PI, theta2, 3e-7);
     TEST_ASSERT_TRUE(theta1 == 0.0f);
 }
@@ -246,8 +243,7 @@ static void spatial_is_the_plane_carried_round(void)
                 brace_pose_t pose;
                 brace_point_spatial_t tip, again;
                 brace_kinematics_forward(&limb, theta1, theta2, &pose);
-                TEST_ASSERT_EQUAL_INT(BRACE_OK,
-                                      brace_kinematics_forward_spatial(&limb, theta0, theta1, theta2, &tip));
+                TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_kinematics_forward_spatial(&limb, theta0, theta1, theta2, &tip));
                 const double out = 57.0 + (double)pose.tip.x_mm;
                 ASSERT_CLOSE(out * cos((double)theta0), tip.x_mm, 5e-7 * reach);
                 ASSERT_CLOSE(out * sin((double)theta0), tip.y_mm, 5e-7 * reach);
@@ -256,8 +252,8 @@ static void spatial_is_the_plane_carried_round(void)
                 const brace_yaw_t yaw = out >= 0.0 ? BRACE_YAW_TOWARDS : BRACE_YAW_AWAY;
                 const brace_knee_t knee = theta2 >= 0.0f ? BRACE_KNEE_UP : BRACE_KNEE_DOWN;
                 float back0, back1, back2;
-                TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_kinematics_inverse_spatial(&limb, tip, yaw, knee,
-                                                                                 &back0, &back1, &back2));
+                TEST_ASSERT_EQUAL_INT(BRACE_OK,
+                                      brace_kinematics_inverse_spatial(&limb, tip, yaw, knee, &back0, &back1, &back2));
                 brace_kinematics_forward_spatial(&limb, back0, back1, back2, &again);
                 ASSERT_CLOSE(tip.x_mm, again.x_mm, 1e-6 * reach);
                 ASSERT_CLOSE(tip.y_mm, again.y_mm, 1e-6 * reach);
@@ -278,9 +274,8 @@ static void both_yaws_reach_a_point_over_the_coxa(void)
     for (int yaw = BRACE_YAW_TOWARDS; yaw <= BRACE_YAW_AWAY; yaw++) {
         float theta0, theta1, theta2;
         brace_point_spatial_t again;
-        TEST_ASSERT_EQUAL_INT(BRACE_OK,
-                              brace_kinematics_inverse_spatial(&limb, tip, (brace_yaw_t)yaw, BRACE_KNEE_UP,
-                                                               &theta0, &theta1, &theta2));
+        TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_kinematics_inverse_spatial(&limb, tip, (brace_yaw_t)yaw, BRACE_KNEE_UP,
+                                                                         &theta0, &theta1, &theta2));
         ASSERT_CLOSE(atan2(40.0, 30.0) - (yaw == BRACE_YAW_AWAY ? PI : 0.0), theta0, 5e-7);
         brace_kinematics_forward_spatial(&limb, theta0, theta1, theta2, &again);
         ASSERT_CLOSE(30.0, again.x_mm, 2e-3);
@@ -294,9 +289,9 @@ static void yaw_is_zero_where_any_would_do(void)
     const brace_limb_t limb = paper_limb();
     for (int yaw = BRACE_YAW_TOWARDS; yaw <= BRACE_YAW_AWAY; yaw++) {
         float theta0 = 11.0f, theta1, theta2;
-        TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_kinematics_inverse_spatial(
-                                            &limb, (brace_point_spatial_t){0.0f, 0.0f, 200.0f}, (brace_yaw_t)yaw,
-                                            BRACE_KNEE_UP, &theta0, &theta1, &theta2));
+        TEST_ASSERT_EQUAL_INT(
+            BRACE_OK, brace_kinematics_inverse_spatial(&limb, (brace_point_spatial_t){0.0f, 0.0f, 200.0f},
+                                                       (brace_yaw_t)yaw, BRACE_KNEE_UP, &theta0, &theta1, &theta2));
         TEST_ASSERT_TRUE(theta0 == 0.0f);
     }
 }
@@ -304,8 +299,8 @@ static void yaw_is_zero_where_any_would_do(void)
 static void expect_unreachable(const brace_limb_t *limb, float x_mm, float z_mm)
 {
     float theta1 = 11.0f, theta2 = 12.0f;
-    TEST_ASSERT_EQUAL_INT(BRACE_E_UNREACHABLE, brace_kinematics_inverse(limb, (brace_point_t){x_mm, z_mm},
-                                                                        BRACE_KNEE_UP, &theta1, &theta2));
+    TEST_ASSERT_EQUAL_INT(BRACE_E_UNREACHABLE,
+                          brace_kinematics_inverse(limb, (brace_point_t){x_mm, z_mm}, BRACE_KNEE_UP, &theta1, &theta2));
     TEST_ASSERT_TRUE(theta1 == 11.0f && theta2 == 12.0f);
 }
 
@@ -323,8 +318,8 @@ static void unreachable_is_refused(void)
     float theta0 = 10.0f, theta1 = 11.0f, theta2 = 12.0f;
     const brace_point_spatial_t far_away = {0.0f, 600.0f, 0.0f};
     TEST_ASSERT_EQUAL_INT(BRACE_E_UNREACHABLE,
-                          brace_kinematics_inverse_spatial(&paper, far_away, BRACE_YAW_TOWARDS, BRACE_KNEE_UP,
-                                                           &theta0, &theta1, &theta2));
+                          brace_kinematics_inverse_spatial(&paper, far_away, BRACE_YAW_TOWARDS, BRACE_KNEE_UP, &theta0,
+                                                           &theta1, &theta2));
     TEST_ASSERT_TRUE(theta0 == 10.0f && theta1 == 11.0f && theta2 == 12.0f);
 }
 
@@ -332,20 +327,19 @@ static void the_edge_itself_is_reached(void)
 {
     const brace_limb_t limb = paper_limb();
     float theta1, theta2;
-    TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_kinematics_inverse(&limb, (brace_point_t){498.5f, 0.0f},
-                                                             BRACE_KNEE_UP, &theta1, &theta2));
+    TEST_ASSERT_EQUAL_INT(
+        BRACE_OK, brace_kinematics_inverse(&limb, (brace_point_t){498.5f, 0.0f}, BRACE_KNEE_UP, &theta1, &theta2));
     TEST_ASSERT_TRUE(theta1 == 0.0f && theta2 == 0.0f);
-    TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_kinematics_inverse(&limb, (brace_point_t){498.5002f, 0.0f},
-                                                             BRACE_KNEE_UP, &theta1, &theta2));
+    TEST_ASSERT_EQUAL_INT(
+        BRACE_OK, brace_kinematics_inverse(&limb, (brace_point_t){498.5002f, 0.0f}, BRACE_KNEE_UP, &theta1, &theta2));
     TEST_ASSERT_TRUE(theta2 == 0.0f);
-    TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_kinematics_inverse(&limb, (brace_point_t){128.5f, 0.0f},
-                                                             BRACE_KNEE_UP, &theta1, &theta2));
+    TEST_ASSERT_EQUAL_INT(
+        BRACE_OK, brace_kinematics_inverse(&limb, (brace_point_t){128.5f, 0.0f}, BRACE_KNEE_UP, &theta1, &theta2));
     ASSERT_CLOSE(PI, theta2, 3e-7);
     ASSERT_CLOSE(PI, fabs((double)theta1), 3e-7); /* the tibia is the longer: the femur points away */
 }
 
-static void expect_untouched_forward(const brace_limb_t *limb, float theta1, float theta2,
-                                     brace_status_t expected)
+static void expect_untouched_forward(const brace_limb_t *limb, float theta1, float theta2, brace_status_t expected)
 {
     brace_pose_t pose, before;
     memset(&pose, 0x5a, sizeof pose);
@@ -361,11 +355,11 @@ static void expect_untouched_inverse(const brace_limb_t *limb, float x_mm, float
                                      brace_status_t expected)
 {
     float theta0 = 10.0f, theta1 = 11.0f, theta2 = 12.0f;
-    TEST_ASSERT_EQUAL_INT(expected, brace_kinematics_inverse(limb, (brace_point_t){x_mm, z_mm},
-                                                             (brace_knee_t)knee, &theta1, &theta2));
-    TEST_ASSERT_EQUAL_INT(expected, brace_kinematics_inverse_spatial(
-                                        limb, (brace_point_spatial_t){x_mm, 0.0f, z_mm}, BRACE_YAW_TOWARDS,
-                                        (brace_knee_t)knee, &theta0, &theta1, &theta2));
+    TEST_ASSERT_EQUAL_INT(
+        expected, brace_kinematics_inverse(limb, (brace_point_t){x_mm, z_mm}, (brace_knee_t)knee, &theta1, &theta2));
+    TEST_ASSERT_EQUAL_INT(expected, brace_kinematics_inverse_spatial(limb, (brace_point_spatial_t){x_mm, 0.0f, z_mm},
+                                                                     BRACE_YAW_TOWARDS, (brace_knee_t)knee, &theta0,
+                                                                     &theta1, &theta2));
     TEST_ASSERT_TRUE(theta0 == 10.0f && theta1 == 11.0f && theta2 == 12.0f);
 }
 
@@ -406,22 +400,18 @@ static void bad_input_is_refused_and_touches_nothing(void)
     TEST_ASSERT_EQUAL_INT(BRACE_E_RANGE, brace_kinematics_forward_spatial(&limb, 9.0f, 0.0f, 0.0f, &tip));
     TEST_ASSERT_EQUAL_INT(BRACE_E_NULL, brace_kinematics_polar((brace_point_t){1.0f, 1.0f}, NULL));
     const brace_polar_t straight = {300.0f, 0.0f};
-    TEST_ASSERT_EQUAL_INT(BRACE_E_NULL,
-                          brace_kinematics_inverse_polar(&limb, straight, BRACE_KNEE_UP, NULL, &angle));
-    TEST_ASSERT_EQUAL_INT(BRACE_E_NULL,
-                          brace_kinematics_inverse_polar(&limb, straight, BRACE_KNEE_UP, &angle, NULL));
-    TEST_ASSERT_EQUAL_INT(BRACE_E_NULL, brace_kinematics_inverse_spatial(
-                                            &limb, tip, BRACE_YAW_AWAY, BRACE_KNEE_UP, NULL, &angle, &angle));
-    TEST_ASSERT_EQUAL_INT(
-        BRACE_E_RANGE,
-        brace_kinematics_inverse_spatial(&limb, tip, (brace_yaw_t)2, BRACE_KNEE_UP, &angle, &angle, &angle));
-    const brace_polar_t bad_polar[] = {
-        {-1.0f, 0.0f}, {300.0f, 8.0f}, {NAN, 0.0f}, {300.0f, NAN}, {3e6f, 0.0f}};
+    TEST_ASSERT_EQUAL_INT(BRACE_E_NULL, brace_kinematics_inverse_polar(&limb, straight, BRACE_KNEE_UP, NULL, &angle));
+    TEST_ASSERT_EQUAL_INT(BRACE_E_NULL, brace_kinematics_inverse_polar(&limb, straight, BRACE_KNEE_UP, &angle, NULL));
+    TEST_ASSERT_EQUAL_INT(BRACE_E_NULL, brace_kinematics_inverse_spatial(&limb, tip, BRACE_YAW_AWAY, BRACE_KNEE_UP,
+                                                                         NULL, &angle, &angle));
+    TEST_ASSERT_EQUAL_INT(BRACE_E_RANGE, brace_kinematics_inverse_spatial(&limb, tip, (brace_yaw_t)2, BRACE_KNEE_UP,
+                                                                          &angle, &angle, &angle));
+    const brace_polar_t bad_polar[] = {{-1.0f, 0.0f}, {300.0f, 8.0f}, {NAN, 0.0f}, {300.0f, NAN}, {3e6f, 0.0f}};
     const brace_status_t refusal[] = {BRACE_E_RANGE, BRACE_E_RANGE, BRACE_E_NOT_FINITE, BRACE_E_NOT_FINITE,
                                       BRACE_E_RANGE};
     for (int i = 0; i < 5; i++) {
-        TEST_ASSERT_EQUAL_INT(
-            refusal[i], brace_kinematics_inverse_polar(&limb, bad_polar[i], BRACE_KNEE_UP, &angle, &angle));
+        TEST_ASSERT_EQUAL_INT(refusal[i],
+                              brace_kinematics_inverse_polar(&limb, bad_polar[i], BRACE_KNEE_UP, &angle, &angle));
     }
     TEST_ASSERT_TRUE(angle == 7.0f && tip.x_mm == 300.0f);
 }

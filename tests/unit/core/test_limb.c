@@ -15,9 +15,7 @@ void setUp(void)
     limb = sample_limb[SAMPLE_PAPER];
 }
 
-void tearDown(void)
-{
-}
+void tearDown(void) {}
 
 static void test_limbs_that_exist(void)
 {
@@ -166,10 +164,10 @@ static void test_a_limb_is_taken_where_c_has_an_inverse_at_some_posture(void)
             is[i] = (float)(subset >> i & 1u);
         }
         all_rigid();
-        limb.link[BRACE_FEMUR] = (brace_link_t){.axial_mm_per_n = 0.3f * is[0], .bending_mm_per_n = 0.4f * is[1],
-                                                .moment_transfer_ratio = 0.8f * is[2]};
-        limb.link[BRACE_TIBIA] = (brace_link_t){.axial_mm_per_n = 0.2f * is[3], .bending_mm_per_n = 0.5f * is[4],
-                                                .tilt_rad = 0.3f * is[5]};
+        limb.link[BRACE_FEMUR] = (brace_link_t){
+            .axial_mm_per_n = 0.3f * is[0], .bending_mm_per_n = 0.4f * is[1], .moment_transfer_ratio = 0.8f * is[2]};
+        limb.link[BRACE_TIBIA] =
+            (brace_link_t){.axial_mm_per_n = 0.2f * is[3], .bending_mm_per_n = 0.5f * is[4], .tilt_rad = 0.3f * is[5]};
         limb.joint[BRACE_FEMUR].compliance_rad_per_n_mm = 1e-5f * is[6];
         limb.joint[BRACE_TIBIA].compliance_rad_per_n_mm = 2e-5f * is[7];
         limb.base = (brace_base_t){0.1f * is[8], 0.2f * is[9], 1e-5f * is[10]};

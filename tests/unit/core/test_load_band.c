@@ -6,8 +6,11 @@
 #include "unity.h"
 
 /* The MX-106 by model M5 of the published fit, and with the tolerance of a gear that is known exactly. */
-static const brace_gear_t mx106 = {.friction_n_mm = 122.4f, .per_torque_ratio = 0.4028f, .per_load_ratio = 0.1076f,
-                                   .tolerance_ratio = 0.0f, .sliding_ratio = 0.5f};
+static const brace_gear_t mx106 = {.friction_n_mm = 122.4f,
+                                   .per_torque_ratio = 0.4028f,
+                                   .per_load_ratio = 0.1076f,
+                                   .tolerance_ratio = 0.0f,
+                                   .sliding_ratio = 0.5f};
 
 void setUp(void) {}
 

@@ -70,9 +70,12 @@ static void be_row(const double *row)
     limb.coxa_mm = (float)row[0], limb.femur_mm = (float)row[1], limb.tibia_mm = (float)row[2];
     for (int i = 0; i < BRACE_LINK_COUNT; i++) {
         const double *of = row + 3 + 6 * i;
-        limb.link[i] = (brace_link_t){.axial_mm_per_n = (float)of[0], .bending_mm_per_n = (float)of[1],
-                                      .tilt_rad = (float)of[2], .lateral_mm_per_n = (float)of[3],
-                                      .torsion_rad_per_n_mm = (float)of[4], .moment_transfer_ratio = (float)of[5]};
+        limb.link[i] = (brace_link_t){.axial_mm_per_n = (float)of[0],
+                                      .bending_mm_per_n = (float)of[1],
+                                      .tilt_rad = (float)of[2],
+                                      .lateral_mm_per_n = (float)of[3],
+                                      .torsion_rad_per_n_mm = (float)of[4],
+                                      .moment_transfer_ratio = (float)of[5]};
         limb.joint[i].compliance_rad_per_n_mm = (float)row[21 + i];
     }
     limb.base = (brace_base_t){(float)row[24], (float)row[25], (float)row[26]};

@@ -71,9 +71,9 @@ static void test_rows_are_flagged_as_the_controller_does(void)
         load.tip = (brace_force_t){along_n[i], up_n[i]};
         if (brace_loaded_stiffness(&loaded, one_rad[i], two_rad[i], &load, &single) == BRACE_OK) {
             const float x_mm = single.displacement.x_mm, z_mm = single.displacement.z_mm;
-            const uint32_t wanted = single.stiffness.flags |
-                                    brace_loaded_flags(single.buckling_factor, x_mm * x_mm + z_mm * z_mm,
-                                                       185.0f + 313.5f);
+            const uint32_t wanted =
+                single.stiffness.flags |
+                brace_loaded_flags(single.buckling_factor, x_mm * x_mm + z_mm * z_mm, 185.0f + 313.5f);
             TEST_ASSERT_EQUAL_HEX32(wanted, rows[i].stiffness.flags);
             flagged += wanted != 0u, plain += wanted == 0u;
             moved_only += wanted != 0u && brace_loaded_flags(single.buckling_factor, 0.0f, 185.0f + 313.5f) == 0u &&

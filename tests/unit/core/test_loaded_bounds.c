@@ -40,7 +40,9 @@ static brace_status_t status_in_plane(bool is_fixed)
     brace_loaded_t loaded;
     brace_loaded_fixed_t fixed;
     brace_loaded_stiffness_t result;
-    const brace_load_t load = {.tip = {tip_n.x, tip_n.z}, .down = {down.x, down.z}, .hip = spring_of(BRACE_FEMUR),
+    const brace_load_t load = {.tip = {tip_n.x, tip_n.z},
+                               .down = {down.x, down.z},
+                               .hip = spring_of(BRACE_FEMUR),
                                .knee = spring_of(BRACE_TIBIA)};
     brace_loaded_collapse(&limb, &weights, &loaded);
     brace_loaded_fixed_collapse(&loaded, &fixed);
@@ -58,8 +60,11 @@ static brace_status_t status_in_space(void)
     brace_loaded_space_t loaded;
     brace_space_rest_t rest;
     brace_space_result_t result;
-    const brace_space_load_t load = {.tip_n = tip_n, .down = down, .yaw = spring_of(BRACE_COXA),
-                                     .hip = spring_of(BRACE_FEMUR), .knee = spring_of(BRACE_TIBIA)};
+    const brace_space_load_t load = {.tip_n = tip_n,
+                                     .down = down,
+                                     .yaw = spring_of(BRACE_COXA),
+                                     .hip = spring_of(BRACE_FEMUR),
+                                     .knee = spring_of(BRACE_TIBIA)};
     brace_loaded_space_collapse(&limb, &weights, &loaded);
     brace_status_t status = brace_loaded_space_settle(&loaded, theta1_rad, theta2_rad, &load, &rest);
     if (status == BRACE_OK) {
@@ -261,7 +266,9 @@ static void test_K_in_the_plane_is_what_space_has_there(void)
         const brace_k3_t k = {.xx_n_per_mm = (float)(stiff * c * c + soft * s * s),
                               .xz_n_per_mm = (float)((stiff - soft) * c * s),
                               .zz_n_per_mm = (float)(stiff * s * s + soft * c * c),
-                              .xy_n_per_mm = 0.3f, .yy_n_per_mm = 7.0f, .yz_n_per_mm = -0.2f};
+                              .xy_n_per_mm = 0.3f,
+                              .yy_n_per_mm = 7.0f,
+                              .yz_n_per_mm = -0.2f};
         brace_stiffness_t plane;
         TEST_ASSERT_EQUAL(BRACE_OK, brace_loaded_space_in_plane(&k, &plane));
         TEST_ASSERT_EQUAL_FLOAT(k.xx_n_per_mm, plane.k_xx_n_per_mm);

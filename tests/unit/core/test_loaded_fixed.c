@@ -290,8 +290,8 @@ static void test_any_input(void)
         TEST_ASSERT_TRUE(is.stiffness.lambda_min_n_per_mm > 0.0f && isfinite(is.stiffness.lambda_max_n_per_mm));
         TEST_ASSERT_TRUE(is.buckling_factor > 0.0f);
         brace_loaded_collapse(&limb, &weights, &loaded);
-        if (brace_loaded_stiffness(&loaded, theta1, theta2, &load, &want) == BRACE_OK &&
-            want.stiffness.flags == 0u && is.stiffness.flags == 0u && want.buckling_factor >= 2.0f) {
+        if (brace_loaded_stiffness(&loaded, theta1, theta2, &load, &want) == BRACE_OK && want.stiffness.flags == 0u &&
+            is.stiffness.flags == 0u && want.buckling_factor >= 2.0f) {
             compared++;
             const float off = 5e-3f * want.stiffness.lambda_max_n_per_mm;
             TEST_ASSERT_FLOAT_WITHIN(off, want.stiffness.k_xx_n_per_mm, is.stiffness.k_xx_n_per_mm);
@@ -319,11 +319,10 @@ static void any_soft_limb(void)
     limb.femur_mm = femur * reach_mm, limb.tibia_mm = reach_mm - limb.femur_mm;
     for (int i = BRACE_FEMUR; i <= BRACE_TIBIA; i++) {
         const float length_mm = i == BRACE_FEMUR ? limb.femur_mm : limb.tibia_mm;
-        limb.link[i] = (brace_link_t){
-            .axial_mm_per_n = any_size(-6.0f, -0.7f) * length_unit_mm / force_unit_n,
-            .bending_mm_per_n = any_turn() * length_mm * length_mm / (1.5f * moment_n_mm),
-            .tilt_rad = any(0.0f, 1.0f) < 0.5f ? 0.0f : any(-0.3f, 0.3f),
-            .moment_transfer_ratio = any(0.0f, 1.0f) < 0.7f ? 1.0f : any(0.0f, 1.0f)};
+        limb.link[i] = (brace_link_t){.axial_mm_per_n = any_size(-6.0f, -0.7f) * length_unit_mm / force_unit_n,
+                                      .bending_mm_per_n = any_turn() * length_mm * length_mm / (1.5f * moment_n_mm),
+                                      .tilt_rad = any(0.0f, 1.0f) < 0.5f ? 0.0f : any(-0.3f, 0.3f),
+                                      .moment_transfer_ratio = any(0.0f, 1.0f) < 0.7f ? 1.0f : any(0.0f, 1.0f)};
         limb.joint[i].compliance_rad_per_n_mm = any_turn() / moment_n_mm;
     }
     limb.base = (brace_base_t){1e-3f, 1e-3f, any_size(-6.0f, 0.0f) / moment_n_mm};
@@ -338,8 +337,8 @@ static void any_press(float theta1_rad, float theta2_rad)
     const float direction = any(0.0f, 1.0f) < 0.7f ? atan2f(-z, -x) + any(-0.3f, 0.3f) : any(-3.2f, 3.2f);
     const float force_n = any(0.3f, 0.97f) * force_unit_n, most_n = any(0.0f, 1.0f) < 0.7f ? 0.0f : 1.0f;
     load.tip = (brace_force_t){force_n * cosf(direction), force_n * sinf(direction)};
-    weights = (brace_gravity_t){
-        .femur_n = any(0.0f, most_n), .knee_n = any(0.0f, most_n), .tibia_n = any(0.0f, most_n)};
+    weights =
+        (brace_gravity_t){.femur_n = any(0.0f, most_n), .knee_n = any(0.0f, most_n), .tibia_n = any(0.0f, most_n)};
 }
 
 /* Where the random numbers of rare limbs begin: those that find their equilibrium and are too soft there, and those

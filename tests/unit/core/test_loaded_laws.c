@@ -256,9 +256,9 @@ static void test_limbs_of_two_hinges(void)
             continue;
         }
         told++;
-        const hinged_t h = hinged((double)limb.joint[BRACE_FEMUR].compliance_rad_per_n_mm,
-                                  (double)limb.joint[BRACE_TIBIA].compliance_rad_per_n_mm, (double)load.tip.x_n,
-                                  (double)load.tip.z_n);
+        const hinged_t h =
+            hinged((double)limb.joint[BRACE_FEMUR].compliance_rad_per_n_mm,
+                   (double)limb.joint[BRACE_TIBIA].compliance_rad_per_n_mm, (double)load.tip.x_n, (double)load.tip.z_n);
         const double turned = fabs(h.turn[0]) + fabs(h.turn[1]), left = 0.125 * pow(turned, 4.0) + 1e-6;
         const double left_mm = left * (double)(limb.femur_mm + limb.tibia_mm);
         TEST_ASSERT_DOUBLE_WITHIN(left, h.turn[0], (double)r.hip_turn_rad);

@@ -126,11 +126,16 @@ static brace_vec_t numbers(fixed_vec_t words, int format)
 /* The same link in floats, in the integers' units. */
 static link_t floats_of(const fixed_link_t *link)
 {
-    return (link_t){.to_beam_mm = numbers(link->to_beam, 28), .beam_mm = numbers(link->beam, 28),
-                    .rigid_mm = numbers(link->rigid, 28), .root_root = numbers(link->root_root, 30),
-                    .end_root = numbers(link->end_root, 30), .end_mm_per_n = number(link->end_q30, 30),
-                    .bend_rad_per_n_mm = number(link->bend, 29), .beyond_n = numbers(link->beyond, 30),
-                    .own_n = numbers(link->own, 30), .on_rigid_n = numbers(link->on_rigid, 30)};
+    return (link_t){.to_beam_mm = numbers(link->to_beam, 28),
+                    .beam_mm = numbers(link->beam, 28),
+                    .rigid_mm = numbers(link->rigid, 28),
+                    .root_root = numbers(link->root_root, 30),
+                    .end_root = numbers(link->end_root, 30),
+                    .end_mm_per_n = number(link->end_q30, 30),
+                    .bend_rad_per_n_mm = number(link->bend, 29),
+                    .beyond_n = numbers(link->beyond, 30),
+                    .own_n = numbers(link->own, 30),
+                    .on_rigid_n = numbers(link->on_rigid, 30)};
 }
 
 static void expect_matrix(const matrix_t *wanted, const fixed_matrix_t *is)

@@ -341,10 +341,10 @@ static void test_two_springs_of_a_link_become_one(void)
         limb.link[BRACE_FEMUR].bending_mm_per_n = 0.06f, limb.link[BRACE_FEMUR].lateral_mm_per_n = 0.02f;
         brace_loaded_space_collapse(&limb, &weights, &loaded);
         const brace_space_link_t *femur = &loaded.femur;
-        const double told[2][3] = {{(double)femur->across_mm_per_n, (double)femur->across_spread_per_n_mm,
-                                    (double)femur->bend_rad_per_n_mm},
-                                   {(double)femur->sideways_mm_per_n, (double)femur->sideways_spread_per_n_mm,
-                                    (double)femur->sideways_rad_per_n_mm}};
+        const double told[2][3] = {
+            {(double)femur->across_mm_per_n, (double)femur->across_spread_per_n_mm, (double)femur->bend_rad_per_n_mm},
+            {(double)femur->sideways_mm_per_n, (double)femur->sideways_spread_per_n_mm,
+             (double)femur->sideways_rad_per_n_mm}};
         for (int way = 0; way < 2; way++) {
             const double b = way == 0 ? 0.06 : 0.02, p = m * b / 4.0, q = (1.0 - m) * b;
             TEST_ASSERT_DOUBLE_WITHIN(1e-6 * b, p + q, told[way][0]);

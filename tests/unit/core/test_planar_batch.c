@@ -19,8 +19,7 @@ static const brace_stiffness_soa_t out = {column[0], column[1], column[2], colum
 
 static brace_stiffness_t row(int i)
 {
-    return (brace_stiffness_t){
-        column[0][i], column[1][i], column[2][i], column[3][i], column[4][i], column[5][i], 0};
+    return (brace_stiffness_t){column[0][i], column[1][i], column[2][i], column[3][i], column[4][i], column[5][i], 0};
 }
 
 void setUp(void)
@@ -32,9 +31,7 @@ void setUp(void)
     memset(column, 0x5a, sizeof column);
 }
 
-void tearDown(void)
-{
-}
+void tearDown(void) {}
 
 static void test_every_sample_over_the_workspace(void)
 {
@@ -44,8 +41,7 @@ static void test_every_sample_over_the_workspace(void)
         TEST_ASSERT_EQUAL(0, brace_planar_batch(&planar, COUNT, theta1, theta2, &out));
         for (int i = 0; i < COUNT; i++) {
             const brace_stiffness_t k = row(i);
-            const reference_planar_t r =
-                reference_planar(&sample_limb[sample], (double)theta1[i], (double)theta2[i]);
+            const reference_planar_t r = reference_planar(&sample_limb[sample], (double)theta1[i], (double)theta2[i]);
             TEST_ASSERT_TRUE(reference_error(&r, &k) < ERROR_LIMIT);
             TEST_ASSERT_TRUE(reference_axis_error(&r, &k) < AXIS_LIMIT_RAD);
         }
@@ -103,8 +99,7 @@ static void test_ends_of_the_range_are_angles(void)
     TEST_ASSERT_EQUAL(0, brace_planar_batch(&planar, 4, first, second, &out));
     for (int i = 0; i < 4; i++) {
         const brace_stiffness_t k = row(i);
-        const reference_planar_t r =
-            reference_planar(&sample_limb[SAMPLE_BEAM], (double)first[i], (double)second[i]);
+        const reference_planar_t r = reference_planar(&sample_limb[SAMPLE_BEAM], (double)first[i], (double)second[i]);
         TEST_ASSERT_TRUE(reference_error(&r, &k) < ERROR_LIMIT);
     }
 }

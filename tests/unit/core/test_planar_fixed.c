@@ -42,9 +42,7 @@ void setUp(void)
     memset(&fixed, 0, sizeof fixed);
 }
 
-void tearDown(void)
-{
-}
+void tearDown(void) {}
 
 static void test_check_value_of_the_physics_page(void)
 {
@@ -65,8 +63,7 @@ static void test_every_sample_over_the_workspace(void)
             for (int j = -24; j <= 24; j++) {
                 const int32_t theta1 = q28(PI * i / 12.0), theta2 = q28(PI * j / 24.0);
                 const brace_stiffness_t k = stiffness_at(theta1, theta2);
-                const reference_planar_t r =
-                    reference_planar(&sample_limb[sample], theta1 / Q28, theta2 / Q28);
+                const reference_planar_t r = reference_planar(&sample_limb[sample], theta1 / Q28, theta2 / Q28);
                 TEST_ASSERT_TRUE(reference_error(&r, &k) < ERROR_LIMIT);
                 TEST_ASSERT_TRUE(reference_axis_error(&r, &k) < AXIS_LIMIT_RAD);
             }
@@ -104,8 +101,7 @@ static void test_close_to_straight_and_folded(void)
             const int32_t near[4] = {1 << bit, -(1 << bit), q28(PI) - (1 << bit), -q28(PI) + (1 << bit)};
             for (int i = 0; i < 4; i++) {
                 const brace_stiffness_t k = stiffness_at(q28(0.3), near[i]);
-                const reference_planar_t r =
-                    reference_planar(&sample_limb[sample], q28(0.3) / Q28, near[i] / Q28);
+                const reference_planar_t r = reference_planar(&sample_limb[sample], q28(0.3) / Q28, near[i] / Q28);
                 TEST_ASSERT_TRUE(reference_error(&r, &k) < ERROR_LIMIT);
             }
         }
@@ -119,8 +115,7 @@ static void test_every_word_is_an_angle(void)
     for (int i = 0; i < 6; i++) {
         for (int j = 0; j < 6; j++) {
             const brace_stiffness_t k = stiffness_at(word[i], word[j]);
-            const reference_planar_t r =
-                reference_planar(&sample_limb[SAMPLE_TILTED], word[i] / Q28, word[j] / Q28);
+            const reference_planar_t r = reference_planar(&sample_limb[SAMPLE_TILTED], word[i] / Q28, word[j] / Q28);
             TEST_ASSERT_TRUE(reference_error(&r, &k) < ERROR_LIMIT);
         }
     }

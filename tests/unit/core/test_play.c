@@ -9,8 +9,8 @@ void setUp(void) {}
 
 void tearDown(void) {}
 
-static const brace_play_joint_t dry = {.coulomb_n_mm = 100.0f, .coulomb_per_load_ratio = 0.1f, .noise_n = 0.05f,
-                                       .gain_rel = 0.005f};
+static const brace_play_joint_t dry = {
+    .coulomb_n_mm = 100.0f, .coulomb_per_load_ratio = 0.1f, .noise_n = 0.05f, .gain_rel = 0.005f};
 
 /* A load of 1,000 N mm may be off by friction (100 + 0.1 * 1000) / 0.9, noise 6 * 0.05 * 300, trust 0.05 * 1000. */
 static void test_the_load_may_be_off_by_friction_noise_and_trust(void)
@@ -51,12 +51,21 @@ static void test_a_named_side_counts_where_the_load_holds_the_same(void)
 
 static brace_backlash_t watched(void)
 {
-    const brace_backlash_params_t params = {
-        .tick_us = 1000, .gap_rad = 0.004f, .friction_n_mm = 200.0f, .friction_tolerance_ratio = 0.5f,
-        .inertia_n_mm_s2_per_rad = 20.0f, .torque_range_n_mm = 8000.0f, .torque_noise_n_mm = 0.0f,
-        .torque_bias_n_mm = 80.0f, .angle_step_rad = 2e-5f,
-        .takeup = {.torque_max_n_mm = 4000.0f, .travel_max_rad = 0.1f, .reach_max_rad = 0.3f, .rate_rad_per_s = 0.1f,
-                   .time_max_us = 8000000u, .verify_us = 100000u}};
+    const brace_backlash_params_t params = {.tick_us = 1000,
+                                            .gap_rad = 0.004f,
+                                            .friction_n_mm = 200.0f,
+                                            .friction_tolerance_ratio = 0.5f,
+                                            .inertia_n_mm_s2_per_rad = 20.0f,
+                                            .torque_range_n_mm = 8000.0f,
+                                            .torque_noise_n_mm = 0.0f,
+                                            .torque_bias_n_mm = 80.0f,
+                                            .angle_step_rad = 2e-5f,
+                                            .takeup = {.torque_max_n_mm = 4000.0f,
+                                                       .travel_max_rad = 0.1f,
+                                                       .reach_max_rad = 0.3f,
+                                                       .rate_rad_per_s = 0.1f,
+                                                       .time_max_us = 8000000u,
+                                                       .verify_us = 100000u}};
     brace_backlash_t machine;
     TEST_ASSERT_EQUAL(BRACE_OK, brace_backlash_init(&machine, &params));
     return machine;
@@ -81,8 +90,10 @@ static void test_at_rest_is_where_ticks_end(void)
         const float load_n_mm = 10.0f * (float)i + 1.0f;
         for (int expected = 0; expected < 2; expected++) {
             brace_backlash_t machine = watched();
-            brace_backlash_sample_t sample = {.torque_n_mm = load_n_mm, .load_is_expected = expected != 0,
-                                              .expected_n_mm = load_n_mm, .expected_off_n_mm = 150.0f};
+            brace_backlash_sample_t sample = {.torque_n_mm = load_n_mm,
+                                              .load_is_expected = expected != 0,
+                                              .expected_n_mm = load_n_mm,
+                                              .expected_off_n_mm = 150.0f};
             int flank = 9;
             bool is_proven = false;
             TEST_ASSERT_EQUAL(BRACE_OK, brace_backlash_at_rest(&machine, &sample, &flank, &is_proven));

@@ -6,11 +6,7 @@
 #include "close.h"
 #include "noise.h"
 
-enum {
-    LS = BRACE_SLOPE_LEAST_SQUARES,
-    RATIOS = BRACE_SLOPE_MEAN_OF_RATIOS,
-    FREE = BRACE_SLOPE_FREE_INTERCEPT
-};
+enum { LS = BRACE_SLOPE_LEAST_SQUARES, RATIOS = BRACE_SLOPE_MEAN_OF_RATIOS, FREE = BRACE_SLOPE_FREE_INTERCEPT };
 enum { STEPS = 8, LONG = 1000 };
 
 void setUp(void)
@@ -28,8 +24,8 @@ static brace_slope_t started(float displacement_mm, float force_x_n, float force
 
 static void step(brace_slope_t *slope, double displacement_mm, double force_x_n, double force_z_n)
 {
-    TEST_ASSERT_EQUAL_INT(
-        BRACE_OK, brace_slope_step(slope, (float)displacement_mm, (float)force_x_n, (float)force_z_n));
+    TEST_ASSERT_EQUAL_INT(BRACE_OK,
+                          brace_slope_step(slope, (float)displacement_mm, (float)force_x_n, (float)force_z_n));
 }
 
 static brace_slope_column_t column(const brace_slope_t *slope, int method)
@@ -287,8 +283,7 @@ static void run_test(brace_slope_t *slope, double k_x, double k_z, double noise_
     *slope = started(0.5f, 1.0f, -1.0f);
     for (int i = 1; i <= STEPS; i++) {
         const double d = 0.635 * i;
-        step(slope, 0.5 + d, 1.0 + k_x * d + noise_n * noise_normal(),
-             -1.0 + k_z * d + noise_n * noise_normal());
+        step(slope, 0.5 + d, 1.0 + k_x * d + noise_n * noise_normal(), -1.0 + k_z * d + noise_n * noise_normal());
     }
 }
 
@@ -326,8 +321,7 @@ static void k_is_made_of_the_columns(void)
         const brace_slope_column_t x = column(&along_x, method), z = column(&along_z, method);
         brace_slope_stiffness_t k;
         memset(&k, 0, sizeof k);
-        TEST_ASSERT_EQUAL_INT(BRACE_OK,
-                              brace_slope_stiffness(&along_x, &along_z, (brace_slope_method_t)method, &k));
+        TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_slope_stiffness(&along_x, &along_z, (brace_slope_method_t)method, &k));
         TEST_ASSERT_TRUE(k.k_xx_n_per_mm == x.k_x_n_per_mm && k.k_zx_n_per_mm == x.k_z_n_per_mm);
         TEST_ASSERT_TRUE(k.k_xz_n_per_mm == z.k_x_n_per_mm && k.k_zz_n_per_mm == z.k_z_n_per_mm);
         TEST_ASSERT_TRUE(k.sigma_k_xx_n_per_mm == x.sigma_k_x_n_per_mm && x.sigma_k_x_n_per_mm > 0.0f);
@@ -396,10 +390,8 @@ static void half_a_measurement_gives_no_k(void)
     brace_slope_stiffness_t k, before;
     memset(&k, 0x5a, sizeof k);
     before = k;
-    TEST_ASSERT_EQUAL_INT(BRACE_E_TOO_FEW,
-                          brace_slope_stiffness(&full, &empty, BRACE_SLOPE_LEAST_SQUARES, &k));
-    TEST_ASSERT_EQUAL_INT(BRACE_E_TOO_FEW,
-                          brace_slope_stiffness(&empty, &full, BRACE_SLOPE_LEAST_SQUARES, &k));
+    TEST_ASSERT_EQUAL_INT(BRACE_E_TOO_FEW, brace_slope_stiffness(&full, &empty, BRACE_SLOPE_LEAST_SQUARES, &k));
+    TEST_ASSERT_EQUAL_INT(BRACE_E_TOO_FEW, brace_slope_stiffness(&empty, &full, BRACE_SLOPE_LEAST_SQUARES, &k));
     TEST_ASSERT_EQUAL_INT(BRACE_E_NULL, brace_slope_stiffness(&full, NULL, BRACE_SLOPE_LEAST_SQUARES, &k));
     TEST_ASSERT_EQUAL_INT(BRACE_E_NULL, brace_slope_stiffness(NULL, &full, BRACE_SLOPE_LEAST_SQUARES, &k));
     TEST_ASSERT_EQUAL_INT(BRACE_E_RANGE, brace_slope_stiffness(&full, &full, BRACE_SLOPE_METHOD_COUNT, &k));

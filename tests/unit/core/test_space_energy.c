@@ -12,8 +12,8 @@
 #include "even_limb.h"
 
 enum { OF_PART = 5, OF_END = 4, COORDINATES = BRACE_SPACE_PARTS * OF_PART + BRACE_LINK_COUNT * OF_END + 4 };
-enum { ALONG_ACROSS, ALONG_SIDEWAYS, ABOUT_X, ABOUT_Y, ABOUT_Z };    /* of a part */
-enum { END_TWIST, END_ACROSS, END_SIDEWAYS, END_STRETCH };            /* of a link's end */
+enum { ALONG_ACROSS, ALONG_SIDEWAYS, ABOUT_X, ABOUT_Y, ABOUT_Z }; /* of a part */
+enum { END_TWIST, END_ACROSS, END_SIDEWAYS, END_STRETCH }; /* of a link's end */
 enum { ENDS = BRACE_SPACE_PARTS * OF_PART, JOINTS = ENDS + BRACE_LINK_COUNT * OF_END, BASE = JOINTS + 3 };
 
 static brace_loaded_space_t loaded;
@@ -81,17 +81,16 @@ static void over_part(walk_t *walk, const brace_space_link_t *link, const brace_
     const double dy = q[ABOUT_Y], dz = q[ABOUT_Z];
     const double length_mm = share * (double)link->length_mm, twelfth_mm = share * (double)link->twelfth_mm;
     const double a_mm = q[ALONG_ACROSS] * length_mm, s_mm = q[ALONG_SIDEWAYS] * length_mm;
-    const vec_t chord = {
-        (double)part->chord_mm.x + (double)part->by_bend_mm.x * dz + (double)part->by_sideways_mm * dy +
-            share * (double)link->bow_mm.x * dz * dz - 0.5 * twelfth_mm * dy * dy + a_mm * (double)link->across.x,
-        (double)part->chord_mm.y + (double)part->by_bend_mm.z * dz + share * (double)link->bow_mm.z * dz * dz +
-            a_mm * (double)link->across.z,
-        (double)part->chord_mm.z + s_mm};
-    const vec_t half = {0.5 * (double)part->chord_mm.x, 0.5 * (double)part->chord_mm.y,
-                        0.5 * (double)part->chord_mm.z};
+    const vec_t chord = {(double)part->chord_mm.x + (double)part->by_bend_mm.x * dz +
+                             (double)part->by_sideways_mm * dy + share * (double)link->bow_mm.x * dz * dz -
+                             0.5 * twelfth_mm * dy * dy + a_mm * (double)link->across.x,
+                         (double)part->chord_mm.y + (double)part->by_bend_mm.z * dz +
+                             share * (double)link->bow_mm.z * dz * dz + a_mm * (double)link->across.z,
+                         (double)part->chord_mm.z + s_mm};
+    const vec_t half = {0.5 * (double)part->chord_mm.x, 0.5 * (double)part->chord_mm.y, 0.5 * (double)part->chord_mm.z};
     const double curl_y = (double)part->across_curl, curl_z = (double)part->sideways_curl;
-    const double curls = (curl_y + q[ALONG_ACROSS]) * (y + dy) - curl_y * y +
-                         (curl_z + q[ALONG_SIDEWAYS]) * (z + dz) - curl_z * z; /* more than the shape has */
+    const double curls = (curl_y + q[ALONG_ACROSS]) * (y + dy) - curl_y * y + (curl_z + q[ALONG_SIDEWAYS]) * (z + dz) -
+                         curl_z * z; /* more than the shape has */
     turn(walk, 2, cos(0.5 * dz), sin(0.5 * dz));
     turn_as(walk, 1, part->about_y, 0.5 * dy);
     walk->work_n_mm += dot(moved(walk, half), rest.down) * share * (double)link->weight_n;
@@ -105,10 +104,9 @@ static void over_part(walk_t *walk, const brace_space_link_t *link, const brace_
 static void over_end(walk_t *walk, const brace_space_link_t *link, brace_vec3_t end_mm, const double q[OF_END])
 {
     const double across = q[END_ACROSS], along = q[END_STRETCH];
-    const vec_t by = {
-        (double)end_mm.x + across * (double)link->across.x + along * (double)link->stretch_root.x,
-        (double)end_mm.y + across * (double)link->across.z + along * (double)link->stretch_root.z,
-        (double)end_mm.z + q[END_SIDEWAYS]};
+    const vec_t by = {(double)end_mm.x + across * (double)link->across.x + along * (double)link->stretch_root.x,
+                      (double)end_mm.y + across * (double)link->across.z + along * (double)link->stretch_root.z,
+                      (double)end_mm.z + q[END_SIDEWAYS]};
     walk->at = moved(walk, by);
     turn(walk, 0, cos(q[END_TWIST]), sin(q[END_TWIST]));
 }

@@ -52,26 +52,20 @@ static void assert_right(const brace_limb_t *limb, float theta0, float theta1, f
         }
         TEST_ASSERT_TRUE(fabs(off) < ERROR_LIMIT * most);
     }
-    TEST_ASSERT_TRUE(cos((double)theta0) * (double)k.stiff_axis[0] +
-                         sin((double)theta0) * (double)k.stiff_axis[1] >
+    TEST_ASSERT_TRUE(cos((double)theta0) * (double)k.stiff_axis[0] + sin((double)theta0) * (double)k.stiff_axis[1] >
                      -1e-6);
     TEST_ASSERT_TRUE(low > 0.0 && low <= middle && middle <= most);
     TEST_ASSERT_TRUE(fabs((low + middle + most) / (r.k[0][0] + r.k[1][1] + r.k[2][2]) - 1.0) < ERROR_LIMIT);
-    TEST_ASSERT_TRUE(fabs((1 / low + 1 / middle + 1 / most) / (r.c[0][0] + r.c[1][1] + r.c[2][2]) - 1.0) <
-                     ERROR_LIMIT);
+    TEST_ASSERT_TRUE(fabs((1 / low + 1 / middle + 1 / most) / (r.c[0][0] + r.c[1][1] + r.c[2][2]) - 1.0) < ERROR_LIMIT);
     TEST_ASSERT_TRUE(fabs(low * middle * most * r.det_c - 1.0) < 2.0 * ERROR_LIMIT);
     const double length = (double)(k.stiff_axis[0] * k.stiff_axis[0] + k.stiff_axis[1] * k.stiff_axis[1] +
                                    k.stiff_axis[2] * k.stiff_axis[2]);
     TEST_ASSERT_DOUBLE_WITHIN(1e-6, 1.0, length);
 }
 
-void setUp(void)
-{
-}
+void setUp(void) {}
 
-void tearDown(void)
-{
-}
+void tearDown(void) {}
 
 static void test_every_sample_over_the_workspace(void)
 {
@@ -134,8 +128,7 @@ static void test_yaw_turns_k_and_leaves_the_eigenvalues(void)
     matrix_of(&flat, m);
     for (int i = -5; i <= 5; i++) {
         const float yaw = 0.7f * (float)i;
-        const double c = cos((double)yaw), s = sin((double)yaw),
-                     turn[3][3] = {{c, -s, 0}, {s, c, 0}, {0, 0, 1}};
+        const double c = cos((double)yaw), s = sin((double)yaw), turn[3][3] = {{c, -s, 0}, {s, c, 0}, {0, 0, 1}};
         const brace_stiffness_spatial_t k = stiffness_at(yaw, 0.8f, 1.3f);
         matrix_of(&k, turned);
         TEST_ASSERT_EQUAL_MEMORY(flat.lambda_n_per_mm, k.lambda_n_per_mm, sizeof k.lambda_n_per_mm);
@@ -180,8 +173,7 @@ static void test_angles_that_are_none_are_refused_and_nothing_touched(void)
         const float wide = 8.0f, none = NAN, infinite = INFINITY;
         assert_refused(BRACE_E_RANGE, wide * bad[0], -wide * bad[1], wide * bad[2]);
         assert_refused(BRACE_E_NOT_FINITE, i == 0 ? none : 1, i == 1 ? none : 1, i == 2 ? none : 1);
-        assert_refused(BRACE_E_NOT_FINITE, i == 0 ? infinite : 1, i == 1 ? -infinite : 1,
-                       i == 2 ? infinite : 1);
+        assert_refused(BRACE_E_NOT_FINITE, i == 0 ? infinite : 1, i == 1 ? -infinite : 1, i == 2 ? infinite : 1);
     }
     (void)stiffness_at(7.9f, -7.9f, 7.9f);
 }
@@ -313,8 +305,13 @@ static void test_singular_parts_are_carried_round_too(void)
 {
     const float along = 0.6f, yaw = 0.9f, k_along = 7.0f;
     const float u[3] = {cosf(along) * cosf(yaw), cosf(along) * sinf(yaw), sinf(along)};
-    const brace_stiffness_t plane = {k_along * cosf(along) * cosf(along), k_along * cosf(along) * sinf(along),
-                                     k_along * sinf(along) * sinf(along), 0.0f, k_along, along, BRACE_FLAG_GAP_OPEN};
+    const brace_stiffness_t plane = {k_along * cosf(along) * cosf(along),
+                                     k_along * cosf(along) * sinf(along),
+                                     k_along * sinf(along) * sinf(along),
+                                     0.0f,
+                                     k_along,
+                                     along,
+                                     BRACE_FLAG_GAP_OPEN};
     brace_stiffness_spatial_t k;
     TEST_ASSERT_EQUAL(BRACE_OK, brace_spatial_turn(yaw, &plane, 0.0f, &k));
     TEST_ASSERT_EQUAL(BRACE_FLAG_GAP_OPEN, k.flags);

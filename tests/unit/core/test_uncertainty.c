@@ -15,27 +15,7 @@ void setUp(void)
 void tearDown(void) {}
 
 /* What is uncertain, then what is not. */
-enum {
-    L1,
-    L2,
-    TH1,
-    TH2,
-    A1,
-    B1,
-    A2,
-    B2,
-    S1,
-    S2,
-    BX,
-    BZ,
-    BR,
-    GAIN,
-    CAUSES,
-    TILT1 = CAUSES,
-    TILT2,
-    MOMENT,
-    FACTS
-};
+enum { L1, L2, TH1, TH2, A1, B1, A2, B2, S1, S2, BX, BZ, BR, GAIN, CAUSES, TILT1 = CAUSES, TILT2, MOMENT, FACTS };
 
 /* K's entries, its eigenvalues and its axis. */
 enum { XX, XZ, ZZ, LOW, HIGH, AXIS, VALUES };
@@ -80,8 +60,7 @@ typedef struct {
 
 static const case_t cases[] = {
     /* the paper's limb, ellipsoids and springs */
-    {{0.5, 0.003, 0.05, 0.005},
-     {185.0, 313.5, 0, 0, 0.001, 0.06, 0.002, 0.25, 1e-5, 1.6e-5, 0, 0, 0, 1, 0, 0, 0}},
+    {{0.5, 0.003, 0.05, 0.005}, {185.0, 313.5, 0, 0, 0.001, 0.06, 0.002, 0.25, 1e-5, 1.6e-5, 0, 0, 0, 1, 0, 0, 0}},
     /* with everything on */
     {{0.5, 0.003, 0.05, 0.005},
      {185.0, 313.5, 0, 0, 0.004, 0.06, 0.002, 0.25, 1e-5, 1.6e-5, 0.03, 0.01, 2e-6, 1, 0.2, -0.35, 1.0}},
@@ -97,8 +76,7 @@ static const case_t cases[] = {
     /* equal links, ellipsoids only, slender */
     {{0.2, 0.001, 0.02, 0.001}, {200.0, 200.0, 0, 0, 1e-4, 0.1, 1e-4, 0.1, 0, 0, 0, 0, 0, 1, 0, 0, 0}},
     /* springs only, on a stub of structure */
-    {{0.5, 0.003, 0.05, 0},
-     {250.0, 150.0, 0, 0, 1e-4, 1e-3, 1e-4, 1e-3, 8e-5, 5e-5, 0, 0, 0, 1, 0.1, 0.1, 0}},
+    {{0.5, 0.003, 0.05, 0}, {250.0, 150.0, 0, 0, 1e-4, 1e-3, 1e-4, 1e-3, 8e-5, 5e-5, 0, 0, 0, 1, 0.1, 0.1, 0}},
     /* beams on a yielding base */
     {{0.5, 0.003, 0.05, 0}, {120.0, 260.0, 0, 0, 1e-3, 0.05, 1e-3, 0.4, 0, 0, 0.02, 0.2, 0, 1, 0, 0, 1.0}},
 };
@@ -210,13 +188,12 @@ static void matches_differences_of_k(void)
                 first_order(&cases[i], at, expected);
                 const brace_stiffness_t stiffness = stiffness_from(k);
                 brace_stiffness_sigma_t sigma;
-                TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_uncertainty_stiffness(
-                                                    &limb, (float)theta1, (float)theta2, &stiffness, &sigma));
+                TEST_ASSERT_EQUAL_INT(
+                    BRACE_OK, brace_uncertainty_stiffness(&limb, (float)theta1, (float)theta2, &stiffness, &sigma));
                 const double slender = sqrt(k[HIGH] / k[LOW]);
                 const double relative = 3e-6 + 5e-7 * slender;
                 const double low = relative * (expected[LOW] + k[LOW] * geometry_scale(&cases[i]));
-                const double high =
-                    relative * (expected[HIGH] + k[HIGH] * slender * geometry_scale(&cases[i]));
+                const double high = relative * (expected[HIGH] + k[HIGH] * slender * geometry_scale(&cases[i]));
                 ASSERT_CLOSE(expected[LOW], sigma.lambda_min_n_per_mm, low);
                 ASSERT_CLOSE(expected[HIGH], sigma.lambda_max_n_per_mm, high);
                 ASSERT_CLOSE(expected[XX], sigma.k_xx_n_per_mm, low + high);
@@ -259,9 +236,8 @@ static void matches_the_scatter_of_random_limbs(void)
     const brace_stiffness_t stiffness = stiffness_from(k);
     brace_stiffness_sigma_t sigma;
     TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_uncertainty_stiffness(&limb, 1.0f, 1.4f, &stiffness, &sigma));
-    const float claimed[VALUES] = {sigma.k_xx_n_per_mm,       sigma.k_xz_n_per_mm,
-                                   sigma.k_zz_n_per_mm,       sigma.lambda_min_n_per_mm,
-                                   sigma.lambda_max_n_per_mm, sigma.stiff_axis_rad};
+    const float claimed[VALUES] = {sigma.k_xx_n_per_mm,       sigma.k_xz_n_per_mm,       sigma.k_zz_n_per_mm,
+                                   sigma.lambda_min_n_per_mm, sigma.lambda_max_n_per_mm, sigma.stiff_axis_rad};
     for (int v = 0; v < VALUES; v++) {
         const double scatter = sqrt((squares[v] - sum[v] * sum[v] / DRAWS) / DRAWS);
         ASSERT_CLOSE(1.0, (double)claimed[v] / scatter, 0.06);
@@ -276,8 +252,7 @@ static void a_limb_known_exactly_has_no_sigma(void)
     const brace_stiffness_t stiffness = {4.0f, -0.6f, 0.4f, 0.3f, 4.1f, -0.16f, BRACE_FLAG_UNCALIBRATED};
     brace_stiffness_sigma_t sigma;
     TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_uncertainty_stiffness(&limb, 1.0f, 1.4f, &stiffness, &sigma));
-    TEST_ASSERT_TRUE(sigma.k_xx_n_per_mm == 0.0f && sigma.k_xz_n_per_mm == 0.0f &&
-                     sigma.k_zz_n_per_mm == 0.0f);
+    TEST_ASSERT_TRUE(sigma.k_xx_n_per_mm == 0.0f && sigma.k_xz_n_per_mm == 0.0f && sigma.k_zz_n_per_mm == 0.0f);
     TEST_ASSERT_TRUE(sigma.lambda_min_n_per_mm == 0.0f && sigma.lambda_max_n_per_mm == 0.0f);
     TEST_ASSERT_TRUE(sigma.stiff_axis_rad == 0.0f);
     TEST_ASSERT_EQUAL_UINT32(BRACE_FLAG_UNCALIBRATED, sigma.flags); /* K's own flags stay with it */
@@ -297,10 +272,8 @@ static void turning_the_limb_leaves_the_eigenvalues_sigmas(void)
         brace_stiffness_sigma_t sigma;
         brace_uncertainty_stiffness(&limb, (float)at[TH1], 0.9f, &stiffness, &sigma);
         first = i == 0 ? sigma : first;
-        ASSERT_CLOSE(first.lambda_min_n_per_mm, sigma.lambda_min_n_per_mm,
-                     1e-5 * (double)first.lambda_min_n_per_mm);
-        ASSERT_CLOSE(first.lambda_max_n_per_mm, sigma.lambda_max_n_per_mm,
-                     1e-5 * (double)first.lambda_max_n_per_mm);
+        ASSERT_CLOSE(first.lambda_min_n_per_mm, sigma.lambda_min_n_per_mm, 1e-5 * (double)first.lambda_min_n_per_mm);
+        ASSERT_CLOSE(first.lambda_max_n_per_mm, sigma.lambda_max_n_per_mm, 1e-5 * (double)first.lambda_max_n_per_mm);
         ASSERT_CLOSE(first.stiff_axis_rad, sigma.stiff_axis_rad, 1e-5 * (double)first.stiff_axis_rad);
     }
 }
@@ -316,8 +289,8 @@ static void a_round_stiffness_has_no_axis(void)
     TEST_ASSERT_EQUAL_UINT32(BRACE_FLAG_SATURATED, sigma.flags);
 }
 
-static void expect_refused(const brace_limb_t *limb, float theta1, float theta2,
-                           const brace_stiffness_t *stiffness, brace_status_t expected)
+static void expect_refused(const brace_limb_t *limb, float theta1, float theta2, const brace_stiffness_t *stiffness,
+                           brace_status_t expected)
 {
     brace_stiffness_sigma_t sigma, before;
     memset(&sigma, 0x5a, sizeof sigma);

@@ -37,8 +37,8 @@ static brace_load_t load_of(float x_n, float z_n)
 
 static brace_space_load_t space_load_of(float x_n, float y_n, float z_n)
 {
-    return (brace_space_load_t){{x_n, y_n, z_n}, {0.0f, 0.0f, -1.0f}, spring_of(BRACE_COXA), spring_of(BRACE_FEMUR),
-                                spring_of(BRACE_TIBIA)};
+    return (brace_space_load_t){
+        {x_n, y_n, z_n}, {0.0f, 0.0f, -1.0f}, spring_of(BRACE_COXA), spring_of(BRACE_FEMUR), spring_of(BRACE_TIBIA)};
 }
 
 /* The formula of brace/uncertainty.h is a derivative; here it is a quarter of a sigma's change, to first order the
@@ -143,8 +143,8 @@ static void test_what_has_no_K_or_is_no_limb_has_no_sigma(void)
     TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_uncertainty_loaded(&limb, &weightless, 0.4f, 1.2f, NULL, &sigma));
     TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_uncertainty_loaded(&limb, &weightless, 0.4f, 1.2f, &good, NULL));
     TEST_ASSERT_EQUAL(0, memcmp(&before, &sigma, sizeof sigma));
-    TEST_ASSERT_EQUAL(BRACE_E_RANGE, brace_uncertainty_loaded_space(&limb, &weightless, too_far_rad, &good_in_space,
-                                                                    &in_space));
+    TEST_ASSERT_EQUAL(BRACE_E_RANGE,
+                      brace_uncertainty_loaded_space(&limb, &weightless, too_far_rad, &good_in_space, &in_space));
     TEST_ASSERT_EQUAL(BRACE_E_NULL,
                       brace_uncertainty_loaded_space(&limb, &weightless, NULL, &good_in_space, &in_space));
     limb.femur_mm = 0.0f;

@@ -37,8 +37,8 @@ static void test_the_manuals_examples_of_packets(void)
 {
     static const uint8_t ping[] = {0xff, 0xff, 0xfd, 0x00, 0x01, 0x03, 0x00, 0x01, 0x19, 0x4e};
     static const uint8_t read[] = {0xff, 0xff, 0xfd, 0x00, 0x01, 0x07, 0x00, 0x02, 0x84, 0x00, 0x04, 0x00, 0x1d, 0x15};
-    static const uint8_t write[] = {0xff, 0xff, 0xfd, 0x00, 0x01, 0x09, 0x00, 0x03, 0x74, 0x00, 0x00, 0x02, 0x00, 0x00,
-                                    0xca, 0x89};
+    static const uint8_t write[] = {0xff, 0xff, 0xfd, 0x00, 0x01, 0x09, 0x00, 0x03,
+                                    0x74, 0x00, 0x00, 0x02, 0x00, 0x00, 0xca, 0x89};
     static const uint8_t reboot[] = {0xff, 0xff, 0xfd, 0x00, 0x01, 0x03, 0x00, 0x08, 0x2f, 0x4e};
     TEST_ASSERT_TRUE(dxl_ask_ping(&out, 1));
     TEST_ASSERT_EQUAL_UINT8_ARRAY(ping, out.bytes, sizeof ping);
@@ -231,8 +231,8 @@ static void test_up_to_three_flipped_bits_in_any_packet_of_ours_are_seen(void)
     for (uint32_t bit = 0; bit < BITS; bit++) {
         flip(bytes, bit);
         /* The last two bytes are the CRC itself, low byte first. */
-        of_bit[bit] = (uint16_t)(dxl_crc(0, bytes, sizeof bytes - 2u) ^ (bytes[sizeof bytes - 2u] |
-                                 (uint32_t)bytes[sizeof bytes - 1u] << 8));
+        of_bit[bit] = (uint16_t)(dxl_crc(0, bytes, sizeof bytes - 2u) ^
+                                 (bytes[sizeof bytes - 2u] | (uint32_t)bytes[sizeof bytes - 1u] << 8));
         flip(bytes, bit);
         TEST_ASSERT_NOT_EQUAL(0, of_bit[bit]);
         TEST_ASSERT_EQUAL(0, is_one[of_bit[bit] / 8u] >> (of_bit[bit] % 8u) & 1u); /* two would cancel */

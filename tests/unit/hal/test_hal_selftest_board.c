@@ -48,10 +48,8 @@ static void open_lying(int lie)
 static void each_lie_is_named(void)
 {
     static const named_t named[] = {
-        {SERIAL_OVERRUNS, "serial(slcan)", "room given"},
-        {SERIAL_PORT_UNCHECKED, "serial_setup", "port 4"},
-        {SERIAL_REFUSES, "serial(modbus)", "refused"},
-        {RESET_CAUSE_UNKNOWN, "reset_cause", "does not have"},
+        {SERIAL_OVERRUNS, "serial(slcan)", "room given"}, {SERIAL_PORT_UNCHECKED, "serial_setup", "port 4"},
+        {SERIAL_REFUSES, "serial(modbus)", "refused"},    {RESET_CAUSE_UNKNOWN, "reset_cause", "does not have"},
         {CRASH_ANSWER, "crash_read", "neither 0 nor 1"},
     };
     TEST_ASSERT_EQUAL_UINT32(LIES - 1u, sizeof named / sizeof named[0]);

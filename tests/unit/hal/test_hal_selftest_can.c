@@ -2,8 +2,16 @@
 #include "selftest_door.h"
 
 enum {
-    CAN_HALF = 1, CAN_DEAF, CAN_SCRAMBLES, CAN_REORDERS, CAN_BUSY, CAN_REFUSES, CAN_TAKES_ANYTHING, CAN_BUS_OFF,
-    CAN_HEARS_ALL, LIES
+    CAN_HALF = 1,
+    CAN_DEAF,
+    CAN_SCRAMBLES,
+    CAN_REORDERS,
+    CAN_BUSY,
+    CAN_REFUSES,
+    CAN_TAKES_ANYTHING,
+    CAN_BUS_OFF,
+    CAN_HEARS_ALL,
+    LIES
 };
 
 static int32_t lying_can_setup(void *context, const brace_can_setup_t *setup)

@@ -29,10 +29,8 @@ static void open_lying(int lie)
 static void each_lie_is_named(void)
 {
     static const named_t named[] = {
-        {CLOCK_STANDS, "now_us", "stands still"},
-        {CLOCK_RUNS_BACK, "now_us", "backwards"},
-        {CLOCK_COARSE, "now_us", "too coarse"},
-        {CLOCK_FAST, "now_us", "wrong rate"},
+        {CLOCK_STANDS, "now_us", "stands still"}, {CLOCK_RUNS_BACK, "now_us", "backwards"},
+        {CLOCK_COARSE, "now_us", "too coarse"},   {CLOCK_FAST, "now_us", "wrong rate"},
         {CLOCK_SLOW, "now_us", "wrong rate"},
     };
     TEST_ASSERT_EQUAL_UINT32(LIES - 1u, sizeof named / sizeof named[0]);

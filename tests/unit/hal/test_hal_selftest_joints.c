@@ -3,9 +3,24 @@
 #include "selftest_door.h"
 
 enum {
-    JOINT_MISSING = 1, JOINT_DEVICE, JOINT_AGAIN_FOR_EVER, JOINT_NAN, JOINT_NO_ENCODER, JOINT_DEGREES, JOINT_STALE,
-    JOINT_FUTURE, JOINT_SAME_SAMPLE, JOINT_STUCK, JOINT_INDEX_UNCHECKED, COMMAND_REFUSED, COMMAND_INDEX_UNCHECKED,
-    FORCE_AGAIN_FOR_EVER, FORCE_NAN, CEILING_SPEED, CEILING_TRAVEL, LIES
+    JOINT_MISSING = 1,
+    JOINT_DEVICE,
+    JOINT_AGAIN_FOR_EVER,
+    JOINT_NAN,
+    JOINT_NO_ENCODER,
+    JOINT_DEGREES,
+    JOINT_STALE,
+    JOINT_FUTURE,
+    JOINT_SAME_SAMPLE,
+    JOINT_STUCK,
+    JOINT_INDEX_UNCHECKED,
+    COMMAND_REFUSED,
+    COMMAND_INDEX_UNCHECKED,
+    FORCE_AGAIN_FOR_EVER,
+    FORCE_NAN,
+    CEILING_SPEED,
+    CEILING_TRAVEL,
+    LIES
 };
 
 static int32_t lying_joint_read(void *context, int32_t index, brace_hal_joint_t *joint)
@@ -37,8 +52,8 @@ static int32_t lying_joint_read(void *context, int32_t index, brace_hal_joint_t 
 static int32_t lying_joint_command(void *context, int32_t index, const brace_hal_joint_command_t *command)
 {
     return world.lie == COMMAND_REFUSED           ? BRACE_HAL_E_DEVICE
-         : world.lie == COMMAND_INDEX_UNCHECKED ? BRACE_HAL_OK
-                                                : joint_command(context, index, command);
+           : world.lie == COMMAND_INDEX_UNCHECKED ? BRACE_HAL_OK
+                                                  : joint_command(context, index, command);
 }
 
 static int32_t lying_tip_force_read(void *context, float *force_x_n, float *force_z_n)

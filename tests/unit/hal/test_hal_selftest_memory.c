@@ -2,8 +2,19 @@
 #include "selftest_door.h"
 
 enum {
-    NVM_SMALL = 1, NVM_ODD_UNIT, NVM_UNIT_TOO_SMALL, NVM_UNIT_TOO_LARGE, NVM_FORGETS, NVM_ALIASES, NVM_ERASES_TO_ZERO,
-    NVM_ERASES_HALF, NVM_ERASES_BOTH, NVM_NO_BOUNDS, NVM_PROTECTED, NVM_OFF_GRID, LIES
+    NVM_SMALL = 1,
+    NVM_ODD_UNIT,
+    NVM_UNIT_TOO_SMALL,
+    NVM_UNIT_TOO_LARGE,
+    NVM_FORGETS,
+    NVM_ALIASES,
+    NVM_ERASES_TO_ZERO,
+    NVM_ERASES_HALF,
+    NVM_ERASES_BOTH,
+    NVM_NO_BOUNDS,
+    NVM_PROTECTED,
+    NVM_OFF_GRID,
+    LIES
 };
 
 static uint8_t *nvm_at(uint32_t slot, uint32_t offset)
@@ -51,7 +62,7 @@ static int32_t lying_nvm_erase(void *context, uint32_t slot)
         return BRACE_HAL_E_DEVICE;
     }
     memset(world.nvm[slot], world.lie == NVM_ERASES_TO_ZERO ? 0 : 0xff,
-        world.lie == NVM_ERASES_HALF ? SLOT_BYTES / 2u : SLOT_BYTES);
+           world.lie == NVM_ERASES_HALF ? SLOT_BYTES / 2u : SLOT_BYTES);
     if (world.lie == NVM_ERASES_BOTH) {
         memset(world.nvm[1u - slot], 0xff, SLOT_BYTES);
     }

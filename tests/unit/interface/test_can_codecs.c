@@ -11,16 +11,16 @@
 enum { MOST_BYTES = 64 };
 
 /* Packs what a frame says, unpacks that, and packs it again: the same. */
-#define ROUND(name, bytes)                                                       \
+#define ROUND(name, bytes) \
     static void round_##name(const uint8_t *any, uint8_t *first, uint8_t *again) \
-    {                                                                            \
-        brace_can_##name##_t message;                                            \
-        memset(&message, 0, sizeof message);                                     \
-        brace_can_unpack_##name(any, &message);                                  \
-        (void)brace_can_pack_##name(&message, first);                            \
-        memset(&message, 0xa5, sizeof message);                                  \
-        brace_can_unpack_##name(first, &message);                                \
-        (void)brace_can_pack_##name(&message, again);                            \
+    { \
+        brace_can_##name##_t message; \
+        memset(&message, 0, sizeof message); \
+        brace_can_unpack_##name(any, &message); \
+        (void)brace_can_pack_##name(&message, first); \
+        memset(&message, 0xa5, sizeof message); \
+        brace_can_unpack_##name(first, &message); \
+        (void)brace_can_pack_##name(&message, again); \
     }
 BRACE_CAN_FRAMES(ROUND)
 #undef ROUND
@@ -120,11 +120,11 @@ static void test_every_measured_frame_is_made_of_its_values(void)
         memcpy((uint8_t *)&other + 4u * i, &one, 4);
     }
     other.sequence = 7;
-#define MADE(ID, name, rate, coxa)                                                      \
-    {                                                                                   \
-        uint8_t of_zeros[MOST_BYTES] = {0}, of_ones[MOST_BYTES] = {0};                  \
-        brace_can_make_##name(&measured, 0.0f, of_zeros);                               \
-        brace_can_make_##name(&other, 20.0f, of_ones);                                  \
+#define MADE(ID, name, rate, coxa) \
+    { \
+        uint8_t of_zeros[MOST_BYTES] = {0}, of_ones[MOST_BYTES] = {0}; \
+        brace_can_make_##name(&measured, 0.0f, of_zeros); \
+        brace_can_make_##name(&other, 20.0f, of_ones); \
         TEST_ASSERT_NOT_EQUAL_MESSAGE(0, memcmp(of_zeros, of_ones, MOST_BYTES), #name); \
     }
     BRACE_CAN_PROCESS(MADE)

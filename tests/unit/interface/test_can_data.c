@@ -404,8 +404,14 @@ static void test_slcan_opens_answers_and_closes(void)
 
 static void test_slcan_refuses_what_is_no_command(void)
 {
-    static const char *const wrong[] = {"t60\r", "t6059\r", "t605814AA00000000000\r", "t605814AA0000000000000\r",
-                                        "t6058G4AA000000000000\r", "tFFF0\r", "x\r", "Z2\r",
+    static const char *const wrong[] = {"t60\r",
+                                        "t6059\r",
+                                        "t605814AA00000000000\r",
+                                        "t605814AA0000000000000\r",
+                                        "t6058G4AA000000000000\r",
+                                        "tFFF0\r",
+                                        "x\r",
+                                        "Z2\r",
                                         "t605814AA000000000000000000000000000000000\r"};
     without_transceiver(NODE);
     says("L\r");

@@ -166,15 +166,15 @@ static void test_zeros_are_sent_behind_code_and_part(void)
 {
     uint32_t requests = 0, parts = 0;
     char name[80];
-#define CODE(code, request)                                                               \
-    if (frame_named(#request "_request") != NULL) {                                       \
-        sends_zeros(frame_named(#request "_request"), (uint32_t)(code), 0);               \
-        requests++;                                                                       \
-    }                                                                                     \
-    for (uint32_t part = 0; part < brace_can_answer_parts[code]; part++) {                \
-        (void)snprintf(name, sizeof name, #request "_answer_%u", (unsigned)part);         \
-        sends_zeros(frame_named(name), number_of(code, part), 0);                         \
-        parts++;                                                                          \
+#define CODE(code, request) \
+    if (frame_named(#request "_request") != NULL) { \
+        sends_zeros(frame_named(#request "_request"), (uint32_t)(code), 0); \
+        requests++; \
+    } \
+    for (uint32_t part = 0; part < brace_can_answer_parts[code]; part++) { \
+        (void)snprintf(name, sizeof name, #request "_answer_%u", (unsigned)part); \
+        sends_zeros(frame_named(name), number_of(code, part), 0); \
+        parts++; \
     }
     BRACE_REQUESTS(CODE)
 #undef CODE

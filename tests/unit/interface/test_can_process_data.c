@@ -171,13 +171,13 @@ static void test_each_member_is_its_entry(void)
 {
     brace_measured_t measured;
     fill(&measured);
-#define CHECK(frame, member, entry)                                          \
-    {                                                                        \
-        brace_can_##frame##_t message;                                       \
-        uint8_t data[64];                                                    \
-        brace_can_make_##frame(&measured, AGE_MS, data);                     \
-        brace_can_unpack_##frame(data, &message);                            \
-        compare(#frame " " #member, &message.member, &measured.entry);       \
+#define CHECK(frame, member, entry) \
+    { \
+        brace_can_##frame##_t message; \
+        uint8_t data[64]; \
+        brace_can_make_##frame(&measured, AGE_MS, data); \
+        brace_can_unpack_##frame(data, &message); \
+        compare(#frame " " #member, &message.member, &measured.entry); \
     }
     REPORTED(CHECK)
 #undef CHECK
@@ -188,11 +188,11 @@ static void test_parts_carry_their_snapshot_s_number_age_and_set(void)
     brace_measured_t measured;
     uint8_t data[64];
     fill(&measured);
-#define SEQUENCE(id, frame, rate, coxa)                                  \
-    {                                                                    \
-        brace_can_##frame##_t message;                                   \
-        brace_can_make_##frame(&measured, AGE_MS, data);                 \
-        brace_can_unpack_##frame(data, &message);                        \
+#define SEQUENCE(id, frame, rate, coxa) \
+    { \
+        brace_can_##frame##_t message; \
+        brace_can_make_##frame(&measured, AGE_MS, data); \
+        brace_can_unpack_##frame(data, &message); \
         TEST_ASSERT_EQUAL_HEX32_MESSAGE(0x67, message.sequence, #frame); \
     }
     BRACE_CAN_PROCESS(SEQUENCE)
@@ -234,21 +234,23 @@ static void test_a_value_beyond_its_frame_is_flagged(void)
     brace_can_space_4_t space;
     brace_can_load_1_t load;
     brace_can_load_across_1_t across;
-    static const size_t of_a[] = {offsetof(brace_measured_t, k_xx_n_per_mm), offsetof(brace_measured_t, k_xz_n_per_mm),
-                                  offsetof(brace_measured_t, k_zz_n_per_mm),
-                                  offsetof(brace_measured_t, lambda_min_n_per_mm),
-                                  offsetof(brace_measured_t, lambda_max_n_per_mm),
-                                  offsetof(brace_measured_t, stiff_axis_rad)};
+    static const size_t of_a[] = {
+        offsetof(brace_measured_t, k_xx_n_per_mm),       offsetof(brace_measured_t, k_xz_n_per_mm),
+        offsetof(brace_measured_t, k_zz_n_per_mm),       offsetof(brace_measured_t, lambda_min_n_per_mm),
+        offsetof(brace_measured_t, lambda_max_n_per_mm), offsetof(brace_measured_t, stiff_axis_rad)};
     static const size_t of_space[] = {
-        offsetof(brace_measured_t, space_k_xx_n_per_mm), offsetof(brace_measured_t, space_k_xy_n_per_mm),
-        offsetof(brace_measured_t, space_k_xz_n_per_mm), offsetof(brace_measured_t, space_k_yy_n_per_mm),
-        offsetof(brace_measured_t, space_k_yz_n_per_mm), offsetof(brace_measured_t, space_k_zz_n_per_mm),
+        offsetof(brace_measured_t, space_k_xx_n_per_mm),    offsetof(brace_measured_t, space_k_xy_n_per_mm),
+        offsetof(brace_measured_t, space_k_xz_n_per_mm),    offsetof(brace_measured_t, space_k_yy_n_per_mm),
+        offsetof(brace_measured_t, space_k_yz_n_per_mm),    offsetof(brace_measured_t, space_k_zz_n_per_mm),
         offsetof(brace_measured_t, space_lambda_3_n_per_mm)}; /* the greatest */
-    static const size_t of_load[] = {
-        offsetof(brace_measured_t, unloaded_k_xx_n_per_mm), offsetof(brace_measured_t, unloaded_k_xz_n_per_mm),
-        offsetof(brace_measured_t, unloaded_k_zz_n_per_mm), offsetof(brace_measured_t, counted_force_x_n),
-        offsetof(brace_measured_t, counted_force_z_n), offsetof(brace_measured_t, moved_x_mm),
-        offsetof(brace_measured_t, moved_z_mm), offsetof(brace_measured_t, gravity_lean_rad)};
+    static const size_t of_load[] = {offsetof(brace_measured_t, unloaded_k_xx_n_per_mm),
+                                     offsetof(brace_measured_t, unloaded_k_xz_n_per_mm),
+                                     offsetof(brace_measured_t, unloaded_k_zz_n_per_mm),
+                                     offsetof(brace_measured_t, counted_force_x_n),
+                                     offsetof(brace_measured_t, counted_force_z_n),
+                                     offsetof(brace_measured_t, moved_x_mm),
+                                     offsetof(brace_measured_t, moved_z_mm),
+                                     offsetof(brace_measured_t, gravity_lean_rad)};
     static const size_t of_across[] = {offsetof(brace_measured_t, counted_force_y_n),
                                        offsetof(brace_measured_t, moved_y_mm),
                                        offsetof(brace_measured_t, unloaded_k_across_n_per_mm)};

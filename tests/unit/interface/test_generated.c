@@ -198,8 +198,8 @@ static void test_a_frame_carries_the_measured_values(void)
     brace_can_stiffness_a_t a;
     brace_can_stiffness_b_t b;
     brace_can_posture_t posture;
-    const brace_measured_t measured = {.sequence = 0x1234u, .play_tibia = UINT32_MAX, .parameter_crc = 0xabcdef01u,
-                                       .flags = 0x8001u};
+    const brace_measured_t measured = {
+        .sequence = 0x1234u, .play_tibia = UINT32_MAX, .parameter_crc = 0xabcdef01u, .flags = 0x8001u};
     brace_can_make_stiffness_a(&measured, 2.5f, data);
     brace_can_unpack_stiffness_a(data, &a);
     TEST_ASSERT_EQUAL_HEX32(0x34, a.sequence);
@@ -255,8 +255,9 @@ static void test_every_flag_and_every_fault_has_room(void)
 static void test_an_answer_s_frames_carry_its_fields(void)
 {
     uint8_t parts[BRACE_CAN_ANSWER_PARTS_MOST][8];
-    brace_answer_t k = {.k_at_tip_knee_up = {.k_xx_n_per_mm = 12.5f, .lambda_min_n_per_mm = NAN,
-                                             .stiff_axis_rad = -0.25f, .flags = BRACE_FLAG_STALE}};
+    brace_answer_t k = {
+        .k_at_tip_knee_up = {
+            .k_xx_n_per_mm = 12.5f, .lambda_min_n_per_mm = NAN, .stiff_axis_rad = -0.25f, .flags = BRACE_FLAG_STALE}};
     brace_can_k_at_tip_knee_up_answer_0_t first;
     brace_can_k_at_tip_knee_up_answer_1_t second;
     brace_can_k_at_tip_knee_up_answer_2_t third;
@@ -305,16 +306,26 @@ static uint32_t word_at(const void *values, uint32_t place)
 /* Which register reads as what: docs/modbus.md, and IEEE 754's quiet NaN. */
 static void test_what_nobody_has_asked_is_not_known(void)
 {
-    enum { NOT_A_NUMBER = 0x7fc00000, FLAGS = (4108 - 4096) / 2, CONTACT = (4126 - 4096) / 2,
-           KNEE = (16404 - 16384) / 2, LOADED_FLAGS = (4146 - 4096) / 2, LOADED_KNEE = (16438 - 16384) / 2,
-           STOP = (16452 - 16384) / 2, SPACE_FLAGS = (4170 - 4096) / 2, SPACE_FORCE_IS_TOLD = (4172 - 4096) / 2 };
+    enum {
+        NOT_A_NUMBER = 0x7fc00000,
+        FLAGS = (4108 - 4096) / 2,
+        CONTACT = (4126 - 4096) / 2,
+        KNEE = (16404 - 16384) / 2,
+        LOADED_FLAGS = (4146 - 4096) / 2,
+        LOADED_KNEE = (16438 - 16384) / 2,
+        STOP = (16452 - 16384) / 2,
+        SPACE_FLAGS = (4170 - 4096) / 2,
+        SPACE_FORCE_IS_TOLD = (4172 - 4096) / 2
+    };
     for (uint32_t i = 0; i < (uint32_t)BRACE_ANSWERED_COUNT; i++) {
         const bool is_whole =
             i == FLAGS || i == CONTACT || i == LOADED_FLAGS || i == SPACE_FLAGS || i == SPACE_FORCE_IS_TOLD;
         TEST_ASSERT_EQUAL_HEX32(is_whole ? UINT32_MAX : NOT_A_NUMBER, word_at(&brace_answered_unknown, i));
     }
     for (uint32_t i = 0; i < (uint32_t)BRACE_COMMANDS_COUNT; i++) {
-        TEST_ASSERT_EQUAL_HEX32(i < 6u || i >= STOP ? 0u : i == KNEE || i == LOADED_KNEE ? UINT32_MAX : NOT_A_NUMBER,
+        TEST_ASSERT_EQUAL_HEX32(i < 6u || i >= STOP             ? 0u
+                                : i == KNEE || i == LOADED_KNEE ? UINT32_MAX
+                                                                : NOT_A_NUMBER,
                                 word_at(&brace_commands_unknown, i));
     }
 }

@@ -19,9 +19,7 @@ void setUp(void)
     (void)brace_parameters_pack(&parameters, 7, block, sizeof block);
 }
 
-void tearDown(void)
-{
-}
+void tearDown(void) {}
 
 static void put_word(uint32_t at, uint32_t word)
 {

@@ -3,13 +3,9 @@
 #include "brace/status_text.h"
 #include "unity.h"
 
-void setUp(void)
-{
-}
+void setUp(void) {}
 
-void tearDown(void)
-{
-}
+void tearDown(void) {}
 
 static void test_every_status_has_a_text_of_its_own(void)
 {

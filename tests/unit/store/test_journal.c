@@ -48,8 +48,8 @@ void setUp(void)
 {
     memset(&memory, 0, sizeof memory);
     memset(memory.bytes, 0xff, sizeof memory.bytes);
-    hal = (brace_hal_t){.nvm_shape = {.slot_bytes = SLOT_BYTES, .write_bytes = 8}, .nvm_read = memory_read,
-                        .nvm_write = memory_write};
+    hal = (brace_hal_t){
+        .nvm_shape = {.slot_bytes = SLOT_BYTES, .write_bytes = 8}, .nvm_read = memory_read, .nvm_write = memory_write};
     brace_journal_open_erased(&journal, &hal, 0, IDENTITY);
 }
 

@@ -79,9 +79,7 @@ void setUp(void)
     (void)brace_store_start(&store, &hal, &parameters);
 }
 
-void tearDown(void)
-{
-}
+void tearDown(void) {}
 
 static brace_parameters_t set_of(uint32_t node_id)
 {

@@ -126,7 +126,7 @@ static void test_a_memory_that_fits(void)
     static const struct {
         uint32_t slot_bytes, write_bytes;
         bool fits;
-    } row[] = {{4096, 1, true},  {4096, 2, true},  {4096, 4, true},   {4096, 8, true},  {4095, 8, false},
+    } row[] = {{4096, 1, true},  {4096, 2, true},  {4096, 4, true},  {4096, 8, true},  {4095, 8, false},
                {3584, 8, false}, {4096, 0, false}, {4096, 3, false}, {4096, 16, false}};
     for (uint32_t i = 0; i < sizeof row / sizeof *row; i++) {
         brace_parameters_t set;

@@ -49,8 +49,8 @@ brace_client_status_t brace_client_k_at_posture(brace_client_t *client, float th
 {
     const brace_can_k_at_posture_request_t request = {.theta1_rad = theta1_rad, .theta2_rad = theta2_rad};
     brace_question_t question;
-    const uint32_t limited = brace_can_pack_k_at_posture_request(&request, question.data) + !is_number(theta1_rad) +
-                             !is_number(theta2_rad);
+    const uint32_t limited =
+        brace_can_pack_k_at_posture_request(&request, question.data) + !is_number(theta1_rad) + !is_number(theta2_rad);
     if (client->bus == NULL && limited == 0u) {
         const uint32_t values[] = {bits_of(theta1_rad), bits_of(theta2_rad)};
         return ask_modbus_for_k(client, BRACE_CLIENT_COMMAND_PLACE(asked_theta1_rad), values, 2u, timeout_ms, k);
@@ -152,8 +152,8 @@ brace_client_status_t brace_client_k_under_load_at_posture(brace_client_t *clien
     brace_question_t question = {.code = BRACE_REQUEST_K_UNDER_LOAD_AT_POSTURE};
     const uint32_t limited = brace_can_pack_k_under_load_at_posture_request(&request, question.data) +
                              !is_number(theta1_rad) + !is_number(theta2_rad);
-    return ask_under_force(client, &question, limited, BRACE_CLIENT_COMMAND_PLACE(asked_posture_force_x_n), values,
-                           4u, fx_n, fz_n, timeout_ms, k);
+    return ask_under_force(client, &question, limited, BRACE_CLIENT_COMMAND_PLACE(asked_posture_force_x_n), values, 4u,
+                           fx_n, fz_n, timeout_ms, k);
 }
 
 brace_client_status_t brace_client_k_under_load_at_tip(brace_client_t *client, float x_mm, float z_mm, bool knee_up,
@@ -168,8 +168,8 @@ brace_client_status_t brace_client_k_under_load_at_tip(brace_client_t *client, f
     const uint32_t limited = (knee_up ? brace_can_pack_k_under_load_at_tip_knee_up_request(&up, question.data)
                                       : brace_can_pack_k_under_load_at_tip_knee_down_request(&down, question.data)) +
                              !is_number(x_mm) + !is_number(z_mm);
-    return ask_under_force(client, &question, limited, BRACE_CLIENT_COMMAND_PLACE(asked_tip_force_x_n), values,
-                           5u, fx_n, fz_n, timeout_ms, k);
+    return ask_under_force(client, &question, limited, BRACE_CLIENT_COMMAND_PLACE(asked_tip_force_x_n), values, 5u,
+                           fx_n, fz_n, timeout_ms, k);
 }
 
 /* ----------------------------------------------------------------------------------------------- in space -- */
@@ -206,15 +206,14 @@ static void take_space_k(const brace_question_t *question, brace_client_loaded_s
 static brace_client_status_t fail_without_space_k(brace_client_t *client, uint64_t deadline_us)
 {
     float theta0_rad;
-    const brace_client_status_t status = brace_client_entry_f32(client, BRACE_CLIENT_ENTRY(theta0_rad),
-                                                                brace_bus_left_ms(deadline_us), &theta0_rad);
+    const brace_client_status_t status =
+        brace_client_entry_f32(client, BRACE_CLIENT_ENTRY(theta0_rad), brace_bus_left_ms(deadline_us), &theta0_rad);
     if (status != BRACE_CLIENT_OK) {
         return status;
     }
     client->refusal = is_number(theta0_rad) ? BRACE_E_SINGULAR : BRACE_E_UNSUPPORTED;
     return brace_client_fail(client, BRACE_CLIENT_E_REFUSED, "%s: unit %u has no K there: %s", client->url,
-                             (unsigned)client->unit,
-                             is_number(theta0_rad) ? BRACE_CLIENT_FOLDS : BRACE_CLIENT_NO_COXA);
+                             (unsigned)client->unit, is_number(theta0_rad) ? BRACE_CLIENT_FOLDS : BRACE_CLIENT_NO_COXA);
 }
 
 static brace_client_status_t ask_modbus_for_space_k(brace_client_t *client, const float theta_rad[3],
@@ -255,8 +254,7 @@ brace_client_status_t brace_client_k_in_space_under_load(brace_client_t *client,
     const uint64_t deadline_us = brace_client_deadline_after(timeout_ms);
     const brace_can_k_in_space_at_posture_request_t request = {
         .theta0_rad = theta_rad[0], .theta1_rad = theta_rad[1], .theta2_rad = theta_rad[2]};
-    const brace_can_tip_force_in_space_request_t force = {
-        .fx_n = force_n[0], .fy_n = force_n[1], .fz_n = force_n[2]};
+    const brace_can_tip_force_in_space_request_t force = {.fx_n = force_n[0], .fy_n = force_n[1], .fz_n = force_n[2]};
     brace_question_t under = {.code = BRACE_REQUEST_TIP_FORCE_IN_SPACE};
     brace_question_t question = {.code = BRACE_REQUEST_K_IN_SPACE_AT_POSTURE};
     uint32_t limited = brace_can_pack_k_in_space_at_posture_request(&request, question.data) +

@@ -30,8 +30,8 @@ brace_client_status_t brace_client_load(brace_client_t *client, int timeout_ms, 
                    {BRACE_CLIENT_ENTRY(moved_y_mm), &taken.moved_y_mm},
                    {BRACE_CLIENT_ENTRY(unloaded_k_across_n_per_mm), &taken.unloaded_k_across_n_per_mm}};
     for (size_t i = 0u; i < sizeof entries / sizeof entries[0]; i++) {
-        const brace_client_status_t status = brace_client_entry_f32(
-            client, entries[i].index, brace_bus_left_ms(deadline_us), entries[i].value);
+        const brace_client_status_t status =
+            brace_client_entry_f32(client, entries[i].index, brace_bus_left_ms(deadline_us), entries[i].value);
         if (status != BRACE_CLIENT_OK) {
             return status;
         }
@@ -65,8 +65,7 @@ brace_client_status_t brace_client_drift(brace_client_t *client, int timeout_ms,
         return brace_modbus_drift(client, brace_client_deadline_after(timeout_ms), drift);
     }
     const uint32_t limited = brace_can_pack_drift_request(&request, question.data);
-    const brace_client_status_t status =
-        brace_client_ask(client, &question, BRACE_REQUEST_DRIFT, limited, timeout_ms);
+    const brace_client_status_t status = brace_client_ask(client, &question, BRACE_REQUEST_DRIFT, limited, timeout_ms);
     if (status == BRACE_CLIENT_OK) {
         brace_can_drift_answer_0_t cause;
         brace_can_drift_answer_1_t loss;
@@ -123,8 +122,8 @@ brace_client_status_t brace_client_contact_force(brace_client_t *client, float d
         brace_can_contact_force_answer_1_t second;
         brace_can_unpack_contact_force_answer_0(question.answers[0], &first);
         brace_can_unpack_contact_force_answer_1(question.answers[1], &second);
-        *force = (brace_client_force_t){.fx_n = first.fx_n, .fz_n = first.fz_n, .low_n = second.low_n,
-                                        .high_n = second.high_n};
+        *force = (brace_client_force_t){
+            .fx_n = first.fx_n, .fz_n = first.fz_n, .low_n = second.low_n, .high_n = second.high_n};
     }
     return status;
 }

@@ -85,7 +85,7 @@ static bool speed_of(long baud, speed_t *speed)
     static const struct {
         long baud;
         speed_t speed;
-    } known[] = {{9600, B9600},     {19200, B19200},   {38400, B38400},     {57600, B57600},    {115200, B115200},
+    } known[] = {{9600, B9600},     {19200, B19200},   {38400, B38400},   {57600, B57600},     {115200, B115200},
                  {230400, B230400}, {460800, B460800}, {921600, B921600}, {1000000, B1000000}, {2000000, B2000000}};
     for (size_t i = 0u; i < sizeof known / sizeof known[0]; i++) {
         if (known[i].baud == baud) {
@@ -110,7 +110,7 @@ brace_bus_status_t brace_slcan_open_tty(brace_bus_t *bus, const char *where, cha
     path[length] = '\0';
     bus->fd = open(path, O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
     if (bus->fd < 0) {
-        const char *hint = errno == EACCES ? "add yourself to the group of the device (dialout)"
+        const char *hint = errno == EACCES  ? "add yourself to the group of the device (dialout)"
                            : errno == EBUSY ? "another program holds it"
                                             : "is the adapter plugged in? 'ls /dev/tty*' lists the devices there are";
         brace_bus_say(why, why_room, "%s: %s; %s", path, strerror(errno), hint);

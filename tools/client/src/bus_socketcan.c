@@ -28,7 +28,8 @@ brace_bus_status_t brace_socketcan_open(brace_bus_t *bus, const char *name, char
     if (bus->fd < 0) {
         brace_bus_say(why, why_room,
                       "%s: this kernel has no CAN (%s); try 'modprobe can-raw' as root, or an SLCAN adapter: "
-                      "slcan:/dev/ttyACM0", name, strerror(errno));
+                      "slcan:/dev/ttyACM0",
+                      name, strerror(errno));
         return BRACE_BUS_E_NO_KERNEL;
     }
     memcpy(request.ifr_name, name, strlen(name));
@@ -115,8 +116,8 @@ static void count_error(brace_bus_t *bus, const struct canfd_frame *got)
     const bool is_of_acknowledging =
         (got->can_id & CAN_ERR_PROT) == 0u || got->data[3] == CAN_ERR_PROT_LOC_ACK || (got->can_id & CAN_ERR_ACK) != 0u;
     const bool says_something = (got->can_id & (CAN_ERR_ACK | CAN_ERR_CRTL | CAN_ERR_PROT)) != 0u;
-    const bool is_unheard = (got->can_id & CAN_ERR_MASK & ~harmless) == 0u && says_something && is_of_sending &&
-                            is_of_acknowledging;
+    const bool is_unheard =
+        (got->can_id & CAN_ERR_MASK & ~harmless) == 0u && says_something && is_of_sending && is_of_acknowledging;
     bus->unacknowledged += is_unheard;
     bus->errors += !is_unheard;
 }
@@ -140,8 +141,8 @@ static brace_bus_status_t take_frame(brace_bus_t *bus, brace_bus_frame_t *frame,
     if (is_whole && !fd && (got.can_id & CAN_ERR_FLAG) != 0u) {
         count_error(bus, &got);
     }
-    *is_wanted = is_whole && (got.can_id & (CAN_EFF_FLAG | CAN_RTR_FLAG | CAN_ERR_FLAG)) == 0u &&
-                 got.len <= (fd ? 64u : 8u);
+    *is_wanted =
+        is_whole && (got.can_id & (CAN_EFF_FLAG | CAN_RTR_FLAG | CAN_ERR_FLAG)) == 0u && got.len <= (fd ? 64u : 8u);
     if (!*is_wanted) {
         return BRACE_BUS_OK;
     }

@@ -15,8 +15,9 @@ brace_client_status_t brace_client_open(const char *url, uint32_t node, uint32_t
     *client = NULL;
     if (url == NULL || url[0] == '\0' || strlen(url) >= sizeof(*client)->url || node > 127u || timeout_ms < 100 ||
         timeout_ms > 60000) {
-        brace_bus_say(why, why_room, "needs a bus URL (can0, slcan:/dev/ttyACM0, tcp://host:port, modbus:/dev/ttyUSB0, "
-                                     "modbus-tcp://host:port), a node of 0 to 127, a time-out of 100 to 60000 ms");
+        brace_bus_say(why, why_room,
+                      "needs a bus URL (can0, slcan:/dev/ttyACM0, tcp://host:port, modbus:/dev/ttyUSB0, "
+                      "modbus-tcp://host:port), a node of 0 to 127, a time-out of 100 to 60000 ms");
         return BRACE_CLIENT_E_USAGE;
     }
     brace_client_t *opened = calloc(1, sizeof *opened);
@@ -26,9 +27,8 @@ brace_client_status_t brace_client_open(const char *url, uint32_t node, uint32_t
     }
     strcpy(opened->url, url);
     const uint64_t deadline_us = brace_client_deadline_after(timeout_ms);
-    const brace_client_status_t status = brace_modbus_is_url(url)
-                                             ? brace_modbus_open(opened, deadline_us)
-                                             : brace_can_open(opened, node, bit_rate, deadline_us);
+    const brace_client_status_t status = brace_modbus_is_url(url) ? brace_modbus_open(opened, deadline_us)
+                                                                  : brace_can_open(opened, node, bit_rate, deadline_us);
     if (status != BRACE_CLIENT_OK) {
         brace_bus_say(why, why_room, "%s", opened->why);
         brace_client_close(opened);

@@ -122,8 +122,8 @@ static void hear(brace_client_t *client, const brace_bus_frame_t *frame, waiting
         client->force_is_taken |= brace_client_is_about_force(frame->data[0]);
         client->foreign_us[frame->data[1]] = frame->received_us;
         if (waiting != NULL) {
-            waiting->is_taken |= !waiting->is_command && frame->data[0] == waiting->code &&
-                                 frame->data[1] == waiting->token;
+            waiting->is_taken |=
+                !waiting->is_command && frame->data[0] == waiting->code && frame->data[1] == waiting->token;
         }
     } else {
         const brace_client_snapshot_t *s = brace_joiner_add(&client->joiner, node, frame, brace_bus_lost(client->bus));
@@ -192,7 +192,8 @@ static brace_client_status_t listen(brace_client_t *client, int timeout_ms, wait
     } else if (status != BRACE_BUS_E_TIMEOUT) {
         return brace_client_fail(client, BRACE_CLIENT_E_DOWN,
                                  "%s: the connection has gone; is the interface still up, the adapter plugged in, the "
-                                 "other end running?", client->url);
+                                 "other end running?",
+                                 client->url);
     }
     if (client->speaks_another) {
         return brace_client_fail_version(client, client->node, client->other_hash);
@@ -377,11 +378,10 @@ static brace_client_status_t ask(brace_client_t *client, brace_question_t *quest
             if (waiting.is_refused) {
                 const brace_can_refusal_t *refusal = &waiting.refusal;
                 client->refusal = refusal->status;
-                return brace_client_fail(client, BRACE_CLIENT_E_REFUSED,
-                                         "%s: controller %u refuses: %s (status %d, detail %u)", client->url,
-                                         (unsigned)client->node,
-                                         brace_client_reason(waiting.code, refusal->status, refusal->detail),
-                                         (int)refusal->status, (unsigned)refusal->detail);
+                return brace_client_fail(
+                    client, BRACE_CLIENT_E_REFUSED, "%s: controller %u refuses: %s (status %d, detail %u)", client->url,
+                    (unsigned)client->node, brace_client_reason(waiting.code, refusal->status, refusal->detail),
+                    (int)refusal->status, (unsigned)refusal->detail);
             }
             if (waiting.parts_seen == parts && !waiting.is_taken) {
                 return BRACE_CLIENT_OK;
@@ -463,8 +463,8 @@ brace_client_status_t brace_can_ask_under_force(brace_client_t *client, brace_qu
         }
         /* The force is used up when an answer was lost, too, and the question repeated. */
         const bool is_answered = status == BRACE_CLIENT_OK || status == BRACE_CLIENT_E_REFUSED;
-        const bool is_used_up = status == BRACE_CLIENT_OK ? is_without_force(question)
-                                                          : client->refusal == BRACE_REFUSED_ORDER;
+        const bool is_used_up =
+            status == BRACE_CLIENT_OK ? is_without_force(question) : client->refusal == BRACE_REFUSED_ORDER;
         if (!is_answered || (!is_used_up && !client->force_is_taken)) {
             return status;
         }
@@ -475,7 +475,8 @@ brace_client_status_t brace_can_ask_under_force(brace_client_t *client, brace_qu
         if (brace_bus_left_ms(deadline_us) == 0) {
             return brace_client_fail(client, BRACE_CLIENT_E_TIMEOUT,
                                      "%s: other clients asked for K under other forces all the time; try a longer "
-                                     "time-out", client->url);
+                                     "time-out",
+                                     client->url);
         }
     }
 }
@@ -575,11 +576,9 @@ static const char *part_in_words(uint32_t wanted)
            : (wanted & BRACE_PART_SIGMA_SPACE) != 0u
                ? "the uncertainty of K in space (only a limb with a coxa joint sends it, where controller.sigma_hz is "
                  "not 0)"
-           : (wanted & BRACE_PART_SIGMA) != 0u
-               ? "K's uncertainty (it is sent where controller.sigma_hz is not 0)"
-           : (wanted & BRACE_PART_SPACE) != 0u
-               ? "K in space (only a limb with a coxa joint sends it)"
-               : "the wanted part of a snapshot (controller.stiffness_hz, posture_hz)";
+           : (wanted & BRACE_PART_SIGMA) != 0u ? "K's uncertainty (it is sent where controller.sigma_hz is not 0)"
+           : (wanted & BRACE_PART_SPACE) != 0u ? "K in space (only a limb with a coxa joint sends it)"
+                                               : "the wanted part of a snapshot (controller.stiffness_hz, posture_hz)";
 }
 
 brace_client_status_t brace_can_read(brace_client_t *client, uint32_t wanted, uint64_t deadline_us,

@@ -73,8 +73,8 @@ brace_client_status_t brace_modbus_open(brace_client_t *client, uint64_t deadlin
     }
     client->identity = (brace_client_identity_t){
         .node = client->unit, .dictionary_hash = join(words + 4), .firmware_version = join(words + 6)};
-    const brace_client_status_t crc = brace_modbus_entry(client, BRACE_CLIENT_ENTRY(parameter_crc), deadline_us,
-                                                         &client->identity.parameter_crc);
+    const brace_client_status_t crc =
+        brace_modbus_entry(client, BRACE_CLIENT_ENTRY(parameter_crc), deadline_us, &client->identity.parameter_crc);
     return crc != BRACE_CLIENT_OK ? crc
                                   : brace_modbus_entry(client, BRACE_CLIENT_ENTRY(parameter_origin), deadline_us,
                                                        &client->identity.parameter_origin);
@@ -324,8 +324,8 @@ static int show(brace_client_t *client, uint32_t place, uint32_t number, uint32_
 static int read_number(brace_client_t *client, uint32_t index, uint64_t deadline_us, uint32_t *number)
 {
     uint16_t words[2];
-    const int error = brace_modbus_try(client, BRACE_MODBUS_READ_INPUT, 2u * (index - BRACE_ENTRY_MEASURED), 2u, words,
-                                       deadline_us);
+    const int error =
+        brace_modbus_try(client, BRACE_MODBUS_READ_INPUT, 2u * (index - BRACE_ENTRY_MEASURED), 2u, words, deadline_us);
     *number = error == 0 ? join(words) : 0u;
     return error;
 }
@@ -365,9 +365,9 @@ void brace_modbus_tend(brace_client_t *client, uint64_t deadline_us)
 static brace_client_seal_t seal_of(brace_client_t *client, uint32_t address, const uint16_t *words,
                                    uint32_t words_count)
 {
-    uint8_t request[REQUEST_HEAD + 4 * ASKED_MOST] = {
-        BRACE_MODBUS_WRITE,   (uint8_t)(address >> 8),     (uint8_t)address, 0u,
-        (uint8_t)words_count, (uint8_t)(2u * words_count)};
+    uint8_t request[REQUEST_HEAD + 4 * ASKED_MOST] = {BRACE_MODBUS_WRITE,   (uint8_t)(address >> 8),
+                                                      (uint8_t)address,     0u,
+                                                      (uint8_t)words_count, (uint8_t)(2u * words_count)};
     for (uint32_t i = 0u; i < words_count; i++) {
         request[REQUEST_HEAD + 2u * i] = (uint8_t)(words[i] >> 8);
         request[REQUEST_HEAD + 2u * i + 1u] = (uint8_t)words[i];
@@ -450,11 +450,9 @@ static brace_client_status_t try_question(brace_client_t *client, uint32_t addre
                                           uint16_t answers[2 * BRACE_ANSWERED_COUNT], bool *is_mine)
 {
     uint16_t readback[2 * ASKED_MOST];
-    brace_client_status_t status =
-        transfer(client, BRACE_MODBUS_WRITE, address, 2u * count, words, deadline_us);
+    brace_client_status_t status = transfer(client, BRACE_MODBUS_WRITE, address, 2u * count, words, deadline_us);
     if (status == BRACE_CLIENT_OK) {
-        status = transfer(client, BRACE_MODBUS_READ_INPUT, 0x1000u, 2u * BRACE_ANSWERED_COUNT, answers,
-                                       deadline_us);
+        status = transfer(client, BRACE_MODBUS_READ_INPUT, 0x1000u, 2u * BRACE_ANSWERED_COUNT, answers, deadline_us);
     }
     if (status == BRACE_CLIENT_OK) {
         status = transfer(client, BRACE_MODBUS_READ_HOLDING, address, 2u * count, readback, deadline_us);
@@ -479,7 +477,8 @@ brace_client_status_t brace_modbus_ask(brace_client_t *client, uint32_t first, c
         if (is_contested && !is_mine && (status == BRACE_CLIENT_E_SILENT || brace_bus_left_ms(deadline_us) == 0)) {
             return brace_client_fail(client, BRACE_CLIENT_E_TIMEOUT,
                                      "%s: other clients asked other questions all the time; try a longer time-out, "
-                                     "or CAN, where each has its own answer", client->url);
+                                     "or CAN, where each has its own answer",
+                                     client->url);
         }
         if (status != BRACE_CLIENT_OK) {
             return status;

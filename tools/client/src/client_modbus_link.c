@@ -10,8 +10,11 @@
 #include <string.h>
 
 enum { TRY_MS = 800, ALIVE_TRY_MS = 60 /* the controller waits 130 ms for a sign of life */, BITS_PER_BYTE = 11 };
-enum { MARKS = 16 /* of 1, 3, ... 31 registers; a value has two */, EXCEPTION = 0x80,
-       FRAME_BYTES = 21 /* of request and answer together, without values */ };
+enum {
+    MARKS = 16 /* of 1, 3, ... 31 registers; a value has two */,
+    EXCEPTION = 0x80,
+    FRAME_BYTES = 21 /* of request and answer together, without values */
+};
 
 /* Cuts off and returns a number behind the last '/'; returns fallback when there is none. */
 static long cut_unit(char *text, long fallback)
@@ -117,7 +120,8 @@ brace_client_status_t brace_modbus_fail(brace_client_t *client, int error)
     case EMBBADEXC:
         return brace_client_fail(client, BRACE_CLIENT_E_BIT_RATE,
                                  "%s: what comes is broken (%s): not its baud rate, or two units of one address; try "
-                                 "modbus:DEVICE@19200", client->url, modbus_strerror(error));
+                                 "modbus:DEVICE@19200",
+                                 client->url, modbus_strerror(error));
     case EMBBADSLAVE:
     case EMBXGPATH:
     case EMBXGTAR:

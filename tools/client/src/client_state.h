@@ -53,19 +53,19 @@ struct brace_client {
     uint32_t heard[4];                                  /* nodes that have sent in this call, one bit each */
     uint32_t errors_before, lost_before, unacknowledged_before; /* the bus' counts when our node last sent a readable
                                                                    frame */
-    uint64_t ask_errors_us;                             /* when this call asks an SLCAN adapter for errors; 0: never */
-    bool speaks_another;                                /* our node's heartbeat has another dictionary */
+    uint64_t ask_errors_us; /* when this call asks an SLCAN adapter for errors; 0: never */
+    bool speaks_another; /* our node's heartbeat has another dictionary */
     uint32_t other_hash;
     uint8_t token;
     uint64_t foreign_us[256]; /* when another client last asked with each token; 0: never */
-    bool is_down;             /* a sign of life has found the bus down */
+    bool is_down; /* a sign of life has found the bus down */
     bool force_is_taken; /* another client has asked for K under a force: the controller may have counted its force */
 
     void *modbus; /* modbus_t; null over CAN */
     uint32_t unit;
-    uint32_t baud;       /* of a serial line; 0 over TCP */
+    uint32_t baud; /* of a serial line; 0 over TCP */
     bool is_out_of_step; /* an answer may come that nobody waits for any more */
-    uint32_t marks;      /* reads that were asked for to find the step again */
+    uint32_t marks; /* reads that were asked for to find the step again */
 };
 
 typedef struct {

@@ -66,11 +66,11 @@ static brace_client_status_t ask_challenge(brace_client_t *client, uint64_t dead
 {
     uint32_t low = UINT32_MAX, high = UINT32_MAX;
     for (int i = 0; i < CHALLENGES && low == UINT32_MAX && high == UINT32_MAX; i++) {
-        brace_client_status_t status = brace_client_entry_u32(client, BRACE_CLIENT_ENTRY(challenge_low),
-                                                              brace_bus_left_ms(deadline_us), &low);
+        brace_client_status_t status =
+            brace_client_entry_u32(client, BRACE_CLIENT_ENTRY(challenge_low), brace_bus_left_ms(deadline_us), &low);
         if (status == BRACE_CLIENT_OK) {
-            status = brace_client_entry_u32(client, BRACE_CLIENT_ENTRY(challenge_high),
-                                            brace_bus_left_ms(deadline_us), &high);
+            status = brace_client_entry_u32(client, BRACE_CLIENT_ENTRY(challenge_high), brace_bus_left_ms(deadline_us),
+                                            &high);
         }
         if (status != BRACE_CLIENT_OK) {
             return status;
@@ -144,8 +144,7 @@ static brace_client_status_t send_command(brace_client_t *client, brace_command_
                                     true, command->moves, deadline_us);
     }
     for (;;) {
-        const brace_client_status_t status =
-            brace_can_command(client, &command->question, command->moves, deadline_us);
+        const brace_client_status_t status = brace_can_command(client, &command->question, command->moves, deadline_us);
         if (status != BRACE_CLIENT_E_REFUSED || client->refusal != BRACE_REFUSED_BUSY ||
             brace_bus_left_ms(deadline_us) <= BUSY_MS) {
             return status;

@@ -20,7 +20,7 @@ typedef struct {
     brace_joiner_slot_t slots[BRACE_JOINER_SLOTS]; /* two, because a new K may be sent before an older posture */
     uint32_t lost;
     bool faults_are_known; /* since the last frame that was lost */
-    uint32_t faults;       /* as last heard */
+    uint32_t faults; /* as last heard */
 } brace_joiner_t;
 
 /* What the controller has answered about its faults. lost: as below. */

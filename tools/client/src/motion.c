@@ -12,8 +12,11 @@
 #include "brace/status.h"
 
 enum { POLL_US = 20000, PAUSE_MS = 10, STEP_MS = 100, STOP_MS = 100 };
-enum { NEWS_US = 1000000, LIMIT_MOST_MS = 3600000,
-       BEGIN_US = 300000 /* by then what has been asked for runs, or will not */ };
+enum {
+    NEWS_US = 1000000,
+    LIMIT_MOST_MS = 3600000,
+    BEGIN_US = 300000 /* by then what has been asked for runs, or will not */
+};
 enum { FLANK_POSITIVE = 256, FLANK_NEGATIVE = 512, ANY_VALUE = 1, JOINTS = 3 };
 enum { NOT_IN_THIS_MODE = 1 /* exception of Modbus */ };
 enum { OUTCOME_RUNNING = BRACE_TAKEUP_RUNNING }; /* of a loading test, too */
@@ -64,11 +67,12 @@ static brace_client_status_t ask_progress(brace_client_t *client, uint64_t deadl
     const struct {
         uint32_t index;
         uint32_t *value;
-    } entries[] = {{takes_up ? BRACE_CLIENT_ENTRY(take_up_coxa) + client->motion.joint
-                             : BRACE_CLIENT_ENTRY(loading_outcome), &progress->outcome},
-                   {BRACE_CLIENT_ENTRY(mode), &progress->mode},
-                   {BRACE_CLIENT_ENTRY(is_held), &progress->is_held},
-                   {BRACE_CLIENT_ENTRY(silences), &progress->silences}};
+    } entries[] = {
+        {takes_up ? BRACE_CLIENT_ENTRY(take_up_coxa) + client->motion.joint : BRACE_CLIENT_ENTRY(loading_outcome),
+         &progress->outcome},
+        {BRACE_CLIENT_ENTRY(mode), &progress->mode},
+        {BRACE_CLIENT_ENTRY(is_held), &progress->is_held},
+        {BRACE_CLIENT_ENTRY(silences), &progress->silences}};
     for (size_t i = 0u; i < sizeof entries / sizeof entries[0]; i++) {
         const brace_client_status_t status =
             brace_client_entry_u32(client, entries[i].index, brace_bus_left_ms(deadline_us), entries[i].value);
@@ -304,8 +308,8 @@ static brace_client_status_t begin(brace_client_t *client, brace_command_t *comm
     }
     brace_client_status_t status = brace_client_become_owner(client, deadline_us);
     if (status == BRACE_CLIENT_OK) {
-        status = brace_client_entry_u32(client, BRACE_CLIENT_ENTRY(silences), brace_bus_left_ms(deadline_us),
-                                        &silences);
+        status =
+            brace_client_entry_u32(client, BRACE_CLIENT_ENTRY(silences), brace_bus_left_ms(deadline_us), &silences);
     }
     if (status != BRACE_CLIENT_OK && status != BRACE_CLIENT_E_REFUSED) {
         return not_begun(client, status);
@@ -329,7 +333,8 @@ static brace_client_status_t begin(brace_client_t *client, brace_command_t *comm
         tend(client, deadline_us);
         if (client->bus != NULL) {
             brace_can_hear_begin(client, client->motion.asked_us + BEGIN_US < deadline_us
-                                             ? client->motion.asked_us + BEGIN_US : deadline_us);
+                                             ? client->motion.asked_us + BEGIN_US
+                                             : deadline_us);
         }
         client->motion.now.state = client->motion.has_begun ? BRACE_MOTION_RUNNING : BRACE_MOTION_ASKED;
     }
@@ -354,7 +359,8 @@ brace_client_status_t brace_client_begin_take_up(brace_client_t *client, uint32_
     if (joint >= (uint32_t)JOINTS || (flank != 1 && flank != -1)) {
         return not_begun(client, brace_client_fail(client, BRACE_CLIENT_E_USAGE,
                                                    "joint %u, flank %d: 0 coxa, 1 femur, 2 tibia; the side to load is "
-                                                   "1 or -1", (unsigned)joint, flank));
+                                                   "1 or -1",
+                                                   (unsigned)joint, flank));
     }
     (void)brace_can_pack_take_up_request(&request, command.question.data);
     return begin(client, &command, BRACE_TAKES_UP, joint, timeout_ms, limit_ms);

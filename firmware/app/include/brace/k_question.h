@@ -28,20 +28,20 @@ typedef struct {
     uint32_t where;                    /* brace_k_where_t; any other number means a posture */
     float theta_rad[BRACE_LINK_COUNT]; /* of a posture: true angles before the load turns the joints; of femur and tibia
                                           theta1^2 + theta2^2 <= BRACE_REACH_RAD2; of the coxa +-7.9, in space only */
-    brace_point_t tip;                 /* of a tip: where it is before the load moves it [+-1e6 mm] */
-    uint32_t knee;                     /* brace_knee_t */
-    brace_force_t tip_force;           /* of the ground, in the limb's plane; counted together with the weight. The sum
+    brace_point_t tip; /* of a tip: where it is before the load moves it [+-1e6 mm] */
+    uint32_t knee; /* brace_knee_t */
+    brace_force_t tip_force; /* of the ground, in the limb's plane; counted together with the weight. The sum
                                           of all components' magnitudes is at most 1e4 N */
-    float force_across_n;              /* the same across that plane, to the left; in space only */
+    float force_across_n; /* the same across that plane, to the left; in space only */
 } brace_k_question_t;
 
 typedef struct {
-    brace_stiffness_t k;               /* in the limb's plane; flags: UNCALIBRATED, OUT_OF_RANGE (outside the drives'
+    brace_stiffness_t k; /* in the limb's plane; flags: UNCALIBRATED, OUT_OF_RANGE (outside the drives'
                                           travel), and the model's own */
     brace_stiffness_spatial_t in_space; /* in the robot's frame; only after a question in space, else not to be used */
-    brace_displacement_t moved_mm;     /* by force and weight, in the limb's plane */
-    float moved_across_mm;             /* the same across that plane; NaN: limb in its plane */
-    float buckling_factor;             /* infinity: none; NaN: not counted, or limb in space */
+    brace_displacement_t moved_mm; /* by force and weight, in the limb's plane */
+    float moved_across_mm; /* the same across that plane; NaN: limb in its plane */
+    float buckling_factor; /* infinity: none; NaN: not counted, or limb in space */
 } brace_k_answer_t;
 
 #endif

@@ -73,13 +73,13 @@ typedef struct {
     brace_slope_column_t least_squares, mean_of_ratios;
     float model_k_x_n_per_mm, model_k_z_n_per_mm; /* the model's at the preload point */
     float sigma_model_k_x_n_per_mm, sigma_model_k_z_n_per_mm;
-    float z_x, z_z;                /* (least squares - model) / sigma of both */
+    float z_x, z_z; /* (least squares - model) / sigma of both */
 } brace_loading_result_t;
 
 /* What a reading is averaged from, over the second half of a dwell: sums, or their means. */
 typedef struct {
-    float motor_rad[2];  /* from where the test began */
-    float link_rad[2];   /* link's angle less the motor's; NaN without an encoder at the link */
+    float motor_rad[2]; /* from where the test began */
+    float link_rad[2]; /* link's angle less the motor's; NaN without an encoder at the link */
     float force_x_n, force_z_n, temp_degc;
     uint32_t count;
 } brace_loading_sums_t;
@@ -87,35 +87,35 @@ typedef struct {
 /* What outlives a test: how a dataset's rows number it. */
 typedef struct {
     uint16_t run, config;
-    uint16_t rep[2];               /* along each axis */
+    uint16_t rep[2]; /* along each axis */
     float config_theta_rad[2];
 } brace_loading_counts_t;
 
 /* A test under way. Private. Arrays of two are of femur and tibia joint: BRACE_FEMUR + i. */
 typedef struct {
     uint8_t phase;
-    uint16_t step;                 /* being gone to or read */
+    uint16_t step; /* being gone to or read */
     uint32_t phase_us, test_us, limit_us;
-    uint32_t resting_us;           /* how long the motors have stood where the step wants them */
-    float along_mm;                /* where the free shape is commanded to */
-    float per_mm[2];               /* joint offsets for 1 mm of it */
-    float give_rad_per_mm[2];      /* what the servos give way by, for 1 mm of it */
-    float trim_rad[2];             /* correction of what friction holds back where the free shape is at its rest */
-    float there_rad[2];            /* how near a motor has to come */
-    bool rests[2];                 /* the motor has come there at this step, and is left alone while it stays near */
+    uint32_t resting_us; /* how long the motors have stood where the step wants them */
+    float along_mm; /* where the free shape is commanded to */
+    float per_mm[2]; /* joint offsets for 1 mm of it */
+    float give_rad_per_mm[2]; /* what the servos give way by, for 1 mm of it */
+    float trim_rad[2]; /* correction of what friction holds back where the free shape is at its rest */
+    float there_rad[2]; /* how near a motor has to come */
+    bool rests[2]; /* the motor has come there at this step, and is left alone while it stays near */
     float torque_max_n_mm[2];
     brace_point_t lever_femur, lever_knee; /* shift of the tip's free shape for a unit of theta1, and of theta2 */
-    brace_vec3_t lever_force_n;    /* that the tip bears before they are worked out, the mean */
-    float lever_rad[BRACE_LINK_COUNT];      /* the posture then, by the motors */
-    float behind_rad[BRACE_LINK_COUNT];     /* how far the load turns a joint whose link's angle is measured */
+    brace_vec3_t lever_force_n; /* that the tip bears before they are worked out, the mean */
+    float lever_rad[BRACE_LINK_COUNT]; /* the posture then, by the motors */
+    float behind_rad[BRACE_LINK_COUNT]; /* how far the load turns a joint whose link's angle is measured */
     brace_displacement_t lever_moved_mm[4]; /* what the load moves the tip by, to both sides of it */
     uint8_t lever_step;
     float start_motor_rad[2], start_link_rad[2];
-    float standing_rad[2];         /* true angles at the preload point, what the load turns counted */
+    float standing_rad[2]; /* true angles at the preload point, what the load turns counted */
     brace_loading_sums_t sums;
     float dx_mm, dz_mm, fx_n, fz_n; /* the last reading */
     brace_loading_counts_t counts;
-    bool held[2];                  /* the joint's backlash was taken up when the test began */
+    bool held[2]; /* the joint's backlash was taken up when the test began */
     brace_slope_t slope;
     brace_stiffness_t model, at_reference;
     brace_loading_result_t result;

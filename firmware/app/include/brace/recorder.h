@@ -36,7 +36,7 @@ enum { BRACE_ROW_COLUMNS = 15 };
 typedef struct {
     brace_row_t row[BRACE_RECORDER_ROWS];
     uint32_t next, count; /* next: where the next row goes */
-    uint32_t lost;        /* rows that gave way to newer ones; saturates */
+    uint32_t lost; /* rows that gave way to newer ones; saturates */
 } brace_recorder_t;
 
 /* Adds a row; the oldest gives way. About 40 instructions. */

@@ -15,10 +15,10 @@ enum {
     BRACE_REFUSED_OWNED = -72,    /* somebody else is the owner */
     BRACE_REFUSED_NO_KEY = -73,   /* guarded, and the board has no key */
     BRACE_REFUSED_CEILING = -74,  /* beyond what the board allows; detail: the parameter's number */
-    BRACE_REFUSED_EARLY = -75,    /* a commit less than 10 s after the one before; detail: milliseconds that are left */
-    BRACE_REFUSED_CROWDED = -76,  /* so many questions of this asker wait already: ask again; detail: how many may */
-    BRACE_REFUSED_LATE = -77,     /* a sign of life with a number that is too old; detail: the one of now */
-    BRACE_REFUSED_STORE = -80    /* plus brace_store_failure_t (-81 to -87): the set of before stays in force */
+    BRACE_REFUSED_EARLY = -75, /* a commit less than 10 s after the one before; detail: milliseconds that are left */
+    BRACE_REFUSED_CROWDED = -76, /* so many questions of this asker wait already: ask again; detail: how many may */
+    BRACE_REFUSED_LATE = -77, /* a sign of life with a number that is too old; detail: the one of now */
+    BRACE_REFUSED_STORE = -80 /* plus brace_store_failure_t (-81 to -87): the set of before stays in force */
 };
 
 #endif

@@ -45,26 +45,26 @@ brace_drift_next_t brace_app_drift_next_step(const brace_app_t *app);
 /* What a request does beside answering. */
 typedef enum {
     BRACE_COMMAND_NONE = 0, /* nothing: everybody may */
-    BRACE_COMMAND_MOVES,    /* the limb: take-ups, loading tests, letting go */
-    BRACE_COMMAND_WRITES,   /* parameters: CONFIGURATION and all in it */
-    BRACE_COMMAND_INFORMS     /* the controller of what changes K: where down is, that a fault is over */
+    BRACE_COMMAND_MOVES, /* the limb: take-ups, loading tests, letting go */
+    BRACE_COMMAND_WRITES, /* parameters: CONFIGURATION and all in it */
+    BRACE_COMMAND_INFORMS /* the controller of what changes K: where down is, that a fault is over */
 } brace_command_t;
 
 typedef struct {
     brace_setting_t setting;
     brace_owner_t owner;
-    bool is_held;       /* what moves the limb stands */
-    uint32_t number;    /* the controller's number of now, for a sign of life */
-    bool has_begin;     /* a motion waits for a sign of life with the number `begin` */
+    bool is_held; /* what moves the limb stands */
+    uint32_t number; /* the controller's number of now, for a sign of life */
+    bool has_begin; /* a motion waits for a sign of life with the number `begin` */
     uint32_t begin;
     bool has_challenge;
     uint64_t challenge;
-    uint32_t strangers;       /* commands and signs of life that were refused, but for replays */
-    uint32_t replays;         /* refused with BRACE_REFUSED_REPLAY or BRACE_REFUSED_LATE */
-    uint32_t silences;        /* how often the limb stood because its owner was silent */
+    uint32_t strangers; /* commands and signs of life that were refused, but for replays */
+    uint32_t replays; /* refused with BRACE_REFUSED_REPLAY or BRACE_REFUSED_LATE */
+    uint32_t silences; /* how often the limb stood because its owner was silent */
     uint32_t commits_refused; /* too early, or with another CRC */
-    uint32_t erases;          /* of a slot, since start */
-    int32_t last_refusal;     /* BRACE_REFUSED_...; 0: none */
+    uint32_t erases; /* of a slot, since start */
+    int32_t last_refusal; /* BRACE_REFUSED_...; 0: none */
 } brace_session_report_t;
 
 void brace_app_session(const brace_app_t *app, brace_session_report_t *report);

@@ -19,17 +19,17 @@ enum { BRACE_SEALS_MOST = 8 };
  * the command is let in if one of them fits. */
 typedef struct brace_seal {
     bool is_there;
-    uint32_t counter;      /* its number, or the low bits of it */
+    uint32_t counter; /* its number, or the low bits of it */
     uint32_t counter_bits; /* so many of them have come [8, 32] */
-    uint32_t mac;          /* SipHash-2-4 over challenge, whole counter, kind and the command's bytes: low 32 bits */
+    uint32_t mac; /* SipHash-2-4 over challenge, whole counter, kind and the command's bytes: low 32 bits */
     const struct brace_seal *next; /* another one with the same counter, at most BRACE_SEALS_MOST of them; null: none */
 } brace_seal_t;
 
 /* A sign of life: its sender has lately heard the controller. */
 typedef struct {
-    uint32_t heard;      /* a number that the controller has sent, or the low bits of it */
+    uint32_t heard; /* a number that the controller has sent, or the low bits of it */
     uint32_t heard_bits; /* so many of them have come [16, 32] */
-    uint32_t check;      /* on a guarded board: SipHash-2-4 over challenge, whole number and kind: low 32 bits */
+    uint32_t check; /* on a guarded board: SipHash-2-4 over challenge, whole number and kind: low 32 bits */
 } brace_sign_t;
 
 #endif

@@ -77,8 +77,7 @@ void drives_command(drives_t *drives, const brace_hal_t *hal, const joints_t *jo
                 drives->told_rad[i] = moves ? drives->told_rad[i] : 0.0f;
                 refuse = true;
             }
-            drives->is_behind[i] =
-                drives->told_rad[i] != asked_rad && (stands || !is_told || drives->is_behind[i]);
+            drives->is_behind[i] = drives->told_rad[i] != asked_rad && (stands || !is_told || drives->is_behind[i]);
         }
     }
     drives->is_going_back = !moves && !is_back;

@@ -34,8 +34,7 @@ void drives_start(drives_t *drives);
  *   stands: every set-point stays where it is, also one that is behind what is asked for
  *   commands_failed: of brace_app_counters_t */
 void drives_command(drives_t *drives, const brace_hal_t *hal, const joints_t *joints, const flank_t *flank,
-                    bool takes_up, const drives_test_t *test, bool stands, uint32_t tick_us,
-                    uint32_t *commands_failed);
+                    bool takes_up, const drives_test_t *test, bool stands, uint32_t tick_us, uint32_t *commands_failed);
 
 /* Has a drive refused its commands for 50 ms? */
 bool drives_refuse(const drives_t *drives);

@@ -12,7 +12,7 @@ void flank_configure(flank_t *flank, int joint_index, const joints_t *joints, co
 }
 
 int flank_expect_load(brace_backlash_sample_t *sample, int index, const tip_force_t *force, const posture_t *posture,
-                       brace_vec3_t down, const brace_parameters_t *parameters)
+                      brace_vec3_t down, const brace_parameters_t *parameters)
 {
     const brace_point_t lever = index == BRACE_FEMUR ? posture->pose.lever_femur : posture->pose.lever_tibia;
     const float expected_n_mm = posture_gravity_n_mm(posture, &parameters->gravity, down, index) +
@@ -51,10 +51,9 @@ void flank_tick(flank_t *flank, const joints_t *joints, const tip_force_t *force
                 sample.motor_rad = __builtin_nanf(""); /* the machine goes to FAULT, and comes back by itself */
             }
             /* A take-up proves its flank by the load itself. The force across the plane is not sensed. */
-            const bool is_expected = i != BRACE_COXA && force->known && posture->has_levers &&
-                                     ours->machine.phase == BRACE_TAKEUP_IDLE;
-            const int held =
-                is_expected ? flank_expect_load(&sample, i, force, posture, down, parameters) : 0;
+            const bool is_expected =
+                i != BRACE_COXA && force->known && posture->has_levers && ours->machine.phase == BRACE_TAKEUP_IDLE;
+            const int held = is_expected ? flank_expect_load(&sample, i, force, posture, down, parameters) : 0;
             (void)brace_backlash_tick(&ours->machine, &sample, &ours->out);
             const brace_engagement_t engagement =
                 brace_play_engagement(ours->out.flank, ours->out.valid, is_expected, held);

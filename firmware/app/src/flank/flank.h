@@ -41,7 +41,7 @@ void flank_tick(flank_t *flank, const joints_t *joints, const tip_force_t *force
  * far that may be off. index: BRACE_FEMUR or BRACE_TIBIA; the force is known and the posture has levers.
  * returns which side the load holds (brace/play.h) */
 int flank_expect_load(brace_backlash_sample_t *sample, int index, const tip_force_t *force, const posture_t *posture,
-                       brace_vec3_t down, const brace_parameters_t *parameters);
+                      brace_vec3_t down, const brace_parameters_t *parameters);
 
 /* The controller reports a joint's load as a mean over 20 ms. This is how far the load now may be from the mean [N mm]:
  * the root mean square distance of the newest three samples from the mean, with the sign of the newest one's distance.

@@ -13,7 +13,7 @@
 #define STILL_MOST_US 0x40000000u
 
 #define TORQUE_MEAN_US 20000.0f /* as sense/joints.c takes the torque's mean */
-#define SIGMAS 1.6449f          /* of a normal distribution that hold 90 % */
+#define SIGMAS 1.6449f /* of a normal distribution that hold 90 % */
 
 enum { PART_X = BRACE_LINK_COUNT, PART_Z, PART_Y, PARTS };
 
@@ -117,11 +117,11 @@ static void take_z(interval_t *interval, const interval_inputs_t *inputs)
 {
     const brace_pose_t *pose = &inputs->posture->pose;
     const float per_mm2 = 1.0f / spanned_mm2(pose);
-    interval->z_n = inputs->is_sensed ? sensed(inputs, inputs->force->z_n)
-                                      : brace_load_band_sum(&interval->band[BRACE_FEMUR],
-                                                            pose->lever_tibia.x_mm * per_mm2,
-                                                            &interval->band[BRACE_TIBIA],
-                                                            pose->lever_femur.x_mm * per_mm2, interval->z_middle_n);
+    interval->z_n =
+        inputs->is_sensed
+            ? sensed(inputs, inputs->force->z_n)
+            : brace_load_band_sum(&interval->band[BRACE_FEMUR], pose->lever_tibia.x_mm * per_mm2,
+                                  &interval->band[BRACE_TIBIA], pose->lever_femur.x_mm * per_mm2, interval->z_middle_n);
 }
 
 /* Across the plane only the coxa joint measures. What the force outwards turns a tip that stands aside is left out. */

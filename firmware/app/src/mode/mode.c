@@ -10,9 +10,7 @@ void mode_start(mode_state_t *mode)
 /* The mode of a controller that works. */
 static brace_mode_t working_mode(const mode_inputs_t *inputs)
 {
-    return inputs->tests      ? BRACE_MODE_LOADING_TEST
-           : inputs->takes_up ? BRACE_MODE_TAKING_UP
-                              : BRACE_MODE_MONITOR;
+    return inputs->tests ? BRACE_MODE_LOADING_TEST : inputs->takes_up ? BRACE_MODE_TAKING_UP : BRACE_MODE_MONITOR;
 }
 
 bool mode_update(mode_state_t *mode, const mode_inputs_t *inputs)
@@ -29,16 +27,11 @@ bool mode_update(mode_state_t *mode, const mode_inputs_t *inputs)
             mode->now = BRACE_MODE_FAULT; /* the next tick's faults name the joints */
         }
         return false;
-    case BRACE_MODE_FAULT:
-        mode->now = may_work ? working_mode(inputs) : mode->now;
-        return false;
+    case BRACE_MODE_FAULT: mode->now = may_work ? working_mode(inputs) : mode->now; return false;
     case BRACE_MODE_MONITOR:
     case BRACE_MODE_TAKING_UP:
-    case BRACE_MODE_LOADING_TEST:
-        mode->now = no_k ? BRACE_MODE_FAULT : working_mode(inputs);
-        return !may_move;
+    case BRACE_MODE_LOADING_TEST: mode->now = no_k ? BRACE_MODE_FAULT : working_mode(inputs); return !may_move;
     case BRACE_MODE_CONFIGURATION:
-    default:
-        return false;
+    default: return false;
     }
 }

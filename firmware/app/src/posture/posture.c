@@ -26,8 +26,8 @@ static void go_to_bent(posture_t *posture)
     posture->pose.tip = (brace_point_t){unbent->tip.x_mm + tip.x, unbent->tip.z_mm + tip.z};
     posture->pose.knee = (brace_point_t){unbent->knee.x_mm + knee.x, unbent->knee.z_mm + knee.z};
     posture->pose.lever_femur = (brace_point_t){unbent->lever_femur.x_mm - tip.z, unbent->lever_femur.z_mm + tip.x};
-    posture->pose.lever_tibia = (brace_point_t){unbent->lever_tibia.x_mm - (tip.z - knee.z),
-                                                unbent->lever_tibia.z_mm + (tip.x - knee.x)};
+    posture->pose.lever_tibia =
+        (brace_point_t){unbent->lever_tibia.x_mm - (tip.z - knee.z), unbent->lever_tibia.z_mm + (tip.x - knee.x)};
 }
 
 void posture_take(posture_t *posture, const brace_parameters_t *parameters, const float motor_rad[BRACE_LINK_COUNT],

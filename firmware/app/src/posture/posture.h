@@ -16,21 +16,21 @@
 typedef struct {
     float unbent_rad[BRACE_LINK_COUNT]; /* as the motors stand, nothing turned by the load; where an encoder behind the
                                            gear measures it, the true angle itself; NaN: not known */
-    float theta_rad[BRACE_LINK_COUNT];  /* true angles, as far as the load is known; NaN: not known */
+    float theta_rad[BRACE_LINK_COUNT]; /* true angles, as far as the load is known; NaN: not known */
     bool is_measured[BRACE_LINK_COUNT]; /* by an encoder behind the gear: nothing turns that joint further */
-    bool is_inside_travel;              /* femur and tibia joint are within their drives' travel */
-    bool has_levers;                    /* pose holds tip and levers */
-    brace_pose_t unbent;                /* of unbent_rad, with straight links */
-    brace_pose_t pose;                  /* at the equilibrium, as far as the load is known */
+    bool is_inside_travel; /* femur and tibia joint are within their drives' travel */
+    bool has_levers; /* pose holds tip and levers */
+    brace_pose_t unbent; /* of unbent_rad, with straight links */
+    brace_pose_t pose; /* at the equilibrium, as far as the load is known */
     brace_vec_t tip_moved_mm, knee_moved_mm; /* from unbent to pose */
-    float tip_across_mm, knee_across_mm;     /* out of the plane in which the coxa joint stands unbent, to the left */
-    float yaw_turn_rad;                      /* how far the load has turned the coxa joint, and the plane with it */
+    float tip_across_mm, knee_across_mm; /* out of the plane in which the coxa joint stands unbent, to the left */
+    float yaw_turn_rad; /* how far the load has turned the coxa joint, and the plane with it */
 } posture_t;
 
 /* How a load bends the limb, in its plane and, with a coxa joint, out of it to the left. */
 typedef struct {
-    brace_vec_t tip_mm;    /* how far the tip moves */
-    brace_vec_t tibia_mm;  /* from the knee to the tip where the load has moved them */
+    brace_vec_t tip_mm; /* how far the tip moves */
+    brace_vec_t tibia_mm; /* from the knee to the tip where the load has moved them */
     float tip_across_mm, tibia_across_mm; /* the same out of the plane; 0 without a coxa joint */
     float joint_turn_rad[BRACE_LINK_COUNT]; /* how far the joints themselves turn, in the sense of their angles */
 } posture_bend_t;

@@ -23,8 +23,8 @@
 #define APART_MARGIN_RAD 0.005f
 #define APART_STEPS 2.0f
 #define APART_SIGMAS 3.0f
-#define SPRING_OFF_RATIO 0.5f     /* a spring that is warm, or softer than it was calibrated */
-#define CONTRADICTS_US 50000u     /* a motor takes up a load that has come at once within some 10 ms */
+#define SPRING_OFF_RATIO 0.5f /* a spring that is warm, or softer than it was calibrated */
+#define CONTRADICTS_US 50000u /* a motor takes up a load that has come at once within some 10 ms */
 
 /* The torque's mean begins as the median of the first three samples. Afterwards it follows only what two samples in a
  * row agree on, so that a single wild sample does not move it. */
@@ -34,8 +34,8 @@
 /* How far a joint may have moved since its last sample before K is called stale: it may go on as fast as it was, and
  * faster, and by a step that its encoder was about to make. */
 #define FASTER_RAD_PER_US2 1e-10f /* 100 rad/s^2, of a joint that carries a limb */
-#define UNSEEN_SIGMAS 1.5f        /* of the angle: a way that K's uncertainty covers */
-#define UNSEEN_SIGMA_RAD 0.002f   /* where the parameters know of less */
+#define UNSEEN_SIGMAS 1.5f /* of the angle: a way that K's uncertainty covers */
+#define UNSEEN_SIGMA_RAD 0.002f /* where the parameters know of less */
 #define UNSEEN_MARGIN_RAD 0.001f
 
 #define LATELY_RATIO 0.98f /* a sample: coarse encoders stand for several samples and then move by a step */
@@ -49,8 +49,7 @@ static bool is_sound(const brace_hal_joint_t *sample, const brace_drive_t *drive
 {
     const float most_n_mm =
         drive->torque_range_n_mm + drive->torque_bias_n_mm + TORQUE_SIGMAS * drive->torque_noise_n_mm;
-    return __builtin_fabsf(sample->motor_rad) <= ANGLE_ABSURD_RAD &&
-           __builtin_fabsf(sample->torque_n_mm) <= most_n_mm;
+    return __builtin_fabsf(sample->motor_rad) <= ANGLE_ABSURD_RAD && __builtin_fabsf(sample->torque_n_mm) <= most_n_mm;
 }
 
 /* What an encoder behind the gearbox says; NaN: there is none, or it is absurd. */
@@ -154,10 +153,10 @@ static bool encoders_contradict(const joint_t *joint, int index, const brace_par
     const brace_joint_t *spring = &limb->joint[index];
     const brace_drive_t *drive = &parameters->drive[index];
     const float motor_rad = joint->place[JOINT_MOTOR].rad, link_rad = joint->place[JOINT_LINK].rad;
-    const float torque_n_mm = __builtin_fabsf(joint->torque_n_mm) + drive->torque_bias_n_mm +
-                              drive->torque_noise_n_mm + drive->motor_friction_n_mm;
-    const float softer_ratio = 1.0f + SPRING_OFF_RATIO + APART_SIGMAS * limb->uncertainty.compliance_rel +
-                               parameters->slow.creep_ratio;
+    const float torque_n_mm = __builtin_fabsf(joint->torque_n_mm) + drive->torque_bias_n_mm + drive->torque_noise_n_mm +
+                              drive->motor_friction_n_mm;
+    const float softer_ratio =
+        1.0f + SPRING_OFF_RATIO + APART_SIGMAS * limb->uncertainty.compliance_rel + parameters->slow.creep_ratio;
     const float most_rad = 0.5f * spring->gap_rad + softer_ratio * spring->compliance_rad_per_n_mm * torque_n_mm +
                            APART_SIGMAS * limb->uncertainty.angle_rad + APART_STEPS * drive->angle_step_rad +
                            APART_MARGIN_RAD;
@@ -289,12 +288,11 @@ void joints_start(joints_t *joints, const brace_hal_t *hal)
         joints->joint[i] = (joint_t){.fitted = true, .sample = {unknown, unknown, unknown, unknown, 0}};
         joints_believe(joints, i);
     }
-    joints->joint[BRACE_COXA].fitted =
-        hal->joint_read(hal->context, BRACE_COXA, &ignored) != BRACE_HAL_E_UNSUPPORTED;
+    joints->joint[BRACE_COXA].fitted = hal->joint_read(hal->context, BRACE_COXA, &ignored) != BRACE_HAL_E_UNSUPPORTED;
 }
 
-void joints_read(joints_t *joints, const brace_hal_t *hal, const brace_parameters_t *parameters,
-                 uint32_t now_us, uint32_t *samples_bad)
+void joints_read(joints_t *joints, const brace_hal_t *hal, const brace_parameters_t *parameters, uint32_t now_us,
+                 uint32_t *samples_bad)
 {
     for (int i = 0; i < BRACE_LINK_COUNT; i++) {
         if (joints->joint[i].fitted) {

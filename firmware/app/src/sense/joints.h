@@ -61,8 +61,8 @@ void joints_start(joints_t *joints, const brace_hal_t *hal);
  * The first angle of an encoder is believed: there is nothing to hold it against but the other encoder.
  *   samples_bad: of brace_app_counters_t
  * At most 260 instructions a joint. */
-void joints_read(joints_t *joints, const brace_hal_t *hal, const brace_parameters_t *parameters,
-                 uint32_t now_us, uint32_t *samples_bad);
+void joints_read(joints_t *joints, const brace_hal_t *hal, const brace_parameters_t *parameters, uint32_t now_us,
+                 uint32_t *samples_bad);
 
 /* Somebody has looked at the joint: what its encoders say next is believed, and counts from there. */
 void joints_believe(joints_t *joints, int index);

@@ -34,8 +34,7 @@ static bool is_usable(float reading_n, float saturation_n)
     return __builtin_fabsf(reading_n) < saturation_n && __builtin_fabsf(reading_n) < FORCE_ABSURD_N;
 }
 
-void tip_force_read(tip_force_t *force, const brace_hal_t *hal, const brace_parameters_t *parameters,
-                    uint32_t since_us)
+void tip_force_read(tip_force_t *force, const brace_hal_t *hal, const brace_parameters_t *parameters, uint32_t since_us)
 {
     const brace_sensor_t *sensor = &parameters->sensor;
     float x_n = 0.0f, z_n = 0.0f;

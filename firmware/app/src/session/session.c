@@ -87,8 +87,8 @@ void session_pass(session_t *session, uint32_t since_us)
 void session_start(session_t *session, bool is_bench, const uint8_t *key, uint32_t seed)
 {
     const brace_setting_t guarded = key != NULL ? BRACE_SETTING_GUARDED : BRACE_SETTING_NO_KEY;
-    *session = (session_t){
-        .setting = is_bench ? BRACE_SETTING_BENCH : guarded, .life_us = SESSION_LIFE_US, .seed = seed};
+    *session =
+        (session_t){.setting = is_bench ? BRACE_SETTING_BENCH : guarded, .life_us = SESSION_LIFE_US, .seed = seed};
     if (key != NULL) {
         memcpy(session->key, key, sizeof session->key);
     }
@@ -236,8 +236,7 @@ int32_t session_life(session_t *session, brace_who_t who, const brace_sign_t *si
     if (!is_heard(session, sign, &number, &slot)) {
         return session_refuse(session, BRACE_REFUSED_LATE);
     }
-    if (!is_bench &&
-        (!session->has_challenge || sign->check != mac_of(session, number, SESSION_LIFE, NULL, 0))) {
+    if (!is_bench && (!session->has_challenge || sign->check != mac_of(session, number, SESSION_LIFE, NULL, 0))) {
         return session_refuse(session, BRACE_REFUSED_STRANGER);
     }
     if (!session->is_open) {

@@ -113,8 +113,8 @@ static brace_loaded_joint_t hardened_spring(float *deflection_rad, float hardeni
     float deflection = *deflection_rad;
     for (int i = 0; i < NEWTON_STEPS; i++) {
         const float cubic_n_mm_per_rad = hardening_n_mm_per_rad3 * deflection * deflection;
-        deflection = (load_n_mm + 2.0f * cubic_n_mm_per_rad * deflection) /
-                     (linear_n_mm_per_rad + 3.0f * cubic_n_mm_per_rad);
+        deflection =
+            (load_n_mm + 2.0f * cubic_n_mm_per_rad * deflection) / (linear_n_mm_per_rad + 3.0f * cubic_n_mm_per_rad);
     }
     /* From within this bound Newton's steps stay finite, whatever the spring. */
     if (!(__builtin_fabsf(deflection) <= DEFLECTION_MOST_RAD)) {
@@ -137,10 +137,9 @@ void model_springs_at_rest(const brace_parameters_t *parameters, const float tem
 brace_loaded_joint_t model_spring(const model_t *model, const brace_parameters_t *parameters, int index,
                                   float load_n_mm, float temp_degc, float *deflection_rad)
 {
-    return model->springs_change
-               ? hardened_spring(deflection_rad, parameters->drive[index].hardening_n_mm_per_rad3, load_n_mm,
-                                 spring_at_rest(parameters, index, temp_degc))
-               : linear(parameters->limb.joint[index].compliance_rad_per_n_mm);
+    return model->springs_change ? hardened_spring(deflection_rad, parameters->drive[index].hardening_n_mm_per_rad3,
+                                                   load_n_mm, spring_at_rest(parameters, index, temp_degc))
+                                 : linear(parameters->limb.joint[index].compliance_rad_per_n_mm);
 }
 
 void model_springs(model_t *model, const brace_parameters_t *parameters, const float load_n_mm[BRACE_LINK_COUNT],
@@ -162,10 +161,10 @@ brace_status_t model_stiffness(model_t *model, const brace_limb_t *limb, float t
                                   knee_rad_per_n_mm);
         return brace_spatial_in_plane(&model->spatial, theta1_rad, theta2_rad, stiffness, across_n_per_mm);
     }
-    const brace_status_t status =
-        model->is_collapsed ? brace_planar_stiffness(&model->planar, theta1_rad, theta2_rad, stiffness)
-                            : brace_general_stiffness(&model->general, theta1_rad, theta2_rad, hip_rad_per_n_mm,
-                                                      knee_rad_per_n_mm, stiffness);
+    const brace_status_t status = model->is_collapsed
+                                      ? brace_planar_stiffness(&model->planar, theta1_rad, theta2_rad, stiffness)
+                                      : brace_general_stiffness(&model->general, theta1_rad, theta2_rad,
+                                                                hip_rad_per_n_mm, knee_rad_per_n_mm, stiffness);
     if (status == BRACE_OK) {
         *across_n_per_mm = __builtin_nanf("");
     }
@@ -180,10 +179,8 @@ static float square(float a)
 static brace_load_t plane_load(const brace_loaded_joint_t springs[BRACE_LINK_COUNT], brace_vec3_t tip_n,
                                brace_vec3_t down)
 {
-    return (brace_load_t){.tip = {tip_n.x, tip_n.z},
-                          .down = {down.x, down.z},
-                          .hip = springs[BRACE_FEMUR],
-                          .knee = springs[BRACE_TIBIA]};
+    return (brace_load_t){
+        .tip = {tip_n.x, tip_n.z}, .down = {down.x, down.z}, .hip = springs[BRACE_FEMUR], .knee = springs[BRACE_TIBIA]};
 }
 
 static brace_space_load_t space_load(const brace_loaded_joint_t springs[BRACE_LINK_COUNT], brace_vec3_t tip_n,
@@ -203,14 +200,14 @@ static void report_plane(const brace_limb_t *limb, float hip_yields_rad_per_n_mm
     const float joint = hip_yields_rad_per_n_mm, both = joint + limb->base.rotation_rad_per_n_mm;
     const brace_vec_t moved = {found->displacement.x_mm, found->displacement.z_mm};
     rest->plane = found->stiffness;
-    rest->plane.flags |= brace_loaded_flags(found->buckling_factor, square(moved.x) + square(moved.z),
-                                            limb->femur_mm + limb->tibia_mm);
-    rest->bend = (posture_bend_t){.tip_mm = moved,
-                                  .tibia_mm = found->tibia_mm,
-                                  .tip_across_mm = 0.0f,
-                                  .tibia_across_mm = 0.0f,
-                                  .joint_turn_rad = {0.0f, both > 0.0f ? joint / both * found->hip_turn_rad : 0.0f,
-                                                     -found->knee_turn_rad}};
+    rest->plane.flags |=
+        brace_loaded_flags(found->buckling_factor, square(moved.x) + square(moved.z), limb->femur_mm + limb->tibia_mm);
+    rest->bend = (posture_bend_t){
+        .tip_mm = moved,
+        .tibia_mm = found->tibia_mm,
+        .tip_across_mm = 0.0f,
+        .tibia_across_mm = 0.0f,
+        .joint_turn_rad = {0.0f, both > 0.0f ? joint / both * found->hip_turn_rad : 0.0f, -found->knee_turn_rad}};
     rest->moved_across_mm = __builtin_nanf("");
     rest->buckling_factor = found->buckling_factor;
 }
@@ -222,24 +219,23 @@ static brace_status_t report_space(const brace_limb_t *limb, const brace_space_r
         return status;
     }
     const brace_vec3_t moved = found->displacement_mm;
-    rest->plane.flags |= found->flags | brace_loaded_flags(__builtin_nanf(""),
-                                                           square(moved.x) + square(moved.y) + square(moved.z),
-                                                           limb->femur_mm + limb->tibia_mm);
+    rest->plane.flags |=
+        found->flags | brace_loaded_flags(__builtin_nanf(""), square(moved.x) + square(moved.y) + square(moved.z),
+                                          limb->femur_mm + limb->tibia_mm);
     rest->space = found->k;
     rest->bend = (posture_bend_t){.tip_mm = {moved.x, moved.z},
                                   .tibia_mm = {found->tibia_mm.x, found->tibia_mm.z},
                                   .tip_across_mm = moved.y,
                                   .tibia_across_mm = found->tibia_mm.y,
-                                  .joint_turn_rad = {found->yaw_turn_rad, found->hip_turn_rad,
-                                                     -found->knee_turn_rad}};
+                                  .joint_turn_rad = {found->yaw_turn_rad, found->hip_turn_rad, -found->knee_turn_rad}};
     rest->moved_across_mm = moved.y;
     rest->buckling_factor = __builtin_nanf("");
     return BRACE_OK;
 }
 
 brace_status_t model_loaded(const model_t *model, const brace_limb_t *limb, const float unbent_rad[BRACE_LINK_COUNT],
-                            const brace_loaded_joint_t springs[BRACE_LINK_COUNT], brace_vec3_t tip_n,
-                            brace_vec3_t down, model_place_t *place, model_rest_t *rest)
+                            const brace_loaded_joint_t springs[BRACE_LINK_COUNT], brace_vec3_t tip_n, brace_vec3_t down,
+                            model_place_t *place, model_rest_t *rest)
 {
     if (!model->is_spatial) {
         const brace_load_t load = plane_load(springs, tip_n, down);
@@ -268,15 +264,15 @@ brace_status_t model_loaded(const model_t *model, const brace_limb_t *limb, cons
 /* --- in steps ---------------------------------------------------------------------------------------------------- */
 
 int32_t model_loaded_begin(const model_t *model, const float unbent_rad[BRACE_LINK_COUNT],
-                           const brace_loaded_joint_t springs[BRACE_LINK_COUNT], brace_vec3_t tip_n,
-                           brace_vec3_t down, model_work_t *work)
+                           const brace_loaded_joint_t springs[BRACE_LINK_COUNT], brace_vec3_t tip_n, brace_vec3_t down,
+                           model_work_t *work)
 {
     brace_status_t status;
     work->hip_yields_rad_per_n_mm = springs[BRACE_FEMUR].yields_by_rad_per_n_mm;
     if (model->is_spatial) {
         const brace_space_load_t load = space_load(springs, tip_n, down);
-        status = brace_loaded_space_begin(&model->loaded_space, unbent_rad[BRACE_FEMUR], unbent_rad[BRACE_TIBIA],
-                                          &load, &work->of.space);
+        status = brace_loaded_space_begin(&model->loaded_space, unbent_rad[BRACE_FEMUR], unbent_rad[BRACE_TIBIA], &load,
+                                          &work->of.space);
     } else {
         const brace_load_t load = plane_load(springs, tip_n, down);
         status = plane_settle(&model->loaded, unbent_rad, &load, &work->of.plane);

@@ -106,8 +106,8 @@ typedef struct {
  * returns BRACE_OK, or as brace_loaded_stiffness, brace_loaded_space_follow and brace_loaded_space_stiffness. At most
  *   2,600 instructions in the plane, 7,400 in space. */
 brace_status_t model_loaded(const model_t *model, const brace_limb_t *limb, const float unbent_rad[BRACE_LINK_COUNT],
-                            const brace_loaded_joint_t springs[BRACE_LINK_COUNT], brace_vec3_t tip_n,
-                            brace_vec3_t down, model_place_t *place, model_rest_t *rest);
+                            const brace_loaded_joint_t springs[BRACE_LINK_COUNT], brace_vec3_t tip_n, brace_vec3_t down,
+                            model_place_t *place, model_rest_t *rest);
 
 /* The same in steps, for a job that cannot spend so much in a tick: begin, then go on until there is an answer. */
 
@@ -126,8 +126,8 @@ typedef struct {
 /* returns MODEL_LATER, or why there is no K, as model_loaded. At most 1,200 instructions in the plane, 300 in
  * space. */
 int32_t model_loaded_begin(const model_t *model, const float unbent_rad[BRACE_LINK_COUNT],
-                           const brace_loaded_joint_t springs[BRACE_LINK_COUNT], brace_vec3_t tip_n,
-                           brace_vec3_t down, model_work_t *work);
+                           const brace_loaded_joint_t springs[BRACE_LINK_COUNT], brace_vec3_t tip_n, brace_vec3_t down,
+                           model_work_t *work);
 
 /* After MODEL_LATER. The first call of it finds the answer in the plane, the sixth to the ninth in space.
  *   rest (out): after BRACE_OK

@@ -17,8 +17,9 @@ static void no_plane_k(brace_gap_stiffness_t *stiffness, uint32_t flags)
 static void no_space_k(brace_space_stiffness_t *space, uint32_t flags)
 {
     const float unknown = __builtin_nanf("");
-    const brace_stiffness_spatial_t none = {unknown, unknown, unknown, unknown, unknown, unknown,
-                                            {unknown, unknown, unknown}, {unknown, unknown, unknown}, flags};
+    const brace_stiffness_spatial_t none = {
+        unknown, unknown, unknown, unknown, unknown, unknown, {unknown, unknown, unknown}, {unknown, unknown, unknown},
+        flags};
     space->is_valid = false;
     space->across_n_per_mm = space->engaged_across_n_per_mm = unknown;
     space->now = space->engaged = none;
@@ -44,8 +45,8 @@ void stiffness_unknown_sigma(brace_snapshot_t *snapshot)
     snapshot->sigma_is_known = false;
     snapshot->sigma_age_us = 0;
     snapshot->sigma = (brace_stiffness_sigma_t){unknown, unknown, unknown, unknown, unknown, unknown, 0u};
-    snapshot->sigma_space = (brace_space_sigma_t){unknown, unknown, unknown, unknown, unknown, unknown,
-                                                  {unknown, unknown, unknown}, unknown};
+    snapshot->sigma_space = (brace_space_sigma_t){
+        unknown, unknown, unknown, unknown, unknown, unknown, {unknown, unknown, unknown}, unknown};
 }
 
 void stiffness_unknown(brace_snapshot_t *snapshot, uint32_t flags)
@@ -87,8 +88,8 @@ typedef struct {
  * flags: SOFTENED where there is no such equilibrium
  * returns as model_loaded */
 static brace_status_t take_loaded(model_t *model, const brace_limb_t *limb, const brace_loaded_joint_t *springs,
-                           brace_vec3_t down, softening_t *softening, posture_t *posture, brace_snapshot_t *snapshot,
-                           engaged_t *engaged, uint32_t *flags)
+                                  brace_vec3_t down, softening_t *softening, posture_t *posture,
+                                  brace_snapshot_t *snapshot, engaged_t *engaged, uint32_t *flags)
 {
     brace_snapshot_load_t *load = &snapshot->load;
     model_rest_t rest;
@@ -129,8 +130,8 @@ static bool load_is_known(const model_t *model, const brace_snapshot_t *snapshot
 /* K in the limb's plane, and across it, with every gap closed, under the load where it can be counted.
  * flags: why not, or as take_loaded */
 static brace_status_t take_engaged(model_t *model, const brace_limb_t *limb, const brace_loaded_joint_t *springs,
-                            const gravity_t *gravity, softening_t *softening, posture_t *posture,
-                            brace_snapshot_t *snapshot, engaged_t *engaged, uint32_t *flags)
+                                   const gravity_t *gravity, softening_t *softening, posture_t *posture,
+                                   brace_snapshot_t *snapshot, engaged_t *engaged, uint32_t *flags)
 {
     brace_snapshot_load_t *load = &snapshot->load;
     const bool is_counted = load_is_known(model, snapshot);
@@ -140,9 +141,9 @@ static brace_status_t take_engaged(model_t *model, const brace_limb_t *limb, con
         load->unloaded_across_n_per_mm = softening->unloaded_across_n_per_mm;
         return take_loaded(model, limb, springs, gravity->down, softening, posture, snapshot, engaged, flags);
     }
-    const brace_status_t status = model_stiffness(model, limb, posture->unbent_rad[BRACE_FEMUR],
-                                                  posture->unbent_rad[BRACE_TIBIA], springs, &engaged->plane,
-                                                  &engaged->across_n_per_mm);
+    const brace_status_t status =
+        model_stiffness(model, limb, posture->unbent_rad[BRACE_FEMUR], posture->unbent_rad[BRACE_TIBIA], springs,
+                        &engaged->plane, &engaged->across_n_per_mm);
     if (status != BRACE_OK) {
         return status;
     }
@@ -152,9 +153,8 @@ static brace_status_t take_engaged(model_t *model, const brace_limb_t *limb, con
     }
     load->unloaded = engaged->plane;
     load->unloaded_across_n_per_mm = engaged->across_n_per_mm;
-    return is_counted
-               ? take_loaded(model, limb, springs, gravity->down, softening, posture, snapshot, engaged, flags)
-               : BRACE_OK;
+    return is_counted ? take_loaded(model, limb, springs, gravity->down, softening, posture, snapshot, engaged, flags)
+                      : BRACE_OK;
 }
 
 /* K in space of now, where a gap may be open: an open gap of the coxa joint carries nothing across the plane.
@@ -199,15 +199,15 @@ static bool springs_are_known(const brace_parameters_t *parameters, const joints
 {
     float temp_degc[BRACE_LINK_COUNT];
     joints_temperatures(joints, temp_degc);
-    const bool is_measured = temp_degc[BRACE_FEMUR] == temp_degc[BRACE_FEMUR] &&
-                             temp_degc[BRACE_TIBIA] == temp_degc[BRACE_TIBIA];
+    const bool is_measured =
+        temp_degc[BRACE_FEMUR] == temp_degc[BRACE_FEMUR] && temp_degc[BRACE_TIBIA] == temp_degc[BRACE_TIBIA];
     return !joints->joint[BRACE_FEMUR].contradicts && !joints->joint[BRACE_TIBIA].contradicts &&
            (is_measured || parameters->slow.joint_compliance_per_degc == 0.0f);
 }
 
-void stiffness_take(model_t *model, const brace_parameters_t *parameters, bool is_calibrated,
-                    const joints_t *joints, const flank_t *flank, const gravity_t *gravity, softening_t *softening,
-                    posture_t *posture, brace_snapshot_t *snapshot)
+void stiffness_take(model_t *model, const brace_parameters_t *parameters, bool is_calibrated, const joints_t *joints,
+                    const flank_t *flank, const gravity_t *gravity, softening_t *softening, posture_t *posture,
+                    brace_snapshot_t *snapshot)
 {
     const uint32_t plane_joints = 1u << BRACE_FEMUR | 1u << BRACE_TIBIA;
     const uint32_t open = flank_open_gaps(flank);
@@ -222,12 +222,11 @@ void stiffness_take(model_t *model, const brace_parameters_t *parameters, bool i
     stiffness_springs_of_now(model, parameters, joints, flank, springs);
     stiffness_hold_measured_joints(posture, springs);
     posture_settle(posture, NULL);
-    const bool computed =
-        sound && inside && posture->has_levers &&
-        take_engaged(model, &parameters->limb, springs, gravity, softening, posture, snapshot, &engaged, &flags) ==
-            BRACE_OK &&
-        brace_gap_stiffness_known(&engaged.plane, &posture->pose, open & plane_joints, &snapshot->stiffness) ==
-            BRACE_OK;
+    const bool computed = sound && inside && posture->has_levers &&
+                          take_engaged(model, &parameters->limb, springs, gravity, softening, posture, snapshot,
+                                       &engaged, &flags) == BRACE_OK &&
+                          brace_gap_stiffness_known(&engaged.plane, &posture->pose, open & plane_joints,
+                                                    &snapshot->stiffness) == BRACE_OK;
     snapshot->space.is_fitted = model->is_spatial;
     if (!computed) { /* with sound samples inside the travel, only a singular posture has no K, or one that folds */
         stiffness_unknown(snapshot, flags | (sound && inside ? (uint32_t)BRACE_FLAG_NEAR_SINGULAR : 0u));

@@ -34,8 +34,8 @@ void stiffness_hold_measured_joints(const posture_t *posture, brace_loaded_joint
  * GAP_OPEN, and the model's own. Where there is no K: NEAR_SINGULAR (nothing yields in some
  * direction, or the force is beyond what the estimator takes), with SOFTENED where no stable equilibrium is near. At
  * most 3,600 instructions; 8,000 for a limb in space. */
-void stiffness_take(model_t *model, const brace_parameters_t *parameters, bool is_calibrated,
-                    const joints_t *joints, const flank_t *flank, const gravity_t *gravity, softening_t *softening,
-                    posture_t *posture, brace_snapshot_t *snapshot);
+void stiffness_take(model_t *model, const brace_parameters_t *parameters, bool is_calibrated, const joints_t *joints,
+                    const flank_t *flank, const gravity_t *gravity, softening_t *softening, posture_t *posture,
+                    brace_snapshot_t *snapshot);
 
 #endif

@@ -15,9 +15,9 @@
 #define SWINGS_OF_FRICTION 4.0f
 #define LINK_LEAST_RAD 0.005f
 
-#define FRICTION_BANDS 4.0f    /* there and back, of a friction known to a factor of two */
-#define NOISE_SIGMAS 12.0f     /* six there, six back */
-#define LOAD_OFF_RATIO 0.2f    /* weights, levers and the sensor's gain, together */
+#define FRICTION_BANDS 4.0f /* there and back, of a friction known to a factor of two */
+#define NOISE_SIGMAS 12.0f /* six there, six back */
+#define LOAD_OFF_RATIO 0.2f /* weights, levers and the sensor's gain, together */
 
 static frozen_span_t just(float value)
 {
@@ -120,15 +120,15 @@ static void watch_one(frozen_joint_t *joint, const frozen_inputs_t *inputs, int 
     joint->is_settled = seen->samples_seen >= SAMPLES_SETTLED;
 
     const float hidden = hidden_n_mm(joint, inputs, index); /* NaN, and no more than it, where the load is not known */
-    const bool was_told = width(joint->told_rad) > TOLD_LEAST_RAD &&
-                          width(joint->told_rad) > TOLD_STEPS * drive->angle_step_rad;
+    const bool was_told =
+        width(joint->told_rad) > TOLD_LEAST_RAD && width(joint->told_rad) > TOLD_STEPS * drive->angle_step_rad;
     const bool was_loaded = width(joint->same_load_n_mm) > hidden;
     const bool is_unheld = width(joint->pulls_n_mm) > width(joint->load_n_mm) + hidden;
     const bool is_proven = (same && (was_told || was_loaded)) || (stands && is_unheld);
     joint->proven_us = is_proven ? lasted_us(joint->proven_us, since_us) : 0u;
     joint->is_frozen = joint->proven_us >= FROZEN_US ||
-                       (joint->stood_us >= FROZEN_US && (swings(joint, drive) ||
-                                                         link_has_left(joint, &inputs->parameters->limb.joint[index])));
+                       (joint->stood_us >= FROZEN_US &&
+                        (swings(joint, drive) || link_has_left(joint, &inputs->parameters->limb.joint[index])));
 }
 
 static void forget(frozen_joint_t *joint)

@@ -34,17 +34,17 @@ typedef struct {
 
 typedef struct {
     bool is_frozen;
-    bool is_settled;               /* the torque's mean is one of several samples */
-    float motor_rad, torque_n_mm;  /* of the sample of the look before, */
-    uint32_t taken_us;             /* and its time */
-    float stood_at_rad;            /* where the angle began to stand */
-    uint32_t stood_us;             /* how long; counts to a quarter of a second */
-    uint32_t proven_us;            /* how long one of the first three proofs has lasted */
-    frozen_span_t told_rad;        /* what the drive was told, since both stand and it has torque left */
-    frozen_span_t same_load_n_mm;  /* what the joint carries by sensor and weight, since both stand */
-    frozen_span_t load_n_mm;       /* the same, since the angle stands; NaN: it was not known for a while */
-    frozen_span_t pulls_n_mm;      /* the motor's torque since then, less single wild samples */
-    frozen_span_t link_rad;        /* the link's own encoder since then; NaN: there is none */
+    bool is_settled; /* the torque's mean is one of several samples */
+    float motor_rad, torque_n_mm; /* of the sample of the look before, */
+    uint32_t taken_us; /* and its time */
+    float stood_at_rad; /* where the angle began to stand */
+    uint32_t stood_us; /* how long; counts to a quarter of a second */
+    uint32_t proven_us; /* how long one of the first three proofs has lasted */
+    frozen_span_t told_rad; /* what the drive was told, since both stand and it has torque left */
+    frozen_span_t same_load_n_mm; /* what the joint carries by sensor and weight, since both stand */
+    frozen_span_t load_n_mm; /* the same, since the angle stands; NaN: it was not known for a while */
+    frozen_span_t pulls_n_mm; /* the motor's torque since then, less single wild samples */
+    frozen_span_t link_rad; /* the link's own encoder since then; NaN: there is none */
 } frozen_joint_t;
 
 typedef struct {
@@ -58,8 +58,8 @@ typedef struct {
     const tip_force_t *force;
     const brace_parameters_t *parameters;
     brace_vec3_t down;
-    const float *told_rad;        /* of each joint: what is added to its set-point, */
-    const float *limit_n_mm;      /* and the torque within which it may follow */
+    const float *told_rad; /* of each joint: what is added to its set-point, */
+    const float *limit_n_mm; /* and the torque within which it may follow */
 } frozen_inputs_t;
 
 /* Looks at one joint's sample of this tick, each joint in its turn: a tick is spared two of three joints, and a dear

@@ -249,8 +249,7 @@ static void take_session(const brace_app_t *app, brace_measured_t *m)
     m->begin_number = session.has_begin ? session.begin : UINT32_MAX;
 }
 
-void measured_take(const brace_app_t *app, const brace_app_counters_t *counters, uint32_t now_us,
-                   brace_measured_t *m)
+void measured_take(const brace_app_t *app, const brace_app_counters_t *counters, uint32_t now_us, brace_measured_t *m)
 {
     const brace_snapshot_t *snapshot = brace_app_snapshot(app);
     const int32_t age_us = (int32_t)(now_us - snapshot->taken_us); /* samples may come after the tick's own time */

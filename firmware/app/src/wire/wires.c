@@ -47,8 +47,8 @@ uint32_t wires_tick(wires_t *wires, const brace_hal_t *hal, brace_app_t *app, br
     const uint32_t obeyed = is_too_full ? OBEYED_MOST : wires->obeyed;
     const bool has_room = obeyed <= OBEYED_MOST && !wires->has_burst;
     const uint32_t sorted = wires->has_burst ? (uint32_t)WIRE_BURST_IS_SORTED : (uint32_t)WIRE_NOTHING;
-    const uint32_t handled = sorted + obeyed + modbus_answer(&wires->modbus, &tick, has_room) +
-                             can_answer(&wires->can, &tick, has_room);
+    const uint32_t handled =
+        sorted + obeyed + modbus_answer(&wires->modbus, &tick, has_room) + can_answer(&wires->can, &tick, has_room);
     return handled + can_speak(&wires->can, &tick, handled > 0u ? 0u : (uint32_t)PROCESS_FRAMES_PER_TICK);
 }
 

@@ -79,18 +79,18 @@ typedef struct {
 
 typedef struct {
     brace_backlash_state_t state;
-    int flank;                   /* side that is loaded: +1 or -1; 0: not known (UNKNOWN, CROSSING, TAKING_UP, FAULT) */
-    bool valid;                  /* the load itself proves the flank, now. Never longer than
+    int flank; /* side that is loaded: +1 or -1; 0: not known (UNKNOWN, CROSSING, TAKING_UP, FAULT) */
+    bool valid; /* the load itself proves the flank, now. Never longer than
                                     brace_backlash_detection_us after the gap opened */
-    float offset_rad;            /* joint angle = motor angle + offset; the best estimate in every state */
-    float offset_off_rad;        /* half width of where the offset may lie if the gap is gap_rad */
-    float load_n_mm;             /* transmitted load, 10 ms */
-    float load_off_n_mm;         /* bound of load_n_mm's error: friction, inertia, bias, 6 sigma */
+    float offset_rad; /* joint angle = motor angle + offset; the best estimate in every state */
+    float offset_off_rad; /* half width of where the offset may lie if the gap is gap_rad */
+    float load_n_mm; /* transmitted load, 10 ms */
+    float load_off_n_mm; /* bound of load_n_mm's error: friction, inertia, bias, 6 sigma */
     brace_takeup_phase_t phase;
     brace_takeup_result_t takeup;
-    float command_rad;           /* add to the motor's setpoint; 0 when IDLE */
-    bool limit_torque;           /* the motor's torque has to be limited to +-takeup.torque_max_n_mm */
-    float preload_n_mm;          /* in HOLD: the load to subtract from a measurement; else 0. On a standing motor
+    float command_rad; /* add to the motor's setpoint; 0 when IDLE */
+    bool limit_torque; /* the motor's torque has to be limited to +-takeup.torque_max_n_mm */
+    float preload_n_mm; /* in HOLD: the load to subtract from a measurement; else 0. On a standing motor
                                     friction hides a part of it, so it is off by up to the friction */
 } brace_backlash_out_t;
 
@@ -108,7 +108,7 @@ typedef struct {
     uint32_t same_way_us, standing_us;
     float fast_n_mm, fast_width_n_mm, slow_n_mm, slow_width_n_mm, slow_spread_n_mm, torque_n_mm;
     uint32_t positive_us, negative_us; /* how long the fast interval has been clear of zero */
-    uint32_t undecided_us;                /* how long no load has shown the flank */
+    uint32_t undecided_us; /* how long no load has shown the flank */
     float play_low_rad, play_high_rad; /* where motor - link lies within the gap */
 
     uint8_t state, phase;

@@ -46,8 +46,7 @@ typedef struct {
  *   that are not positive and in order; an entry of K beyond 1e12 N/mm)
  * accuracy: 5e-6 |f| / lambda_min, for the K of any of the core's planar paths.
  * cost: at most 160 instructions on a Cortex-M4F; stack at most 100 bytes. */
-brace_status_t brace_contact_sag(const brace_stiffness_t *stiffness, brace_force_t load,
-                                 brace_displacement_t *sag);
+brace_status_t brace_contact_sag(const brace_stiffness_t *stiffness, brace_force_t load, brace_displacement_t *sag);
 
 /* Force on the tip that holds it at a displacement: f = K d, with the bounds of the paper's eq. 2.
  *   stiffness: K at the posture; displacement [+-1e4 mm]

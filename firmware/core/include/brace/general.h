@@ -43,7 +43,7 @@ brace_status_t brace_general_stiffness(const brace_general_t *general, float the
 /* C at the same posture and its determinant [(mm/N)^2], in which nothing cancels. Returns the same statuses except
  * BRACE_E_SINGULAR, because C exists where K does not. */
 brace_status_t brace_general_compliance(const brace_general_t *general, float theta1_rad, float theta2_rad,
-                                        float hip_rad_per_n_mm, float knee_rad_per_n_mm,
-                                        brace_compliance_t *compliance, float *det);
+                                        float hip_rad_per_n_mm, float knee_rad_per_n_mm, brace_compliance_t *compliance,
+                                        float *det);
 
 #endif

@@ -111,8 +111,8 @@ brace_status_t brace_kinematics_forward_spatial(const brace_limb_t *limb, float 
  *   theta1_rad, theta2_rad (out) as for brace_kinematics_inverse
  * returns as brace_kinematics_inverse; accuracy 1e-6 of coxa + femur + tibia at the tip; at most 490
  * instructions. */
-brace_status_t brace_kinematics_inverse_spatial(const brace_limb_t *limb, brace_point_spatial_t tip,
-                                                brace_yaw_t yaw, brace_knee_t knee, float *theta0_rad,
-                                                float *theta1_rad, float *theta2_rad);
+brace_status_t brace_kinematics_inverse_spatial(const brace_limb_t *limb, brace_point_spatial_t tip, brace_yaw_t yaw,
+                                                brace_knee_t knee, float *theta0_rad, float *theta1_rad,
+                                                float *theta2_rad);
 
 #endif

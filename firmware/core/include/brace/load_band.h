@@ -34,7 +34,7 @@ typedef struct {
 typedef struct {
     float middle_n_mm, half_n_mm; /* half >= 0 */
     float noise_n_mm;             /* one sigma of what is normally distributed */
-    float near_end;               /* the end at which the load stood when the joint moved last: +1 the high one, -1 the
+    float near_end; /* the end at which the load stood when the joint moved last: +1 the high one, -1 the
                                      low one; 0: not known */
 } brace_load_band_t;
 

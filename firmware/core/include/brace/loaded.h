@@ -30,11 +30,11 @@
 /* One link in its own frame, x along it at no load. */
 typedef struct {
     float length_mm;
-    brace_vec_t to_beam_mm;          /* from the joint to the root of the elastic line; zero where nothing is tilted */
-    brace_vec_t beam_mm;             /* from there to the link's end */
-    float bend_rad_per_n_mm;         /* each of the beam's two curvatures yields so; zero: the link stays straight */
-    brace_vec_t root_root;           /* axial spring at the root: this vector v adds v v' [sqrt(mm/N)] */
-    brace_vec_t end_root;            /* spring at the end: end_mm_per_n in every direction, and this vector */
+    brace_vec_t to_beam_mm; /* from the joint to the root of the elastic line; zero where nothing is tilted */
+    brace_vec_t beam_mm; /* from there to the link's end */
+    float bend_rad_per_n_mm; /* each of the beam's two curvatures yields so; zero: the link stays straight */
+    brace_vec_t root_root; /* axial spring at the root: this vector v adds v v' [sqrt(mm/N)] */
+    brace_vec_t end_root; /* spring at the end: end_mm_per_n in every direction, and this vector */
     float end_mm_per_n;
     float weight_n;
 } brace_loaded_link_t;
@@ -55,18 +55,18 @@ typedef struct {
 } brace_loaded_joint_t;
 
 typedef struct {
-    brace_force_t tip;       /* force of the ground on the tip [N], |x| + |z| at most 1e4 */
-    brace_vec_t down;        /* direction of the weight in the limb's plane; shorter than 1 where the plane leans */
+    brace_force_t tip; /* force of the ground on the tip [N], |x| + |z| at most 1e4 */
+    brace_vec_t down; /* direction of the weight in the limb's plane; shorter than 1 where the plane leans */
     brace_loaded_joint_t hip, knee; /* the joints; the base's rotation is added to the hip */
 } brace_load_t;
 
 typedef struct {
-    brace_stiffness_t stiffness;        /* K at the equilibrium; flags: BRACE_FLAG_NEAR_SINGULAR as on other paths;
+    brace_stiffness_t stiffness; /* K at the equilibrium; flags: BRACE_FLAG_NEAR_SINGULAR as on other paths;
                                            brace_loaded_flags has those that tell how far the load goes */
-    brace_displacement_t displacement;  /* of the tip, from where it is at these angles without load */
-    brace_vec_t tibia_mm;               /* from the knee to the tip at the equilibrium */
-    float hip_turn_rad, knee_turn_rad;  /* how far the load has turned the joints, counter-clockwise, base included */
-    float buckling_factor;              /* see below; infinity where it is above 16, and where it may be above 11 */
+    brace_displacement_t displacement; /* of the tip, from where it is at these angles without load */
+    brace_vec_t tibia_mm; /* from the knee to the tip at the equilibrium */
+    float hip_turn_rad, knee_turn_rad; /* how far the load has turned the joints, counter-clockwise, base included */
+    float buckling_factor; /* see below; infinity where it is above 16, and where it may be above 11 */
 } brace_loaded_stiffness_t;
 
 /* An equilibrium. brace_loaded_settle writes it; other code must not read its members. */
@@ -75,7 +75,7 @@ typedef struct {
     brace_loaded_seen_t femur, tibia;
     brace_loaded_shape_t femur_shape, tibia_shape;
     float hip_rad_per_n_mm, knee_rad_per_n_mm; /* slopes, base included */
-    float unsettled_rad;                       /* how far the tip has turned in the last step */
+    float unsettled_rad; /* how far the tip has turned in the last step */
     brace_vec_t on_base_n;
 } brace_loaded_rest_t;
 
@@ -114,7 +114,7 @@ brace_status_t brace_loaded_stiffness_at(const brace_loaded_t *loaded, const bra
 
 #define BRACE_SOFTENED_FACTOR 3.0f /* of buckling: below it a limb is much softer than without load */
 #define BRACE_PROMISED_FACTOR 2.0f /* of buckling: below it no accuracy is promised */
-#define BRACE_PROMISED_MOVE 0.2f   /* of the tip, as a share of the reach: beyond it no accuracy is promised */
+#define BRACE_PROMISED_MOVE 0.2f /* of the tip, as a share of the reach: beyond it no accuracy is promised */
 
 /* What a user of this K has to know besides its own flags.
  * moved_mm2: square of the tip's displacement. reach_mm: lengths of femur and tibia added

@@ -77,8 +77,8 @@ brace_status_t brace_loaded_space_stiffness(const brace_loaded_space_t *loaded, 
  * Cost on a Cortex-M4F: to begin 140 instructions, a step at most 1,150; stack at most 600 bytes. */
 brace_status_t brace_loaded_space_begin(const brace_loaded_space_t *loaded, float theta1_rad, float theta2_rad,
                                         const brace_space_load_t *load, brace_space_work_t *work);
-bool brace_loaded_space_step(const brace_loaded_space_t *loaded, brace_space_work_t *work,
-                             brace_space_result_t *result, brace_status_t *status);
+bool brace_loaded_space_step(const brace_loaded_space_t *loaded, brace_space_work_t *work, brace_space_result_t *result,
+                             brace_status_t *status);
 
 /* K in the limb's plane, the tip held across it.
  * No pointer may be null; plane: written on success only.

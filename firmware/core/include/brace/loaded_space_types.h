@@ -23,11 +23,11 @@ typedef struct {
     float twist_end_half;      /* half the part of the twist that is at the link's end and follows its whole turn */
     float curl_per_mm;         /* twist for each mm of these springs and each radian of bending */
     float across_spread_per_n_mm, sideways_spread_per_n_mm; /* twist's compliance for each squared radian of bending */
-    float shortens_per_mm;     /* by those springs */
-    brace_vec_t tilt_mm;       /* how the end moves with the turn in the plane, */
-    brace_vec_t bow_mm;        /* and with its square */
-    float twelfth_mm;          /* of the length */
-    float own_share;           /* of the link's weight, on those springs */
+    float shortens_per_mm; /* by those springs */
+    brace_vec_t tilt_mm; /* how the end moves with the turn in the plane, */
+    brace_vec_t bow_mm; /* and with its square */
+    float twelfth_mm; /* of the length */
+    float own_share; /* of the link's weight, on those springs */
     float weight_n;
 } brace_space_link_t;
 
@@ -44,8 +44,8 @@ typedef struct {
 } brace_k3_t;
 
 typedef struct {
-    brace_vec3_t tip_n;  /* force of the ground on the tip, |x| + |y| + |z| at most 1e4 */
-    brace_vec3_t down;   /* direction of the weight, a unit vector */
+    brace_vec3_t tip_n; /* force of the ground on the tip, |x| + |y| + |z| at most 1e4 */
+    brace_vec3_t down; /* direction of the weight, a unit vector */
     brace_loaded_joint_t yaw, hip, knee; /* without the base's rotation */
 } brace_space_load_t;
 
@@ -63,12 +63,12 @@ typedef struct {
 
 /* A bent link in its frame. */
 typedef struct {
-    brace_vec3_t chord_mm;             /* from its root to its end */
-    brace_vec3_t across, sideways;     /* how the end's springs move it */
-    brace_vec_t by_bend_mm;            /* how the chord changes with the turn about z, */
-    float by_sideways_mm;              /* and about y */
-    float across_curl, sideways_curl;  /* how far the axes of the turns about y and z lean to -x */
-    brace_vec3_t beyond_n, own_n;      /* the force that the end carries, and the link's own weight */
+    brace_vec3_t chord_mm; /* from its root to its end */
+    brace_vec3_t across, sideways; /* how the end's springs move it */
+    brace_vec_t by_bend_mm; /* how the chord changes with the turn about z, */
+    float by_sideways_mm; /* and about y */
+    float across_curl, sideways_curl; /* how far the axes of the turns about y and z lean to -x */
+    brace_vec3_t beyond_n, own_n; /* the force that the end carries, and the link's own weight */
 } brace_space_bent_t;
 
 /* An equilibrium. Other code must not read its members. */
@@ -78,22 +78,22 @@ typedef struct {
     brace_space_turns_t turns;
     brace_space_bent_t coxa, femur, tibia;
     brace_vec3_t tip_n, down, whole_n; /* the load, and the force on the base, in the limb's plane's frame */
-    brace_loaded_joint_t yaw, hip, knee;  /* as in the load */
+    brace_loaded_joint_t yaw, hip, knee; /* as in the load */
     float left_rad2; /* square of what the last round of steps has left */
 } brace_space_rest_t;
 
 #define BRACE_SPACE_COXA_PARTS 2 /* parts of the coxa link, for the buckling factor (loaded/space_parts.h) */
-#define BRACE_SPACE_PARTS 4      /* parts of the whole limb */
+#define BRACE_SPACE_PARTS 4 /* parts of the whole limb */
 
 /* A part of a link in its frame. Other code must not read its members. */
 typedef struct {
     brace_vec_t about_x, about_y, about_z; /* turns from its root: about y, x, y, then z to what is beyond */
     brace_vec3_t chord_mm, beyond_n, own_n;
-    float across_curl, sideways_curl;      /* as in brace_space_bent_t, these three too */
+    float across_curl, sideways_curl; /* as in brace_space_bent_t, these three too */
     float by_sideways_mm;
     brace_vec_t by_bend_mm;
-    brace_vec_t bend_twice_mm;             /* how the chord changes with the square of the turn about z */
-    float third_y_rad, third_z_rad;        /* a third of the part's turns about y and z */
+    brace_vec_t bend_twice_mm; /* how the chord changes with the square of the turn about z */
+    float third_y_rad, third_z_rad; /* a third of the part's turns about y and z */
 } brace_space_part_t;
 
 /* The shape that a limb has at an equilibrium, and the forces there; links: coxa, femur, tibia. Other code must not
@@ -101,7 +101,7 @@ typedef struct {
 typedef struct {
     brace_space_part_t part[BRACE_SPACE_PARTS];
     brace_vec3_t end_n[BRACE_LINK_COUNT], end_mm[BRACE_LINK_COUNT]; /* on the springs at a link's end; their move */
-    brace_vec_t about_joint[BRACE_LINK_COUNT];                      /* with the first part's turn before its chord */
+    brace_vec_t about_joint[BRACE_LINK_COUNT]; /* with the first part's turn before its chord */
     brace_vec_t base, yaw;
     brace_vec3_t whole_n;
     float joint_rad_per_n_mm[BRACE_LINK_COUNT];
@@ -111,7 +111,7 @@ typedef struct {
 typedef struct {
     brace_k3_t k;
     brace_vec3_t displacement_mm; /* of the tip, from where it is at these angles without load */
-    brace_vec3_t tibia_mm;        /* from the knee to the tip at the equilibrium */
+    brace_vec3_t tibia_mm; /* from the knee to the tip at the equilibrium */
     float yaw_turn_rad, hip_turn_rad, knee_turn_rad; /* how far the load has turned the joints, without the base */
     uint32_t flags; /* BRACE_FLAG_NEAR_SINGULAR: no accuracy is promised, see brace/loaded_space.h */
 } brace_space_result_t;
@@ -151,7 +151,7 @@ typedef struct {
 /* A link's springs first, then its turns about x, y and z: each adds to those after it. */
 typedef struct {
     brace_space_freedom_t across, sideways, x, y, z;
-    brace_vec3_t stretch_follows;        /* the axial spring: its vector is the link's stretch_root */
+    brace_vec3_t stretch_follows; /* the axial spring: its vector is the link's stretch_root */
     brace_vec3_t by_across, by_sideways; /* to x, y and z */
     float y_by_stretch, z_by_stretch;
     float y_by_x, z_by_x, z_by_y;
@@ -179,7 +179,7 @@ typedef struct {
 /* A search for the buckling factor. */
 typedef struct {
     brace_buckling_search_t known;
-    float at;           /* the multiple of the load that is looked at next */
+    float at; /* the multiple of the load that is looked at next */
     uint8_t links_held; /* of the limb under it, from the tip */
     brace_space_held_t held;
     brace_space_pivots_t pivots;
@@ -196,11 +196,11 @@ typedef struct {
 /* On the way to the equilibrium. */
 typedef struct {
     brace_space_factors_t factors;
-    brace_vec_t hip, knee;     /* the joints' directions that the factors are of */
+    brace_vec_t hip, knee; /* the joints' directions that the factors are of */
     brace_space_curls_t curls; /* of the shape that the limb is bent to */
     brace_space_pose_t drives; /* what it is still driven by there */
-    brace_space_pose_t first;  /* the first step of a round */
-    float shrinks_ratio2;      /* square of a round's second step over its first and second */
+    brace_space_pose_t first; /* the first step of a round */
+    float shrinks_ratio2; /* square of a round's second step over its first and second */
 } brace_space_settling_t;
 
 /* K that is being worked out. */

@@ -81,15 +81,13 @@ typedef struct {
  *   displacement_mm [+-1e4]: along the test's axis; force_x_n, force_z_n [+-1e6]: on the limb's tip
  * returns BRACE_OK, BRACE_E_NULL, BRACE_E_NOT_FINITE, BRACE_E_RANGE; slope untouched unless BRACE_OK.
  * cost: at most 130 instructions on a Cortex-M4F; stack at most 50 bytes. */
-brace_status_t brace_slope_start(brace_slope_t *slope, float displacement_mm, float force_x_n,
-                                 float force_z_n);
+brace_status_t brace_slope_start(brace_slope_t *slope, float displacement_mm, float force_x_n, float force_z_n);
 
 /* Takes one reading, with the same arguments. A step within 1e-6 mm of the preload point says nothing about a slope:
  * it is counted as skipped, and the call returns BRACE_OK.
  * returns also BRACE_E_RANGE after 2^24 steps; slope untouched unless BRACE_OK.
  * cost: at most 240 instructions; stack at most 80 bytes. */
-brace_status_t brace_slope_step(brace_slope_t *slope, float displacement_mm, float force_x_n,
-                                float force_z_n);
+brace_status_t brace_slope_step(brace_slope_t *slope, float displacement_mm, float force_x_n, float force_z_n);
 
 /* The column of K measured so far; the test may go on.
  * returns BRACE_OK, BRACE_E_NULL, BRACE_E_RANGE (no such method), BRACE_E_TOO_FEW: fewer than two steps that

@@ -32,12 +32,12 @@ enum {
     BRACE_FLAG_NEAR_SINGULAR = 1u << 1, /* the stated accuracy is not promised for this limb or posture */
     BRACE_FLAG_SATURATED = 1u << 2,     /* a value was limited to its representable range */
     BRACE_FLAG_GAP_OPEN = 1u << 3,      /* a joint carries nothing: its backlash is open */
-    BRACE_FLAG_STALE = 1u << 4,         /* older than its stated age limit, or from a mode in which K is not computed */
-    BRACE_FLAG_OUT_OF_RANGE = 1u << 5,  /* outside the range in which the model was identified */
-    BRACE_FLAG_LOAD_UNKNOWN = 1u << 6,  /* the load is not counted: it is not known */
-    BRACE_FLAG_SOFTENED = 1u << 7,      /* the buckling factor is below 3, or no stable equilibrium is near */
-    BRACE_FLAG_MOVED_FAR = 1u << 8,     /* the load moves the tip further than the accuracy is promised for */
-    BRACE_FLAG_PLAY_ASSUMED = 1u << 9   /* a joint counts as engaged because the load says so; nothing has proven it */
+    BRACE_FLAG_STALE = 1u << 4, /* older than its stated age limit, or from a mode in which K is not computed */
+    BRACE_FLAG_OUT_OF_RANGE = 1u << 5, /* outside the range in which the model was identified */
+    BRACE_FLAG_LOAD_UNKNOWN = 1u << 6, /* the load is not counted: it is not known */
+    BRACE_FLAG_SOFTENED = 1u << 7, /* the buckling factor is below 3, or no stable equilibrium is near */
+    BRACE_FLAG_MOVED_FAR = 1u << 8, /* the load moves the tip further than the accuracy is promised for */
+    BRACE_FLAG_PLAY_ASSUMED = 1u << 9 /* a joint counts as engaged because the load says so; nothing has proven it */
 };
 
 #endif

@@ -54,8 +54,7 @@ typedef struct {
  * cost: a fixed list of 28 terms; at most 3,400 instructions on a Cortex-M4F; stack at most 256 bytes.
  * Pure and re-entrant: any thread or interrupt may call it. */
 brace_status_t brace_uncertainty_stiffness(const brace_limb_t *limb, float theta1_rad, float theta2_rad,
-                                           const brace_stiffness_t *stiffness,
-                                           brace_stiffness_sigma_t *sigma);
+                                           const brace_stiffness_t *stiffness, brace_stiffness_sigma_t *sigma);
 
 /* The same for the tick. It checks neither the limb, which has passed brace_limb_check, nor that outputs are not null.
  * Cost on a Cortex-M4F: at most 2,500 instructions. */

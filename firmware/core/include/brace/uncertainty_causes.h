@@ -28,12 +28,12 @@
 
 /* What K under a load is worked out from, and how exactly the angles and the load are known. */
 typedef struct {
-    brace_limb_t limb;                             /* its uncertainty has the sigmas of lengths, compliances and gain */
-    float angle_rad[BRACE_LINK_COUNT];             /* without what the load turns */
+    brace_limb_t limb; /* its uncertainty has the sigmas of lengths, compliances and gain */
+    float angle_rad[BRACE_LINK_COUNT]; /* without what the load turns */
     float angle_sigma_rad[BRACE_LINK_COUNT];
     brace_loaded_joint_t spring[BRACE_LINK_COUNT]; /* of the joints; those of `limb` do not count */
-    brace_vec3_t tip_n;                            /* y: 0 for a limb in its plane */
-    float sensor_gain_rel;                         /* one sigma of the gain that tip_n was measured with; 0: none */
+    brace_vec3_t tip_n; /* y: 0 for a limb in its plane */
+    float sensor_gain_rel; /* one sigma of the gain that tip_n was measured with; 0: none */
 } brace_k_inputs_t;
 
 #define BRACE_CAUSE_COUNT 25u
@@ -48,15 +48,15 @@ bool brace_cause_change(uint32_t cause, bool is_spatial, brace_k_inputs_t *input
 /* One sigma, or while they are summed up the variance, of every entry of K in the plane and in space. */
 typedef struct {
     brace_stiffness_sigma_t plane; /* its flags are 0 */
-    brace_space_sigma_t space;     /* 0 for a limb in its plane */
+    brace_space_sigma_t space; /* 0 for a limb in its plane */
 } brace_k_sigma_t;
 
 /* The K that the causes change. brace_k_base_find writes it; other code reads `plane` and `is_spatial` at most. */
 typedef struct {
     brace_stiffness_t plane;
     bool is_spatial;
-    brace_k3_t space;     /* the rest only in space. In the frame of the limb's plane, as the axes */
-    brace_vec_t theta0;   /* direction of the limb's plane, for K in the robot's frame */
+    brace_k3_t space; /* the rest only in space. In the frame of the limb's plane, as the axes */
+    brace_vec_t theta0; /* direction of the limb's plane, for K in the robot's frame */
     brace_vec3_t axis[3]; /* of the eigenvalues, which ascend */
     bool is_near_next[2]; /* an eigenvalue is within a twentieth of the largest to the next: then they are not told
                              apart */

@@ -129,8 +129,8 @@ int backlash_load_proven(const brace_backlash_t *joint)
 
 int backlash_load_decided(const brace_backlash_t *joint, const brace_backlash_sample_t *sample, float share)
 {
-    const float off_n_mm = share * (joint->slow_width_n_mm + HINT_SIGMAS * joint->slow_spread_n_mm +
-                                    joint->params.torque_bias_n_mm);
+    const float off_n_mm =
+        share * (joint->slow_width_n_mm + HINT_SIGMAS * joint->slow_spread_n_mm + joint->params.torque_bias_n_mm);
     float low_n_mm = joint->slow_n_mm - off_n_mm;
     float high_n_mm = joint->slow_n_mm + off_n_mm;
     if (sample->load_is_expected) {

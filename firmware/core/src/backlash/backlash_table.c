@@ -4,7 +4,10 @@
 
 #include "brace/backlash_types.h"
 
-#define ROWS(array) {array, sizeof array / sizeof *array}
+#define ROWS(array) \
+    { \
+        array, sizeof array / sizeof *array \
+    }
 
 enum {
     UNKNOWN = BRACE_BACKLASH_UNKNOWN,
@@ -16,8 +19,10 @@ enum {
 };
 
 static const transition_t from_unknown[] = {
-    {FACT_BAD_SAMPLE, 0, FAULT, 0},       {FACT_TAKING_UP, 0, TAKING_UP, 0},
-    {FACT_POSITIVE, 0, POSITIVE, 0},      {FACT_NEGATIVE, 0, NEGATIVE, 0},
+    {FACT_BAD_SAMPLE, 0, FAULT, 0},
+    {FACT_TAKING_UP, 0, TAKING_UP, 0},
+    {FACT_POSITIVE, 0, POSITIVE, 0},
+    {FACT_NEGATIVE, 0, NEGATIVE, 0},
 };
 static const transition_t from_taking_up[] = {
     {FACT_BAD_SAMPLE, 0, FAULT, 0},
@@ -27,23 +32,16 @@ static const transition_t from_taking_up[] = {
     {FACT_ALWAYS, 70000000, UNKNOWN, 0}, /* the take-up's own time is shorter */
 };
 static const transition_t from_positive[] = {
-    {FACT_BAD_SAMPLE, 0, FAULT, 0},
-    {FACT_TAKING_UP, 0, TAKING_UP, 0},
-    {FACT_NEGATIVE, 0, NEGATIVE, 0},
-    {FACT_LEFT, 0, CROSSING, 0},
-    {FACT_STALE, 0, UNKNOWN, 0},
+    {FACT_BAD_SAMPLE, 0, FAULT, 0}, {FACT_TAKING_UP, 0, TAKING_UP, 0}, {FACT_NEGATIVE, 0, NEGATIVE, 0},
+    {FACT_LEFT, 0, CROSSING, 0},    {FACT_STALE, 0, UNKNOWN, 0},
 };
 static const transition_t from_negative[] = {
-    {FACT_BAD_SAMPLE, 0, FAULT, 0},
-    {FACT_TAKING_UP, 0, TAKING_UP, 0},
-    {FACT_POSITIVE, 0, POSITIVE, 0},
-    {FACT_LEFT, 0, CROSSING, 0},
-    {FACT_STALE, 0, UNKNOWN, 0},
+    {FACT_BAD_SAMPLE, 0, FAULT, 0}, {FACT_TAKING_UP, 0, TAKING_UP, 0}, {FACT_POSITIVE, 0, POSITIVE, 0},
+    {FACT_LEFT, 0, CROSSING, 0},    {FACT_STALE, 0, UNKNOWN, 0},
 };
 static const transition_t from_crossing[] = {
-    {FACT_BAD_SAMPLE, 0, FAULT, 0},     {FACT_TAKING_UP, 0, TAKING_UP, 0},
-    {FACT_POSITIVE, 0, POSITIVE, 0},    {FACT_NEGATIVE, 0, NEGATIVE, 0},
-    {FACT_ALWAYS, 2000000, UNKNOWN, 0},
+    {FACT_BAD_SAMPLE, 0, FAULT, 0},  {FACT_TAKING_UP, 0, TAKING_UP, 0},  {FACT_POSITIVE, 0, POSITIVE, 0},
+    {FACT_NEGATIVE, 0, NEGATIVE, 0}, {FACT_ALWAYS, 2000000, UNKNOWN, 0},
 };
 static const transition_t from_fault[] = {
     {FACT_BAD_SAMPLE, 0, FAULT, 0}, /* the time in FAULT begins anew */

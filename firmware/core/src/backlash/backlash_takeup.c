@@ -33,10 +33,8 @@ static uint32_t gathered(const brace_backlash_t *joint, int proven)
            fact(fabsf(joint->motor_rad - joint->start_rad) > bounds->travel_max_rad, FACT_TRAVEL) |
            fact(fabsf(joint->command_rad) >= bounds->reach_max_rad, FACT_REACH) |
            fact(joint->takeup_us >= bounds->time_max_us, FACT_TIME) |
-           fact(fabsf(joint->motor_rad - joint->verify_rad) > MOVED_SHARE * joint->params.gap_rad,
-                FACT_MOVED) |
-           fact(joint->command_rad == 0.0f, FACT_BACK) |
-           fact(joint->phase_us >= bounds->verify_us, FACT_VERIFIED);
+           fact(fabsf(joint->motor_rad - joint->verify_rad) > MOVED_SHARE * joint->params.gap_rad, FACT_MOVED) |
+           fact(joint->command_rad == 0.0f, FACT_BACK) | fact(joint->phase_us >= bounds->verify_us, FACT_VERIFIED);
 }
 
 static void enter(brace_backlash_t *joint, const transition_t *row)

@@ -26,8 +26,8 @@ static void carried_along(const brace_stiffness_t *engaged, brace_vec_t along, f
     const brace_vec_t stiff = brace_direction(engaged->stiff_axis_rad);
     const float cosine = vec_dot(stiff, u);
     const float sine = vec_cross(stiff, u);
-    const float yields_mm_per_n = cosine * cosine / engaged->lambda_max_n_per_mm +
-                                  sine * sine / engaged->lambda_min_n_per_mm;
+    const float yields_mm_per_n =
+        cosine * cosine / engaged->lambda_max_n_per_mm + sine * sine / engaged->lambda_min_n_per_mm;
     const float k_n_per_mm = 1.0f / yields_mm_per_n;
     /* an axis has no direction: take the half with x >= 0 */
     const float side = u.x < 0.0f || (u.x == 0.0f && u.z < 0.0f) ? -1.0f : 1.0f;

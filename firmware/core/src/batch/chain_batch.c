@@ -6,8 +6,8 @@ size_t brace_chain_batch(const brace_chain_t *chain, size_t n, const float *thet
                          const brace_stiffness_soa_t *stiffness, const brace_compliance_soa_t *compliance,
                          uint32_t *flags)
 {
-    const brace_stiffness_t no_stiffness = {NOT_A_NUMBER, NOT_A_NUMBER, NOT_A_NUMBER, NOT_A_NUMBER,
-                                            NOT_A_NUMBER, NOT_A_NUMBER, 0u};
+    const brace_stiffness_t no_stiffness = {
+        NOT_A_NUMBER, NOT_A_NUMBER, NOT_A_NUMBER, NOT_A_NUMBER, NOT_A_NUMBER, NOT_A_NUMBER, 0u};
     const brace_compliance_t no_compliance = {NOT_A_NUMBER, NOT_A_NUMBER, NOT_A_NUMBER};
     size_t refused = 0;
     for (size_t i = 0; i < n; i++) { /* at most the host's columns */

@@ -26,10 +26,10 @@ static void sum_squares(const brace_element_t element[BRACE_ELEMENT_COUNT], brac
         add_product(&mixed, element[i].straight, element[i].folded);
     }
     const float mean_at_fold = 0.5f * (folded.xx + folded.zz), dev_x_at_fold = 0.5f * (folded.xx - folded.zz);
-    harmonics->mean = (brace_harmonic_t){mean_at_fold, 0.5f * (straight.xx + straight.zz) - mean_at_fold,
-                                         mixed.xx + mixed.zz};
-    harmonics->dev_x = (brace_harmonic_t){dev_x_at_fold, 0.5f * (straight.xx - straight.zz) - dev_x_at_fold,
-                                          mixed.xx - mixed.zz};
+    harmonics->mean =
+        (brace_harmonic_t){mean_at_fold, 0.5f * (straight.xx + straight.zz) - mean_at_fold, mixed.xx + mixed.zz};
+    harmonics->dev_x =
+        (brace_harmonic_t){dev_x_at_fold, 0.5f * (straight.xx - straight.zz) - dev_x_at_fold, mixed.xx - mixed.zz};
     harmonics->dev_z = (brace_harmonic_t){folded.xz, straight.xz - folded.xz, 2.0f * mixed.xz};
 }
 
@@ -100,8 +100,7 @@ static void gather_crosses(const brace_element_t element[BRACE_ELEMENT_COUNT], b
     const brace_vec_t per_u = vec_scaled(s, amplitude / square);
     const float c_aa = c * sum.aa;
     harmonics->cross = (brace_harmonic_t){c * amplitude, per_u.x, per_u.z};
-    harmonics->rest = (brace_harmonic_t){sum.rr + c * c_aa,
-                                         (sum.aa + 2.0f * (c_aa * s.x - sum.ra * s.z)) / square,
+    harmonics->rest = (brace_harmonic_t){sum.rr + c * c_aa, (sum.aa + 2.0f * (c_aa * s.x - sum.ra * s.z)) / square,
                                          2.0f * (c_aa * s.z + sum.ra * s.x) / square};
 }
 

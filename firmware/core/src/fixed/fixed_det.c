@@ -58,8 +58,7 @@ brace_det_t brace_det_of(float iso, const brace_element_t element[BRACE_ELEMENT_
             const double straight = 0.5 * cross(pj, p), folded = 0.5 * cross(qj, q);
             const brace_det_harmonic_t pair = {straight + folded, straight - folded,
                                                0.5 * (cross(pj, q) - cross(p, qj))};
-            add(&rest, pair.constant,
-                (brace_det_harmonic_t){pair.constant, 2.0 * pair.per_cos, 2.0 * pair.per_sin});
+            add(&rest, pair.constant, (brace_det_harmonic_t){pair.constant, 2.0 * pair.per_cos, 2.0 * pair.per_sin});
             cc += pair.per_cos * pair.per_cos;
             cs += pair.per_cos * pair.per_sin;
             ss += pair.per_sin * pair.per_sin;

@@ -1,5 +1,6 @@
 #include "fixed/fixed_table.h"
 
+/* clang-format off */
 /* round(BRACE_FIXED_ONE * {sin, cos}(2 pi i / 64)) */
 const brace_sincos_t brace_fixed_sincos[64] = {
     {0, 2147481600}, {210490005, 2137140889}, {418952877, 2106218343}, {623381003, 2055011763},
@@ -54,3 +55,4 @@ const uint8_t brace_fixed_cell[16][16] = {
     {13, 8, 6, 4, 3, 3, 2, 2, 30, 30, 29, 29, 28, 26, 24, 19},
     {8, 3, 2, 1, 1, 1, 1, 1, 31, 31, 31, 31, 31, 30, 29, 24},
 };
+/* clang-format on */

@@ -121,8 +121,7 @@ static bool is_definite(const brace_planar_fixed_t *fixed, double det_unit)
     return rest_unit * brace_det_extent(&rest).least - most_off > 8.0 * 0x1p31;
 }
 
-static brace_status_t quantise(const brace_harmonics_t *plane, const brace_det_t *det,
-                               brace_planar_fixed_t *fixed)
+static brace_status_t quantise(const brace_harmonics_t *plane, const brace_det_t *det, brace_planar_fixed_t *fixed)
 {
     const brace_det_extent_t mean = extent_of(&plane->mean);
     const brace_det_extent_t rest = brace_det_extent(&det->rest), cross = brace_det_extent(&det->cross);
@@ -143,16 +142,15 @@ static brace_status_t quantise(const brace_harmonics_t *plane, const brace_det_t
     if (weight < 0) {
         return BRACE_E_UNSUPPORTED;
     }
-    const brace_planar_fixed_t made = {
-        .mean = quantised_float(&plane->mean, 1.0, mean_scale + 1),
-        .minus_dev_x = quantised_float(&plane->dev_x, -1.0, mean_scale),
-        .dev_z = quantised_float(&plane->dev_z, 1.0, mean_scale),
-        .cross = quantised(&det->cross, cross_scale),
-        .rest = quantised(&det->rest, rest_scale),
-        .rest_weight = (int32_t)1 << weight,
-        .exponent_k = (uint32_t)(99 + 2 * cross_scale - mean_scale) << 23,
-        .exponent_min = (uint32_t)(98 + mean_scale) << 23,
-        .flags = mean.least < UNEVEN * mean.most ? BRACE_FLAG_NEAR_SINGULAR : flags};
+    const brace_planar_fixed_t made = {.mean = quantised_float(&plane->mean, 1.0, mean_scale + 1),
+                                       .minus_dev_x = quantised_float(&plane->dev_x, -1.0, mean_scale),
+                                       .dev_z = quantised_float(&plane->dev_z, 1.0, mean_scale),
+                                       .cross = quantised(&det->cross, cross_scale),
+                                       .rest = quantised(&det->rest, rest_scale),
+                                       .rest_weight = (int32_t)1 << weight,
+                                       .exponent_k = (uint32_t)(99 + 2 * cross_scale - mean_scale) << 23,
+                                       .exponent_min = (uint32_t)(98 + mean_scale) << 23,
+                                       .flags = mean.least < UNEVEN * mean.most ? BRACE_FLAG_NEAR_SINGULAR : flags};
     if (!is_kept(&made) || !is_definite(&made, (double)two_to(2 * (mean_scale - cross_scale)))) {
         return BRACE_E_UNSUPPORTED;
     }
@@ -173,7 +171,7 @@ brace_status_t brace_planar_fixed_collapse(const brace_limb_t *limb, brace_plana
     brace_det_t det;
     {
         brace_element_t element[BRACE_ELEMENT_COUNT];
-                const float iso = brace_elements_of_limb(limb, element) + limb->base.x_mm_per_n;
+        const float iso = brace_elements_of_limb(limb, element) + limb->base.x_mm_per_n;
         det = brace_det_of(iso, element);
         brace_harmonics_of(element, &plane);
         plane.mean.at_fold += iso;

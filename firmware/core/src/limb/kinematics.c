@@ -43,8 +43,8 @@ brace_status_t brace_kinematics_forward(const brace_limb_t *limb, float theta1_r
     if (limb == NULL || pose == NULL) {
         return BRACE_E_NULL;
     }
-    const brace_status_t status = brace_first_refusal(
-        brace_check_two(theta1_rad, theta2_rad, BRACE_ANGLE_LIMIT_RAD), brace_limb_check_lengths(limb));
+    const brace_status_t status = brace_first_refusal(brace_check_two(theta1_rad, theta2_rad, BRACE_ANGLE_LIMIT_RAD),
+                                                      brace_limb_check_lengths(limb));
     if (status == BRACE_OK) {
         brace_kinematics_pose(limb, theta1_rad, theta2_rad, pose);
     }

@@ -28,9 +28,9 @@ brace_status_t brace_kinematics_forward_spatial(const brace_limb_t *limb, float 
     return BRACE_OK;
 }
 
-brace_status_t brace_kinematics_inverse_spatial(const brace_limb_t *limb, brace_point_spatial_t tip,
-                                                brace_yaw_t yaw, brace_knee_t knee, float *theta0_rad,
-                                                float *theta1_rad, float *theta2_rad)
+brace_status_t brace_kinematics_inverse_spatial(const brace_limb_t *limb, brace_point_spatial_t tip, brace_yaw_t yaw,
+                                                brace_knee_t knee, float *theta0_rad, float *theta1_rad,
+                                                float *theta2_rad)
 {
     if (limb == NULL || theta0_rad == NULL) {
         return BRACE_E_NULL;

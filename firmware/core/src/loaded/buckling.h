@@ -23,9 +23,12 @@ typedef struct {
 /* determinant_now: at the present load. */
 INLINE brace_buckling_search_t buckling_search_from(float determinant_now)
 {
-    return (brace_buckling_search_t){.before = 0.0f, .low = 1.0f, .high = HIGHEST_FACTOR,
+    return (brace_buckling_search_t){.before = 0.0f,
+                                     .low = 1.0f,
+                                     .high = HIGHEST_FACTOR,
                                      .at_before = 1.0f, /* no load: every pivot is 1 */
-                                     .at_low = determinant_now, .at_high = 0.0f};
+                                     .at_low = determinant_now,
+                                     .at_high = 0.0f};
 }
 
 /* The multiple of the load that step 0, 1 or 2 looks at. */

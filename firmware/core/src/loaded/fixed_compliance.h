@@ -84,14 +84,13 @@ static inline brace_status_t stiffness_of(const fixed_tensor_t *c, uint32_t thet
     const uint64_t trace = xx + zz;
     const uint32_t det_high = (uint32_t)((uint64_t)det >> 32), det_zeros = leading_zeros(det_high);
     const uint32_t mean = (uint32_t)(trace >> 33), slender = high_unsigned(high_unsigned(mean, mean), SLENDER_Q32);
-    const fixed_circle_t circle = {
-        .trace = (uint32_t)(trace >> 31),
-        .minus_dev_x = brace_high_word((int64_t)(zz - xx)),
-        .dev_z = shifted((int64_t)xz, 31),
-        .det_leading = (uint32_t)(((uint64_t)det << det_zeros) >> 32),
-        .exponent_k = (uint32_t)(120 + (int32_t)(zeros + det_zeros) + exponent) << 23,
-        .exponent_min = (uint32_t)(121 + (int32_t)zeros + exponent) << 23,
-        .twice_turn = 2u * theta1_turn};
+    const fixed_circle_t circle = {.trace = (uint32_t)(trace >> 31),
+                                   .minus_dev_x = brace_high_word((int64_t)(zz - xx)),
+                                   .dev_z = shifted((int64_t)xz, 31),
+                                   .det_leading = (uint32_t)(((uint64_t)det << det_zeros) >> 32),
+                                   .exponent_k = (uint32_t)(120 + (int32_t)(zeros + det_zeros) + exponent) << 23,
+                                   .exponent_min = (uint32_t)(121 + (int32_t)zeros + exponent) << 23,
+                                   .twice_turn = 2u * theta1_turn};
     stiffness_of_circle(&circle, stiffness);
     stiffness->flags = det_high < slender ? BRACE_FLAG_NEAR_SINGULAR : 0u;
     return BRACE_OK;

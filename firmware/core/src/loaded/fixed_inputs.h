@@ -50,8 +50,8 @@ INLINE brace_status_t check_range(uint32_t theta1, uint32_t theta2, uint32_t x, 
     const uint32_t x_q17 = (uint32_t)fixed_of(x & 0x7fffffffu, 17), z_q17 = (uint32_t)fixed_of(z & 0x7fffffffu, 17);
     const uint32_t most_q17 = x_q17 > z_q17 ? x_q17 : z_q17, sum_q17 = x_q17 + z_q17;
     *force_q17 = most_q17 + ((sum_q17 - most_q17) >> 1) + 1u; /* at least the length of (x, z) */
-    const uint64_t reach = (uint64_t)((int64_t)in->theta1_q28 * in->theta1_q28) +
-                           (uint64_t)((int64_t)in->theta2_q28 * in->theta2_q28);
+    const uint64_t reach =
+        (uint64_t)((int64_t)in->theta1_q28 * in->theta1_q28) + (uint64_t)((int64_t)in->theta2_q28 * in->theta2_q28);
     return (uint32_t)(reach >> 32) < REACH_HIGH_Q24 && sum_q17 <= FORCE_MOST_Q17 ? BRACE_OK : BRACE_E_RANGE;
 }
 

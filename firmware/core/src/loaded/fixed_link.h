@@ -20,10 +20,10 @@ typedef struct {
 } fixed_matrix_t;
 
 typedef struct {
-    fixed_vec_t to_beam, beam, rigid;   /* lengths */
+    fixed_vec_t to_beam, beam, rigid; /* lengths */
     fixed_vec_t root_root, end_root;
     int32_t end_q30, bend;
-    fixed_vec_t beyond, own, on_rigid;  /* forces */
+    fixed_vec_t beyond, own, on_rigid; /* forces */
 } fixed_link_t;
 
 INLINE int32_t fixed_end_turn(const fixed_shape_t *shape)
@@ -81,8 +81,7 @@ INLINE void fixed_pull_bent(const fixed_link_t *link, const fixed_shape_t *shape
     fixed_vec_t turn = fixed_turn_by(shape->root);
     const fixed_vec_t rigid = fixed_turned(link->rigid, turn);
     const int32_t root_resists = fixed_dot(rigid, link->on_rigid, 31);
-    const int32_t root_drives =
-        fixed_cross(rigid, link->on_rigid, 31) + coarse_times(root_resists, shape->root, 29);
+    const int32_t root_drives = fixed_cross(rigid, link->on_rigid, 31) + coarse_times(root_resists, shape->root, 29);
     turn = fixed_turned(turn, fixed_small_turn(first_rad - shape->root));
     const fixed_point_t p = fixed_pull_at(link, turn, first_rad, Q31(0.788675135));
     turn = fixed_turned(turn, fixed_small_turn(second_rad - first_rad));
@@ -90,13 +89,12 @@ INLINE void fixed_pull_bent(const fixed_link_t *link, const fixed_shape_t *shape
     turn = fixed_turned(turn, fixed_small_turn(end_rad - second_rad));
     const fixed_vec_t spring = fixed_turned(link->end_root, turn);
     const int32_t along = fixed_dot(spring, link->beyond, 30), across = fixed_cross(link->beyond, spring, 30);
-    pull->resists =
-        (fixed_matrix_t){root_resists + (p.resists >> 1) + (q.resists >> 1),
-                         coarse(sum2(p.resists, Q31(0.5 * a1), q.resists, Q31(0.5 * a2)), 31),
-                         coarse(sum2(p.resists, Q31(0.5 * b1), q.resists, Q31(0.5 * b2)), 31),
-                         coarse(sum2(p.resists, Q31(0.5 * a1 * a1), q.resists, Q31(0.5 * a2 * a2)), 31),
-                         coarse(sum2(p.resists, Q31(0.5 * a1 * b1), q.resists, Q31(0.5 * a2 * b2)), 31),
-                         coarse(sum2(p.resists, Q31(0.5 * b1 * b1), q.resists, Q31(0.5 * b2 * b2)), 31)};
+    pull->resists = (fixed_matrix_t){root_resists + (p.resists >> 1) + (q.resists >> 1),
+                                     coarse(sum2(p.resists, Q31(0.5 * a1), q.resists, Q31(0.5 * a2)), 31),
+                                     coarse(sum2(p.resists, Q31(0.5 * b1), q.resists, Q31(0.5 * b2)), 31),
+                                     coarse(sum2(p.resists, Q31(0.5 * a1 * a1), q.resists, Q31(0.5 * a2 * a2)), 31),
+                                     coarse(sum2(p.resists, Q31(0.5 * a1 * b1), q.resists, Q31(0.5 * a2 * b2)), 31),
+                                     coarse(sum2(p.resists, Q31(0.5 * b1 * b1), q.resists, Q31(0.5 * b2 * b2)), 31)};
     pull->drives = (fixed_drive_t){root_drives + (p.drives >> 1) + (q.drives >> 1),
                                    coarse(sum2(p.drives, Q31(0.5 * a1), q.drives, Q31(0.5 * a2)), 31),
                                    coarse(sum2(p.drives, Q31(0.5 * b1), q.drives, Q31(0.5 * b2)), 31)};
@@ -111,7 +109,7 @@ typedef struct {
     int32_t end_resists;
     int32_t root_softens, end_softens;
     fixed_vec_t tip;
-    fixed_vec_t a, b, end, aside;           /* levers */
+    fixed_vec_t a, b, end, aside; /* levers */
     fixed_vec_t root_spring, end_spring;
 } fixed_rest_t;
 

@@ -35,8 +35,8 @@ INLINE uint32_t fixed_sizes_of(const fixed_rest_t *rest)
 {
     const fixed_matrix_t *m = &rest->resists;
     /* What grows with the square of the load is 16 times as large beside the rest at the end of the search. */
-    return magnitude_of(m->rr) | magnitude_of(m->ra) | magnitude_of(m->rb) | magnitude_of(m->aa) |
-           magnitude_of(m->ab) | magnitude_of(m->bb) | magnitude_of(rest->end_resists) |
+    return magnitude_of(m->rr) | magnitude_of(m->ra) | magnitude_of(m->rb) | magnitude_of(m->aa) | magnitude_of(m->ab) |
+           magnitude_of(m->bb) | magnitude_of(rest->end_resists) |
            (uint32_t)(rest->root_softens | rest->end_softens) << 4;
 }
 
@@ -71,14 +71,12 @@ INLINE fixed_scaled_t fixed_scaled_of(const fixed_rest_t *rest, int32_t bend, ui
 INLINE fixed_search_t fixed_search_of(const fixed_stance_t *stance)
 {
     const uint32_t moments = fixed_sizes_of(stance->femur) | fixed_sizes_of(stance->tibia) | 1u;
-    const uint32_t compliances =
-        (uint32_t)(stance->femur_bend | stance->tibia_bend | stance->hip | stance->knee) | 1u;
+    const uint32_t compliances = (uint32_t)(stance->femur_bend | stance->tibia_bend | stance->hip | stance->knee) | 1u;
     /* Moments below 2^27, so that the sum of three is below 3/8 in q30; compliances below 2^29, which is 1/2. */
     const uint32_t up = leading_zeros(moments) - 1u, c_up = leading_zeros(compliances) - 1u;
     return (fixed_search_t){fixed_scaled_of(stance->femur, stance->femur_bend, up, c_up),
                             fixed_scaled_of(stance->tibia, stance->tibia_bend, up, c_up),
-                            compliance_raised(stance->hip, c_up),
-                            compliance_raised(stance->knee, c_up),
+                            compliance_raised(stance->hip, c_up), compliance_raised(stance->knee, c_up),
                             4 + 4 + 2 - (int32_t)(up + c_up)};
 }
 

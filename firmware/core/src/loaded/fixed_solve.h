@@ -73,11 +73,11 @@ INLINE bool fixed_solve_in(const fixed_pull_t *pull, int32_t bend, int32_t resis
         return false;
     }
     s->a_driven = pull->drives.a + end_drives;
-    s->b_driven = wrapped_less(pull->drives.b + end_drives,
-                               kept((int64_t)s->f.b_by_a * s->a_driven, 27, ROOM_RATIO, &lost));
-    s->driven = wrapped_less(pull->drives.root + end_drives,
-                             kept(sum2(s->f.root_by_a, s->a_driven, s->f.root_by_b, s->b_driven), 27, ROOM_RATIO,
-                                  &lost));
+    s->b_driven =
+        wrapped_less(pull->drives.b + end_drives, kept((int64_t)s->f.b_by_a * s->a_driven, 27, ROOM_RATIO, &lost));
+    s->driven =
+        wrapped_less(pull->drives.root + end_drives,
+                     kept(sum2(s->f.root_by_a, s->a_driven, s->f.root_by_b, s->b_driven), 27, ROOM_RATIO, &lost));
     return lost < LOST;
 }
 
@@ -117,8 +117,8 @@ typedef struct {
     fixed_shape_t femur_shape, tibia_shape;
 } fixed_limb_t;
 
-#define ANGLE_Q29(rad) ((int32_t)((rad) * 0x1p29))
-#define ANGLE_Q27(rad) ((int32_t)((rad) * 0x1p27))
+#define ANGLE_Q29(rad) ((int32_t)((rad)*0x1p29))
+#define ANGLE_Q27(rad) ((int32_t)((rad)*0x1p27))
 
 INLINE bool is_within(int32_t angle, int32_t most)
 {
@@ -127,8 +127,8 @@ INLINE bool is_within(int32_t angle, int32_t most)
 
 /* femur_to, tibia_to (out): where the step leads
  * returns false where the limb yields too much for the formats */
-INLINE bool fixed_step(const fixed_limb_t *limb, bool is_first, int32_t hip, int32_t knee,
-                       fixed_far_shape_t *femur_to, fixed_far_shape_t *tibia_to)
+INLINE bool fixed_step(const fixed_limb_t *limb, bool is_first, int32_t hip, int32_t knee, fixed_far_shape_t *femur_to,
+                       fixed_far_shape_t *tibia_to)
 {
     fixed_pull_t pull;
     fixed_solved_t tibia, femur;
@@ -215,9 +215,8 @@ INLINE bool fixed_bounded_step(fixed_limb_t *limb, bool is_first, int32_t hip, i
     const uint32_t by_femur = end_turned(&femur, &limb->femur_shape);
     const uint32_t by_tibia = end_turned(&tibia, &limb->tibia_shape);
     const uint32_t turned = by_femur > by_tibia ? by_femur : by_tibia;
-    const int32_t part_q30 = turned <= (uint32_t)FIXED_STEP_MOST
-                                 ? 1 << 30
-                                 : (int32_t)(((uint64_t)FIXED_STEP_MOST << 30) / turned);
+    const int32_t part_q30 =
+        turned <= (uint32_t)FIXED_STEP_MOST ? 1 << 30 : (int32_t)(((uint64_t)FIXED_STEP_MOST << 30) / turned);
     *turned_q27 = turned <= (uint32_t)INT32_MAX ? (int32_t)turned : INT32_MAX;
     return fixed_shape_goes(&limb->femur_shape, &femur, part_q30) &&
            fixed_shape_goes(&limb->tibia_shape, &tibia, part_q30);
@@ -232,7 +231,7 @@ typedef struct {
 
 typedef struct {
     fixed_factors_t femur, tibia;
-    int32_t hip, knee;         /* pivots of the joints */
+    int32_t hip, knee; /* pivots of the joints */
     int32_t per_hip, per_knee; /* one over them */
 } fixed_pivots_t;
 
@@ -243,8 +242,12 @@ INLINE bool fixed_pivots_of(const fixed_stance_t *limb, fixed_pivots_t *p)
     lost_t lost = 0u;
     const fixed_rest_t *rest = limb->tibia;
     int32_t end = rest->end_resists - rest->end_softens;
-    m = (fixed_matrix_t){rest->resists.rr + end - rest->root_softens, rest->resists.ra + end, rest->resists.rb + end,
-                         rest->resists.aa + end, rest->resists.ab + end, rest->resists.bb + end};
+    m = (fixed_matrix_t){rest->resists.rr + end - rest->root_softens,
+                         rest->resists.ra + end,
+                         rest->resists.rb + end,
+                         rest->resists.aa + end,
+                         rest->resists.ab + end,
+                         rest->resists.bb + end};
     if (!fixed_factors_of(&m, limb->tibia_bend, false, &p->tibia) ||
         !fixed_joint_of(limb->knee, p->tibia.resists, false, &p->knee)) {
         return false;
@@ -256,8 +259,12 @@ INLINE bool fixed_pivots_of(const fixed_stance_t *limb, fixed_pivots_t *p)
     if (lost >= LOST) {
         return false;
     }
-    m = (fixed_matrix_t){rest->resists.rr + end - rest->root_softens, rest->resists.ra + end, rest->resists.rb + end,
-                         rest->resists.aa + end, rest->resists.ab + end, rest->resists.bb + end};
+    m = (fixed_matrix_t){rest->resists.rr + end - rest->root_softens,
+                         rest->resists.ra + end,
+                         rest->resists.rb + end,
+                         rest->resists.aa + end,
+                         rest->resists.ab + end,
+                         rest->resists.bb + end};
     if (!fixed_factors_of(&m, limb->femur_bend, false, &p->femur) ||
         !fixed_joint_of(limb->hip, p->femur.resists, false, &p->hip)) {
         return false;

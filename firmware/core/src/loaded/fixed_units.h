@@ -72,9 +72,8 @@ static inline bool is_within_units(const brace_loaded_fixed_t *fixed)
 {
     return unit_are_exponents(fixed) && unit_are_weights(fixed) && unit_is_link(&fixed->femur) &&
            unit_is_link(&fixed->tibia) &&
-           (int64_t)fixed->femur.length_q28 + fixed->tibia.length_q28 <= UNIT_REACH_MOST_Q28 &&
-           fixed->base_q31 >= 0 && fixed->base_rotation_q31 >= 0 &&
-           unit_are_roots(fixed->base_root_q31);
+           (int64_t)fixed->femur.length_q28 + fixed->tibia.length_q28 <= UNIT_REACH_MOST_Q28 && fixed->base_q31 >= 0 &&
+           fixed->base_rotation_q31 >= 0 && unit_are_roots(fixed->base_root_q31);
 }
 
 #endif

@@ -23,7 +23,7 @@
 typedef brace_fixed_vec_t fixed_vec_t;
 
 /* A constant below 1, rounded: above zero, truncation rounds down. */
-#define Q31(number) ((int32_t)((int64_t)((number) * 0x1p31 + 0x1p31 + 0.5) - 2147483648))
+#define Q31(number) ((int32_t)((int64_t)((number)*0x1p31 + 0x1p31 + 0.5) - 2147483648))
 #define ONE_Q27 (1 << 27)
 
 /* Sums of products, whole. Sums that leave 64 bits wrap. */
@@ -86,8 +86,7 @@ INLINE int32_t kept(int64_t sum, int bits, int room, lost_t *lost)
 /* Rooms: 4 in the result of an entry (q27) times a ratio (q27), of a lever (q28) times a ratio, and of a compliance
  * (q29) times an entry; 8 in what is left of a lever, and 8 rad (q27) in
  * where a step leads. */
-enum { ROOM_RATIO = 0, ROOM_LEVER = 1, ROOM_COMPLIANCE = 2, ROOM_LEVER_LESS = 2,
-       ROOM_FAR_TURN = 1 };
+enum { ROOM_RATIO = 0, ROOM_LEVER = 1, ROOM_COMPLIANCE = 2, ROOM_LEVER_LESS = 2, ROOM_FAR_TURN = 1 };
 
 #define LEAST_PIVOT_Q27 (ONE_Q27 / 16 + 1) /* one over a sixteenth would be 16, which q27 does not hold */
 

@@ -103,9 +103,8 @@ INLINE void pull_bent(const link_t *link, const shape_t *shape, pull_t *pull)
     brace_vec_t turn = turn_by(shape->root);
     const brace_vec_t rigid = vec_turned(link->rigid_mm, turn);
     const float root_resists = vec_dot(rigid, link->on_rigid_n);
-    *pull = (pull_t){
-        .resists = {root_resists, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f},
-        .drives = {brace_fma(root_resists, shape->root, vec_cross(rigid, link->on_rigid_n)), 0.0f, 0.0f}};
+    *pull = (pull_t){.resists = {root_resists, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f},
+                     .drives = {brace_fma(root_resists, shape->root, vec_cross(rigid, link->on_rigid_n)), 0.0f, 0.0f}};
     const float first_rad = turn_at(shape, &first), second_rad = turn_at(shape, &second), end_rad = end_turn(shape);
     turn = vec_turned(turn, brace_small_turn(first_rad - shape->root));
     pull_at_point(link, turn, first_rad, &first, pull);
@@ -123,12 +122,12 @@ INLINE void pull_bent(const link_t *link, const shape_t *shape, pull_t *pull)
 /* What a link tells there: how it moves the tip by each coordinate, its springs as vectors of C, and what resists its
  * turns. The springs' part that grows with the square of the load is apart, because the buckling factor needs it so. */
 typedef struct {
-    matrix_t resists;                     /* what grows with the load, except at the link's end */
+    matrix_t resists; /* what grows with the load, except at the link's end */
     float end_resists;
-    float root_softens, end_softens;      /* what grows with the square of the load */
-    brace_vec_t tip_mm;                   /* from the link's root to its end */
-    brace_vec_t a, b, end;                /* how the tip moves: quarters of these levers */
-    brace_vec_t aside;                    /* less by this: what the springs move changes as they turn */
+    float root_softens, end_softens; /* what grows with the square of the load */
+    brace_vec_t tip_mm; /* from the link's root to its end */
+    brace_vec_t a, b, end; /* how the tip moves: quarters of these levers */
+    brace_vec_t aside; /* less by this: what the springs move changes as they turn */
     brace_vec_t root_spring, end_spring;
 } rest_t;
 
@@ -150,11 +149,11 @@ INLINE void rest_of(const link_t *link, const shape_t *shape, rest_t *rest)
     const brace_vec_t whole_n = vec_plus(link->beyond_n, link->own_n);
     const brace_vec_t root_spring = vec_turned(link->root_root, turn), rigid = vec_turned(link->to_beam_mm, turn);
     const float root_along = vec_dot(root_spring, whole_n), root_across = vec_cross(whole_n, root_spring);
-    *rest = (rest_t){.resists = {brace_fma(root_along, root_along, vec_dot(rigid, link->on_rigid_n)), 0.0f, 0.0f, 0.0f,
-                                 0.0f, 0.0f},
-                     .root_softens = root_across * root_across,
-                     .tip_mm = vec_plus_scaled(rigid, root_spring, root_along),
-                     .root_spring = root_spring};
+    *rest = (rest_t){
+        .resists = {brace_fma(root_along, root_along, vec_dot(rigid, link->on_rigid_n)), 0.0f, 0.0f, 0.0f, 0.0f, 0.0f},
+        .root_softens = root_across * root_across,
+        .tip_mm = vec_plus_scaled(rigid, root_spring, root_along),
+        .root_spring = root_spring};
     turn = turned_on(turn, shape, first.a, first.b);
     rest_at_point(link, turn, &first, rest);
     turn = turned_on(turn, shape, second.a - first.a, second.b - first.b);

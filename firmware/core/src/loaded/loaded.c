@@ -93,8 +93,8 @@ INLINE bool is_settled(float unsettled_rad, float det)
 }
 
 /* The equilibrium, by steps of Newton's method from the straight limb: two, and two more where these are not enough. */
-INLINE brace_status_t settle(const brace_loaded_t *loaded, float theta1_rad, float theta2_rad,
-                             const brace_load_t *load, brace_loaded_rest_t *at)
+INLINE brace_status_t settle(const brace_loaded_t *loaded, float theta1_rad, float theta2_rad, const brace_load_t *load,
+                             brace_loaded_rest_t *at)
 {
     const float reach = brace_fma(theta1_rad, theta1_rad, theta2_rad * theta2_rad);
     const float force = fabsf(load->tip.x_n) + fabsf(load->tip.z_n);
@@ -106,17 +106,17 @@ INLINE brace_status_t settle(const brace_loaded_t *loaded, float theta1_rad, flo
     const brace_vec_t tip_n = {load->tip.x_n, load->tip.z_n}, seen_n = vec_turned_back(tip_n, femur);
     const brace_vec_t down = vec_turned_back(load->down, femur);
     const float base = loaded->base_rotation_rad_per_n_mm;
-    *at = (brace_loaded_rest_t){.femur_commanded = femur,
-                                .tibia_commanded = tibia,
-                                .femur = link_seen(&loaded->femur, forwards,
-                                                   vec_plus_scaled(seen_n, down, loaded->knee_n), down),
-                                .tibia = link_seen(&loaded->tibia, tibia, seen_n, down),
-                                .femur_shape = {0.0f, 0.0f, 0.0f},
-                                .tibia_shape = {0.0f, 0.0f, 0.0f},
-                                .hip_rad_per_n_mm = load->hip.slope_rad_per_n_mm + base,
-                                .knee_rad_per_n_mm = load->knee.slope_rad_per_n_mm,
-                                .on_base_n = vec_plus_scaled(tip_n, load->down, loaded->weight_n),
-                                .unsettled_rad = 0.0f};
+    *at = (brace_loaded_rest_t){
+        .femur_commanded = femur,
+        .tibia_commanded = tibia,
+        .femur = link_seen(&loaded->femur, forwards, vec_plus_scaled(seen_n, down, loaded->knee_n), down),
+        .tibia = link_seen(&loaded->tibia, tibia, seen_n, down),
+        .femur_shape = {0.0f, 0.0f, 0.0f},
+        .tibia_shape = {0.0f, 0.0f, 0.0f},
+        .hip_rad_per_n_mm = load->hip.slope_rad_per_n_mm + base,
+        .knee_rad_per_n_mm = load->knee.slope_rad_per_n_mm,
+        .on_base_n = vec_plus_scaled(tip_n, load->down, loaded->weight_n),
+        .unsettled_rad = 0.0f};
     const float hip_yields = load->hip.yields_by_rad_per_n_mm + base, knee_yields = load->knee.yields_by_rad_per_n_mm;
     (void)bounded_step(at, true, hip_yields, knee_yields);
     at->unsettled_rad = bounded_step(at, false, hip_yields, knee_yields);
@@ -134,8 +134,8 @@ INLINE brace_status_t stiffness_at(const brace_loaded_t *loaded, const brace_loa
     rest_t femur_rest, tibia_rest;
     rest_of(&at->femur, &at->femur_shape, &femur_rest);
     rest_of(&at->tibia, &at->tibia_shape, &tibia_rest);
-    const stance_t stance = {&femur_rest, &tibia_rest, at->femur.bend_rad_per_n_mm, at->tibia.bend_rad_per_n_mm, hip,
-                             knee};
+    const stance_t stance = {&femur_rest, &tibia_rest, at->femur.bend_rad_per_n_mm, at->tibia.bend_rad_per_n_mm,
+                             hip,         knee};
     const pivots_t p = pivots_at(&stance, 1.0f);
     const float det = product(&p);
     if (!is_stable(&p, SINGULAR_PIVOT) || !is_bent_within(&at->femur_shape) || !is_bent_within(&at->tibia_shape) ||

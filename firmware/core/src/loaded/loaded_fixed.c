@@ -105,8 +105,8 @@ brace_status_t brace_loaded_fixed_stiffness(const brace_loaded_fixed_t *fixed, f
         return BRACE_E_SINGULAR;
     }
     add_spring(&springs, fixed_turned_back(root_of(fixed->base_root_q31, &in), femur));
-    const uint64_t even_q54 =
-        (uint64_t)((fixed->base_q31 >> in.spring_shift) + limb.femur.end_q30 + limb.tibia.end_q30) << 24;
+    const uint64_t even_q54 = (uint64_t)((fixed->base_q31 >> in.spring_shift) + limb.femur.end_q30 + limb.tibia.end_q30)
+                              << 24;
     c.xx += ((springs.xx >> 6) + even_q54) >> in.coarser, c.zz += ((springs.zz >> 6) + even_q54) >> in.coarser;
     c.xz += (uint64_t)((int64_t)springs.xz >> (6u + in.coarser));
     const brace_status_t status = stiffness_of(
@@ -120,8 +120,7 @@ brace_status_t brace_loaded_fixed_stiffness(const brace_loaded_fixed_t *fixed, f
     const fixed_vec_t tibia_bent = fixed_turned(tibia_rest.tip, femur);
     const int32_t length_format = 28 - fixed->length_exponent;
     result->displacement = displacement_of(fixed, &in, fixed_plus(femur_rest.tip, tibia_rest.tip), femur, tibia);
-    result->tibia_mm =
-        (brace_vec_t){float_from(tibia_bent.x, length_format), float_from(tibia_bent.z, length_format)};
+    result->tibia_mm = (brace_vec_t){float_from(tibia_bent.x, length_format), float_from(tibia_bent.z, length_format)};
     result->hip_turn_rad = float_from(limb.femur_shape.root, 29);
     result->knee_turn_rad = float_from((limb.tibia_shape.root >> 1) - (fixed_end_turn(&limb.femur_shape) >> 1), 28);
     result->buckling_factor = fixed_buckling_factor(&stance, det);

@@ -18,8 +18,8 @@ static void roots_of(brace_vec_t root, const brace_loaded_fixed_t *fixed, brace_
     const int32_t exponent = 31 - half - fixed->spring_exponent / 2;
     for (int parity = 0; parity < 2; parity++) {
         const double by = parity != 0 ? odd * 0.70710678118654752 : odd;
-        roots_q31[parity] = (brace_fixed_vec_t){quantised(by * (double)root.x, exponent),
-                                                quantised(by * (double)root.z, exponent)};
+        roots_q31[parity] =
+            (brace_fixed_vec_t){quantised(by * (double)root.x, exponent), quantised(by * (double)root.z, exponent)};
     }
 }
 
@@ -47,8 +47,8 @@ void brace_loaded_fixed_collapse(const brace_loaded_t *loaded, brace_loaded_fixe
 {
     const brace_loaded_link_t *femur = &loaded->femur, *tibia = &loaded->tibia;
     fixed->length_exponent = exponent_above(femur->length_mm + tibia->length_mm);
-    const float bend = fmaxf(fmaxf(femur->bend_rad_per_n_mm, tibia->bend_rad_per_n_mm),
-                             loaded->base_rotation_rad_per_n_mm);
+    const float bend =
+        fmaxf(fmaxf(femur->bend_rad_per_n_mm, tibia->bend_rad_per_n_mm), loaded->base_rotation_rad_per_n_mm);
     fixed->bend_exponent = exponent_above(bend) + fixed->length_exponent;
     const float ends = loaded->base_mm_per_n + femur->end_mm_per_n + tibia->end_mm_per_n;
     const float springs = ends + square(loaded->base_root) + square(femur->root_root) + square(femur->end_root) +
@@ -62,8 +62,8 @@ void brace_loaded_fixed_collapse(const brace_loaded_t *loaded, brace_loaded_fixe
     fixed->weight_q31 = quantised((double)loaded->weight_n, 31 - fixed->weight_exponent);
     fixed->base_q31 = quantised((double)loaded->base_mm_per_n, 31 - fixed->length_exponent - fixed->spring_exponent);
     roots_of(loaded->base_root, fixed, fixed->base_root_q31);
-    fixed->base_rotation_q31 = quantised((double)loaded->base_rotation_rad_per_n_mm,
-                                         31 + fixed->length_exponent - fixed->bend_exponent);
+    fixed->base_rotation_q31 =
+        quantised((double)loaded->base_rotation_rad_per_n_mm, 31 + fixed->length_exponent - fixed->bend_exponent);
     fixed->weight_q8 = (uint32_t)quantised(384.0 * (double)loaded->weight_n, 0);
     if (!is_within_units(fixed)) {
         *fixed = (brace_loaded_fixed_t){.bend_exponent = REFUSED_EXPONENT};

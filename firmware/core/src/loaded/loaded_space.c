@@ -14,16 +14,16 @@
 #define LEFT_PROMISED_RAD2 2.5e-5f /* square of 0.005 rad: beyond it no accuracy is promised */
 #define LEFT_SURE_RAD2 1e-6f /* square of 0.001 rad: what further steps are not taken for */
 #define LEFT_NOTHING_RAD2 1e-12f /* square of 1e-6 rad: the same where nobody waits; singles hardly tell more */
-#define ROUNDS_MOST 2           /* of two steps each */
-#define ROUNDS_ON_MOST 10       /* where nobody waits at all */
+#define ROUNDS_MOST 2 /* of two steps each */
+#define ROUNDS_ON_MOST 10 /* where nobody waits at all */
 #define SHARES_MOST 64 /* of a load that is raised; the first, and the least */
 #define SHARE_FIRST 0.125f
 #define SHARE_LEAST 0.002f
 #define ROUNDS_A_SHARE 3
 #define FOLLOWED_RATIO2 0.25f /* square of the load's change over the load, beyond which a rest is not followed */
-#define STEP_MOST_RAD2 1.44f    /* square of 1.2 rad: a longer step is shortened to it */
+#define STEP_MOST_RAD2 1.44f /* square of 1.2 rad: a longer step is shortened to it */
 #define SMALL_TURN_RAD2 1.0f /* squares: what brace_small_turn() takes, */
-#define LINKS_RAD2 2.25f      /* and of links, which turn half way on either side */
+#define LINKS_RAD2 2.25f /* and of links, which turn half way on either side */
 #define JOINT_TURN_RAD 1.5f /* sine and cosine of base/trig.h hold up to pi/2 */
 #define FORCE_MOST_N 1e4f
 #define BEND_PROMISED_RAD2 0.09f /* square of 0.3 rad, see bends_beyond */
@@ -161,8 +161,8 @@ static bool first_is_enough(const brace_space_rest_t *rest, bool is_first, float
 
 static bool is_within(const brace_space_pose_t *pose)
 {
-    const float links = vec3_dot(pose->coxa, pose->coxa) + vec3_dot(pose->femur, pose->femur) +
-                        vec3_dot(pose->tibia, pose->tibia);
+    const float links =
+        vec3_dot(pose->coxa, pose->coxa) + vec3_dot(pose->femur, pose->femur) + vec3_dot(pose->tibia, pose->tibia);
     return links <= LINKS_RAD2 && brace_fma(pose->base, pose->base, pose->yaw * pose->yaw) <= SMALL_TURN_RAD2 &&
            fabsf(brace_fma(0.5f, pose->coxa.z + pose->femur.z, pose->hip)) <= JOINT_TURN_RAD &&
            fabsf(brace_fma(0.5f, pose->femur.z + pose->tibia.z, pose->knee)) <= JOINT_TURN_RAD;
@@ -394,8 +394,7 @@ static uint32_t flags_of(const brace_space_rest_t *rest)
 /* sum: as sum_first has left it; then whole
  * returns as brace_loaded_space_stiffness */
 static brace_status_t sum_second(const brace_loaded_space_t *loaded, const brace_space_rest_t *rest,
-                                 const freedoms_t *free, const axes_t *coxa, sum_t *sum,
-                                 brace_space_result_t *result)
+                                 const freedoms_t *free, const axes_t *coxa, sum_t *sum, brace_space_result_t *result)
 {
     sym3_t k;
     sum_inner(loaded, rest, free, coxa, sum);
@@ -469,8 +468,8 @@ static bool work_second_step(const brace_loaded_space_t *loaded, brace_space_wor
     return work->step == STEP_FIRST || rest_found(&work->rest) == BRACE_OK;
 }
 
-bool brace_loaded_space_step(const brace_loaded_space_t *loaded, brace_space_work_t *work,
-                             brace_space_result_t *result, brace_status_t *status)
+bool brace_loaded_space_step(const brace_loaded_space_t *loaded, brace_space_work_t *work, brace_space_result_t *result,
+                             brace_status_t *status)
 {
     brace_space_rest_t *rest = &work->rest;
     freedoms_t *free = &work->of.summing.freedoms;
@@ -522,8 +521,12 @@ brace_status_t brace_loaded_space_turn(float theta0_rad, const brace_k3_t *k, br
     if (status != BRACE_OK) {
         return status;
     }
-    brace_jacobi_t m = {.xx = k->xx_n_per_mm, .xy = k->xy_n_per_mm, .xz = k->xz_n_per_mm,
-                        .yy = k->yy_n_per_mm, .yz = k->yz_n_per_mm, .zz = k->zz_n_per_mm};
+    brace_jacobi_t m = {.xx = k->xx_n_per_mm,
+                        .xy = k->xy_n_per_mm,
+                        .xz = k->xz_n_per_mm,
+                        .yy = k->yy_n_per_mm,
+                        .yz = k->yz_n_per_mm,
+                        .zz = k->zz_n_per_mm};
     brace_jacobi(&m);
     const bool x_is_less = m.xx < m.yy;
     const float low = x_is_less ? m.xx : m.yy, high = x_is_less ? m.yy : m.xx;
@@ -533,16 +536,22 @@ brace_status_t brace_loaded_space_turn(float theta0_rad, const brace_k3_t *k, br
     const float least = m.zz < low ? m.zz : low, most = m.zz > high ? m.zz : high;
     const brace_vec3_t axis = outwards_axis(m.zz > high ? m.z : x_is_less ? m.y : m.x);
     const brace_vec_t yaw = brace_direction(theta0_rad);
-    sym3_t turned = {k->xx_n_per_mm, k->xy_n_per_mm, k->xz_n_per_mm,
-                     k->yy_n_per_mm, k->yz_n_per_mm, k->zz_n_per_mm};
+    sym3_t turned = {k->xx_n_per_mm, k->xy_n_per_mm, k->xz_n_per_mm, k->yy_n_per_mm, k->yz_n_per_mm, k->zz_n_per_mm};
     sym3_about_z(&turned, yaw);
     const vec3_t turned_axis = about_z(axis, yaw);
-    *stiffness = (brace_stiffness_spatial_t){
-        .k_xx_n_per_mm = turned.xx, .k_xy_n_per_mm = turned.xy, .k_xz_n_per_mm = turned.xz,
-        .k_yy_n_per_mm = turned.yy, .k_yz_n_per_mm = turned.yz, .k_zz_n_per_mm = turned.zz,
-        .lambda_n_per_mm = {least, m.zz < low ? low : m.zz > high ? high : m.zz, most},
-        .stiff_axis = {turned_axis.x, turned_axis.y, turned_axis.z},
-        .flags = least < SLENDER * most ? BRACE_FLAG_NEAR_SINGULAR : 0u};
+    *stiffness = (brace_stiffness_spatial_t){.k_xx_n_per_mm = turned.xx,
+                                             .k_xy_n_per_mm = turned.xy,
+                                             .k_xz_n_per_mm = turned.xz,
+                                             .k_yy_n_per_mm = turned.yy,
+                                             .k_yz_n_per_mm = turned.yz,
+                                             .k_zz_n_per_mm = turned.zz,
+                                             .lambda_n_per_mm = {least,
+                                                                 m.zz < low    ? low
+                                                                 : m.zz > high ? high
+                                                                               : m.zz,
+                                                                 most},
+                                             .stiff_axis = {turned_axis.x, turned_axis.y, turned_axis.z},
+                                             .flags = least < SLENDER * most ? BRACE_FLAG_NEAR_SINGULAR : 0u};
     return BRACE_OK;
 }
 

@@ -64,8 +64,8 @@ INLINE solved_t solve_in(const pull_t *pull, float bend_rad_per_n_mm, float resi
     solved_t s = {.f = factors_of(&whole, bend_rad_per_n_mm, true)};
     s.a_driven = pull->drives.a + end_drives;
     s.b_driven = brace_fma(-s.f.b_by_a, s.a_driven, pull->drives.b + end_drives);
-    s.driven = brace_fma(-s.f.root_by_b, s.b_driven,
-                         brace_fma(-s.f.root_by_a, s.a_driven, pull->drives.root + end_drives));
+    s.driven =
+        brace_fma(-s.f.root_by_b, s.b_driven, brace_fma(-s.f.root_by_a, s.a_driven, pull->drives.root + end_drives));
     return s;
 }
 
@@ -101,8 +101,7 @@ INLINE void step(brace_loaded_rest_t *limb, bool is_first, float hip_rad_per_n_m
     } else {
         pull_bent(&limb->femur, &limb->femur_shape, &pull);
     }
-    const solved_t femur =
-        solve_in(&pull, limb->femur.bend_rad_per_n_mm, tibia.f.resists * knee, tibia.driven * knee);
+    const solved_t femur = solve_in(&pull, limb->femur.bend_rad_per_n_mm, tibia.f.resists * knee, tibia.driven * knee);
     const float hip = 1.0f / pivot_on_the_way(brace_fma(hip_rad_per_n_mm, femur.f.resists, 1.0f));
     limb->femur_shape = solve_out(&femur, hip_rad_per_n_mm * femur.driven * hip);
     limb->tibia_shape =
@@ -135,8 +134,11 @@ INLINE matrix_t loaded_matrix(const rest_t *rest, float times, float beyond)
     const float square = times * times;
     const float end = brace_fma(-square, rest->end_softens, brace_fma(times, rest->end_resists, beyond));
     return (matrix_t){brace_fma(-square, rest->root_softens, brace_fma(times, r->rr, end)),
-                      brace_fma(times, r->ra, end), brace_fma(times, r->rb, end),
-                      brace_fma(times, r->aa, end), brace_fma(times, r->ab, end), brace_fma(times, r->bb, end)};
+                      brace_fma(times, r->ra, end),
+                      brace_fma(times, r->rb, end),
+                      brace_fma(times, r->aa, end),
+                      brace_fma(times, r->ab, end),
+                      brace_fma(times, r->bb, end)};
 }
 
 /* The limb at its equilibrium: its links, and how its joints yield there. */

@@ -140,8 +140,8 @@ INLINE void bend_link(const brace_space_link_t *link, vec3_t turn, float twists_
     vec3_t chord = vec3(brace_fma(half_bow, turn.y, link->length_mm), brace_fma(bow.z, turn.z, 0.0f), 0.0f);
     chord.x = brace_fma(bow.x, turn.z, brace_fma(stretch, link->stretch_root.x, chord.x));
     chord.y = brace_fma(stretch, link->stretch_root.z, chord.y);
-    chord.x = brace_fma(across.x - across_shortens, across_mm,
-                        brace_fma(share_y - sideways_shortens, sideways_mm, chord.x));
+    chord.x =
+        brace_fma(across.x - across_shortens, across_mm, brace_fma(share_y - sideways_shortens, sideways_mm, chord.x));
     chord.y = brace_fma(across.y, across_mm, chord.y);
     chord.z = brace_fma(across.z, across_mm, sideways_mm);
     bent->chord_mm = chord;
@@ -158,17 +158,17 @@ INLINE vec3_t chord_moment(const brace_space_bent_t *bent)
     return vec3_cross(bent->chord_mm, vec3_plus_scaled(bent->beyond_n, bent->own_n, 0.5f));
 }
 
-INLINE vec3_t drives_of(const brace_space_link_t *link, vec3_t turn, const brace_space_bent_t *bent,
-                        vec3_t moment_n_mm, vec3_t chord_n_mm)
+INLINE vec3_t drives_of(const brace_space_link_t *link, vec3_t turn, const brace_space_bent_t *bent, vec3_t moment_n_mm,
+                        vec3_t chord_n_mm)
 {
     const vec3_t f = bent->beyond_n;
     vec3_t drives = vec3_plus_scaled(moment_n_mm, chord_n_mm, 0.5f);
     const brace_vec_t leans = twist_leans(link, turn);
     const apart_t apart = moves_apart(link, bent, moment_n_mm);
-    const float across = link->across_spread_per_n_mm *
-                         brace_fma(turn.z, apart.pulls_n_mm, -(turn.y * apart.twists_n_mm));
-    const float sideways = link->sideways_spread_per_n_mm *
-                           brace_fma(turn.z, apart.twists_n_mm, turn.y * apart.pulls_n_mm);
+    const float across =
+        link->across_spread_per_n_mm * brace_fma(turn.z, apart.pulls_n_mm, -(turn.y * apart.twists_n_mm));
+    const float sideways =
+        link->sideways_spread_per_n_mm * brace_fma(turn.z, apart.twists_n_mm, turn.y * apart.pulls_n_mm);
     drives.y = brace_fma(sideways, apart.pulls_n_mm, brace_fma(-across, apart.twists_n_mm, drives.y));
     drives.z = brace_fma(across, apart.pulls_n_mm, brace_fma(sideways, apart.twists_n_mm, drives.z));
     drives.x = brace_fma(link->twist_share, chord_n_mm.x, moment_n_mm.x);
@@ -213,7 +213,7 @@ INLINE vec3_t beyond_hip(vec3_t v, const brace_space_turns_t *turns)
 /* Bends the links of a rest whose turns and forces are known. drives: on every coordinate. curls: not changed before
  * all is bent. */
 INLINE void bend_limb(const brace_loaded_space_t *loaded, brace_space_rest_t *rest, curls_t *curls, bool is_driven,
-                     brace_space_pose_t *drives)
+                      brace_space_pose_t *drives)
 {
     const brace_space_turns_t *turns = &rest->turns;
     vec3_t m = {0.0f, 0.0f, 0.0f};

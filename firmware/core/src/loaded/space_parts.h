@@ -83,8 +83,8 @@ INLINE void shape_part(const brace_space_link_t *link, const bend_t *bend, float
     const float half_bow_mm = -0.5f * link->twelfth_mm * share * y, across_mm = across * length_mm;
     part->about_y = brace_small_turn(0.5f * y);
     part->about_x = brace_small_turn(brace_fma(bend->turn.x, share, -brace_fma(across, y, sideways * z)));
-    part->chord_mm = vec3(brace_fma(link->across.x, across_mm, length_mm), link->across.z * across_mm,
-                          sideways * length_mm);
+    part->chord_mm =
+        vec3(brace_fma(link->across.x, across_mm, length_mm), link->across.z * across_mm, sideways * length_mm);
     part->chord_mm.x = brace_fma(bow.x, z, brace_fma(half_bow_mm, y, part->chord_mm.x));
     part->chord_mm.y = brace_fma(bow.z, z, part->chord_mm.y);
     part->across_curl = across;
@@ -106,8 +106,8 @@ INLINE void shape_link(const brace_space_link_t *link, const bend_t *bend, int p
         shape_part(link, bend, share, off, &part[i]);
         loads_about_y(loads, back(part[i].about_y));
         part[i].own_n = vec3_scaled(loads->down, link->weight_n * share);
-        part[i].beyond_n = vec3_plus_scaled(loads->tip_n, loads->down,
-                                            brace_fma(link->weight_n, 0.5f - share * 0.5f - off, beyond_n));
+        part[i].beyond_n =
+            vec3_plus_scaled(loads->tip_n, loads->down, brace_fma(link->weight_n, 0.5f - share * 0.5f - off, beyond_n));
         const float half = 0.5f * turned_z(bend, off, share);
         const float next = i + 1 < parts ? 0.5f * turned_z(bend, off + share, share) : 0.0f;
         part[i].about_z = brace_small_turn(half + next);
@@ -120,8 +120,8 @@ INLINE void shape_link(const brace_space_link_t *link, const bend_t *bend, int p
     const float across_n = brace_fma(link->across.x, f.x, link->across.z * f.y);
     const float across_mm = (1.0f - beam) * link->across_mm_per_n * across_n;
     *end_n = f;
-    *end_mm = vec3(link->across.x * across_mm, link->across.z * across_mm,
-                   (1.0f - beam) * link->sideways_mm_per_n * f.z);
+    *end_mm =
+        vec3(link->across.x * across_mm, link->across.z * across_mm, (1.0f - beam) * link->sideways_mm_per_n * f.z);
 }
 
 static void shape_limb(const brace_loaded_space_t *loaded, const brace_space_rest_t *rest, brace_space_shape_t *shape)

@@ -49,16 +49,16 @@ INLINE void straight_link(const brace_space_link_t *link, forces_t at, held_t *h
     const vec3_t f = vec3_plus_scaled(at.beyond_n, at.own_n, 0.5f), m = held->moment_n_mm;
     const vec3_t whole = vec3_scaled(f, link->length_mm), half = vec3_scaled(whole, 0.5f);
     const sym3_t r = held->resists;
-    const float third = whole.x * (1.0f / 3.0f), by_bend = brace_fma(link->tilt_mm.x, at.beyond_n.x,
-                                                                     link->tilt_mm.z * at.beyond_n.y);
+    const float third = whole.x * (1.0f / 3.0f),
+                by_bend = brace_fma(link->tilt_mm.x, at.beyond_n.x, link->tilt_mm.z * at.beyond_n.y);
     *drives = vec3(m.x, brace_fma(link->twelfth_mm, at.own_n.z, m.y - half.z),
                    brace_fma(-link->twelfth_mm, at.own_n.y, m.z + half.y) + by_bend);
     held->moment_n_mm = vec3(m.x, m.y - whole.z, m.z + whole.y);
     held->resists = (sym3_t){r.xx, r.xy - half.y, r.xz - half.z, r.yy + whole.x, r.yz, r.zz + whole.x};
     factor->twist_rad_per_n_mm = link->twist_rad_per_n_mm;
     factor->between = r.yz;
-    factor->y = eliminated(&held->resists, vec3(r.xy - half.y, r.yy + half.x, r.yz), r.yy + third,
-                           link->sideways_rad_per_n_mm);
+    factor->y =
+        eliminated(&held->resists, vec3(r.xy - half.y, r.yy + half.x, r.yz), r.yy + third, link->sideways_rad_per_n_mm);
     const float by = factor->y.yields * r.yz;
     const vec3_t row = vec3_plus_scaled(vec3(r.xz - half.z, r.yz, r.zz + half.x), factor->y.row, -by);
     factor->z = eliminated(&held->resists, row, brace_fma(-by, r.yz, r.zz + third), link->bend_rad_per_n_mm);

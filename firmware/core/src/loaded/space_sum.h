@@ -276,8 +276,8 @@ INLINE void add_link(sum_t *sum, const brace_space_link_t *link, vec3_t turn, co
     }
     const float share_y = link->stretch_end_share * turn.y, share_z = link->stretch_end_share * turn.z;
     const brace_vec_t root = link->stretch_root;
-    const vec3_t own_stretch = vec3(brace_fma(-share_z, root.z, root.x), brace_fma(share_z, root.x, root.z),
-                                    -(share_y * root.x));
+    const vec3_t own_stretch =
+        vec3(brace_fma(-share_z, root.z, root.x), brace_fma(share_z, root.x, root.z), -(share_y * root.x));
     const vec3_t stretch = axes_times(axes, own_stretch);
     y = vec3_plus_scaled(vec3_plus_scaled(y, across, free->by_across.y), sideways, free->by_sideways.y);
     y = vec3_plus_scaled(y, stretch, free->y_by_stretch);

@@ -18,7 +18,7 @@ void brace_spatial_set_springs(brace_spatial_t *spatial, float yaw_rad_per_n_mm,
 static inline float aside(const brace_aside_t *link, float along_mm, float beside_mm)
 {
     return brace_fma(along_mm, brace_fma(along_mm, link->per_mm2, link->per_mm),
-                link->torsion_rad_per_n_mm * beside_mm * beside_mm);
+                     link->torsion_rad_per_n_mm * beside_mm * beside_mm);
 }
 
 /* The compliance across the plane [mm/N]. tip_mm: vector from the hip to the tip, in the plane. */

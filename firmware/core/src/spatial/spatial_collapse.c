@@ -42,8 +42,8 @@ brace_status_t brace_spatial_collapse(const brace_limb_t *limb, brace_spatial_t 
     spatial->coxa_moment_per_lever_mm = coxa.moment_per_lever_mm;
 
     spatial->coxa_mm = limb->coxa_mm;
-    spatial->across_mm_per_n = link[BRACE_COXA].lateral_mm_per_n + link[BRACE_FEMUR].lateral_mm_per_n +
-                               link[BRACE_TIBIA].lateral_mm_per_n;
+    spatial->across_mm_per_n =
+        link[BRACE_COXA].lateral_mm_per_n + link[BRACE_FEMUR].lateral_mm_per_n + link[BRACE_TIBIA].lateral_mm_per_n;
     spatial->coxa_aside = aside_of(&link[BRACE_COXA], limb->coxa_mm);
     spatial->femur_aside = aside_of(&link[BRACE_FEMUR], limb->femur_mm);
     brace_spatial_set_springs(spatial, limb->joint[BRACE_COXA].compliance_rad_per_n_mm, brace_hip_rad_per_n_mm(limb),

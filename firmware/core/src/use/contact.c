@@ -14,8 +14,7 @@
 #define NORMAL_LIMIT 10.0f
 #define NORMAL_TOLERANCE 0.01f
 
-brace_status_t brace_contact_sag(const brace_stiffness_t *stiffness, brace_force_t load,
-                                 brace_displacement_t *sag)
+brace_status_t brace_contact_sag(const brace_stiffness_t *stiffness, brace_force_t load, brace_displacement_t *sag)
 {
     if (stiffness == NULL || sag == NULL) {
         return BRACE_E_NULL;

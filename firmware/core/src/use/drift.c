@@ -183,8 +183,8 @@ brace_status_t brace_drift_learn(brace_drift_t *drift, const brace_limb_t *limb,
     if (status == BRACE_OK) {
         status = brace_check_magnitude(setup->joint_compliance_trust_ratio, 1.0f);
     }
-    if (status == BRACE_OK && (!(setup->noise_n > 0.0f) || setup->model_error_ratio < 0.0f ||
-                               setup->joint_compliance_trust_ratio < 0.0f)) {
+    if (status == BRACE_OK &&
+        (!(setup->noise_n > 0.0f) || setup->model_error_ratio < 0.0f || setup->joint_compliance_trust_ratio < 0.0f)) {
         status = BRACE_E_RANGE;
     }
     if (status != BRACE_OK) {
@@ -278,17 +278,16 @@ static bool take_into_run(brace_drift_t *drift, brace_drift_reading_t *reading)
 /* The error of the model that the check always allows for [N]. */
 static float bias_of(const brace_drift_t *drift, const drift_expected_t *expected)
 {
-    return drift->setup.model_error_ratio *
-           (fabsf(expected->force_n[0]) + fabsf(expected->force_n[1]));
+    return drift->setup.model_error_ratio * (fabsf(expected->force_n[0]) + fabsf(expected->force_n[1]));
 }
 
 /* One force component of a reading, with the values that follow from it. */
 typedef struct {
     const float *slopes; /* how the expected force shifts with each estimate */
-    float off_n;         /* measured less expected */
-    float bias_n;        /* bound of the error that is always allowed for */
+    float off_n; /* measured less expected */
+    float bias_n; /* bound of the error that is always allowed for */
     float gain[DRIFT_OFFSETS]; /* P times the slopes */
-    float per_variance;        /* one over the variance of off_n, its noise and the estimates' together */
+    float per_variance; /* one over the variance of off_n, its noise and the estimates' together */
 } component_t;
 
 /* Gathers evidence for each cause: how much likelier off_n is if that cause has changed by `change`. The part of such a
@@ -367,8 +366,8 @@ static void judge(brace_drift_t *drift, const float change[BRACE_DRIFT_CAUSE_COU
         drift->since[cause] = (uint16_t)(drift->since[cause] + (drift->since[cause] < UINT16_MAX));
     }
     for (int cause = 0; cause < BRACE_DRIFT_CAUSE_COUNT; cause++) {
-        const float away = fabsf(drift->offset[cause] - drift->held[cause]) -
-                           change[cause] * (WANDER_RATIO / CHANGE_RATIO);
+        const float away =
+            fabsf(drift->offset[cause] - drift->held[cause]) - change[cause] * (WANDER_RATIO / CHANGE_RATIO);
         const float variance = drift->covariance[diagonal[cause]] + square(drift->held_sigma[cause]);
         if (away > 0.0f && away * away > square(WANDER_SIGMAS) * variance && drift->state == BRACE_DRIFT_WATCHING) {
             drift->state = BRACE_DRIFT_DRIFTED;
@@ -443,8 +442,10 @@ brace_status_t brace_drift_report(const brace_drift_t *drift, const brace_limb_t
     const drift_compliances_t c = drift_compliances(limb);
     float sigma[DRIFT_OFFSETS];
     prior(limb, &c, drift->setup.joint_compliance_trust_ratio, sigma);
-    *report = (brace_drift_report_t){.state = (brace_drift_state_t)drift->state, .cause = BRACE_DRIFT_UNEXPLAINED,
-                                     .evidence = drift->evidence[BRACE_DRIFT_UNEXPLAINED], .steps = drift->steps};
+    *report = (brace_drift_report_t){.state = (brace_drift_state_t)drift->state,
+                                     .cause = BRACE_DRIFT_UNEXPLAINED,
+                                     .evidence = drift->evidence[BRACE_DRIFT_UNEXPLAINED],
+                                     .steps = drift->steps};
     if (drift->state == BRACE_DRIFT_DRIFTED) {
         report->cause = (brace_drift_cause_t)drift->cause;
     }

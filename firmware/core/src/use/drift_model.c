@@ -140,9 +140,9 @@ void drift_expect(const brace_limb_t *limb, const brace_stiffness_t *stiffness, 
     slope[BRACE_DRIFT_TIBIA_OR_KNEE] = vec_scaled(give[SHANK], now[SHANK]);
     slope[BRACE_DRIFT_FEMUR_JOINT_OR_BASE] = vec_scaled(give[HIP], now[HIP]);
     slope[DRIFT_THERMAL] = vec_plus_scaled(vec_scaled(slope[BRACE_DRIFT_FEMUR_JOINT_OR_BASE], hip_per_thermal),
-                                slope[BRACE_DRIFT_TIBIA_OR_KNEE], shank_per_thermal);
+                                           slope[BRACE_DRIFT_TIBIA_OR_KNEE], shank_per_thermal);
     slope[DRIFT_AXIAL] = vec_plus_scaled(vec_scaled(times(&k, along_femur), -axial_femur * vec_dot(along_femur, force)),
-                              times(&k, along_tibia), -axial_tibia * vec_dot(along_tibia, force));
+                                         times(&k, along_tibia), -axial_tibia * vec_dot(along_tibia, force));
 
     /* K turns with the limb. The tibia turns at the knee, and so do its ellipsoid and the levers that end at the
      * tip. */

@@ -28,8 +28,7 @@ static brace_status_t check_reading(float displacement_mm, float force_x_n, floa
                                brace_check_two(force_x_n, force_z_n, FORCE_LIMIT_N));
 }
 
-brace_status_t brace_slope_start(brace_slope_t *slope, float displacement_mm, float force_x_n,
-                                 float force_z_n)
+brace_status_t brace_slope_start(brace_slope_t *slope, float displacement_mm, float force_x_n, float force_z_n)
 {
     if (slope == NULL) {
         return BRACE_E_NULL;
@@ -112,8 +111,7 @@ brace_status_t brace_slope_step(brace_slope_t *slope, float displacement_mm, flo
     return BRACE_OK;
 }
 
-brace_status_t brace_slope_column(const brace_slope_t *slope, brace_slope_method_t method,
-                                  brace_slope_column_t *column)
+brace_status_t brace_slope_column(const brace_slope_t *slope, brace_slope_method_t method, brace_slope_column_t *column)
 {
     if (slope == NULL || column == NULL) {
         return BRACE_E_NULL;
@@ -172,8 +170,8 @@ brace_status_t brace_slope_stiffness(const brace_slope_t *along_x, const brace_s
         return BRACE_E_NULL;
     }
     brace_slope_column_t by_x, by_z;
-    const brace_status_t status = brace_first_refusal(brace_slope_column(along_x, method, &by_x),
-                                                      brace_slope_column(along_z, method, &by_z));
+    const brace_status_t status =
+        brace_first_refusal(brace_slope_column(along_x, method, &by_x), brace_slope_column(along_z, method, &by_z));
     if (status != BRACE_OK) {
         return status;
     }

@@ -14,8 +14,7 @@
 brace_status_t brace_check_stiffness(const brace_stiffness_t *stiffness)
 {
     brace_status_t status = brace_check_two(stiffness->k_xx_n_per_mm, stiffness->k_xz_n_per_mm, MOST_N_PER_MM);
-    status = brace_first_refusal(status,
-                                 brace_check_magnitude(stiffness->k_zz_n_per_mm, MOST_N_PER_MM));
+    status = brace_first_refusal(status, brace_check_magnitude(stiffness->k_zz_n_per_mm, MOST_N_PER_MM));
     status = brace_first_refusal(status, brace_check_magnitude(stiffness->stiff_axis_rad, BRACE_ANGLE_LIMIT_RAD));
     const float lambda_max = stiffness->lambda_max_n_per_mm, lambda_min = stiffness->lambda_min_n_per_mm;
     status = brace_first_refusal(status, brace_check_two(lambda_min, lambda_max, MOST_N_PER_MM));

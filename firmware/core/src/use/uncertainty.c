@@ -86,8 +86,7 @@ static inline float square(float value)
 static void count(brace_stiffness_sigma_t *variance, brace_vec_t to_world, float sigma, change_t change)
 {
     const float mean = change.half_stiff + change.half_soft;
-    const brace_vec_t dev =
-        vec_turned((brace_vec_t){change.half_stiff - change.half_soft, change.corner}, to_world);
+    const brace_vec_t dev = vec_turned((brace_vec_t){change.half_stiff - change.half_soft, change.corner}, to_world);
     variance->k_xx_n_per_mm += square((mean + dev.x) * sigma);
     variance->k_xz_n_per_mm += square(dev.z * sigma);
     variance->k_zz_n_per_mm += square((mean - dev.x) * sigma);

@@ -82,8 +82,9 @@ static bool change_all_compliances(brace_k_inputs_t *inputs, float by_rel)
 
 static float *length_of(brace_limb_t *limb, uint32_t link)
 {
-    return link == (uint32_t)BRACE_COXA ? &limb->coxa_mm : link == (uint32_t)BRACE_FEMUR ? &limb->femur_mm
-                                                                                          : &limb->tibia_mm;
+    return link == (uint32_t)BRACE_COXA    ? &limb->coxa_mm
+           : link == (uint32_t)BRACE_FEMUR ? &limb->femur_mm
+                                           : &limb->tibia_mm;
 }
 
 bool brace_cause_change(uint32_t cause, bool is_spatial, brace_k_inputs_t *inputs)
@@ -190,8 +191,12 @@ static void swap_if_above(float *low, float *high, brace_vec3_t *axis_low, brace
 static void find_axes(brace_k_base_t *base)
 {
     const brace_k3_t *k = &base->space;
-    brace_jacobi_t m = {.xx = k->xx_n_per_mm, .xy = k->xy_n_per_mm, .xz = k->xz_n_per_mm,
-                        .yy = k->yy_n_per_mm, .yz = k->yz_n_per_mm, .zz = k->zz_n_per_mm};
+    brace_jacobi_t m = {.xx = k->xx_n_per_mm,
+                        .xy = k->xy_n_per_mm,
+                        .xz = k->xz_n_per_mm,
+                        .yy = k->yy_n_per_mm,
+                        .yz = k->yz_n_per_mm,
+                        .zz = k->zz_n_per_mm};
     brace_jacobi(&m);
     swap_if_above(&m.xx, &m.yy, &m.x, &m.y);
     swap_if_above(&m.yy, &m.zz, &m.y, &m.z);
@@ -290,21 +295,20 @@ void brace_sigma_end(const brace_k_sigma_t *variance, brace_k_sigma_t *sigma)
     const brace_space_sigma_t *s = &variance->space;
     const float axis_rad = sqrtf(p->stiff_axis_rad);
     const bool is_known = axis_rad < BRACE_UNKNOWN_AXIS_RAD;
-    *sigma = (brace_k_sigma_t){
-        .plane = {.k_xx_n_per_mm = sqrtf(p->k_xx_n_per_mm),
-                  .k_xz_n_per_mm = sqrtf(p->k_xz_n_per_mm),
-                  .k_zz_n_per_mm = sqrtf(p->k_zz_n_per_mm),
-                  .lambda_min_n_per_mm = sqrtf(p->lambda_min_n_per_mm),
-                  .lambda_max_n_per_mm = sqrtf(p->lambda_max_n_per_mm),
-                  .stiff_axis_rad = is_known ? axis_rad : BRACE_UNKNOWN_AXIS_RAD,
-                  .flags = is_known ? 0u : (uint32_t)BRACE_FLAG_SATURATED},
-        .space = {.k_xx_n_per_mm = sqrtf(s->k_xx_n_per_mm),
-                  .k_xy_n_per_mm = sqrtf(s->k_xy_n_per_mm),
-                  .k_xz_n_per_mm = sqrtf(s->k_xz_n_per_mm),
-                  .k_yy_n_per_mm = sqrtf(s->k_yy_n_per_mm),
-                  .k_yz_n_per_mm = sqrtf(s->k_yz_n_per_mm),
-                  .k_zz_n_per_mm = sqrtf(s->k_zz_n_per_mm),
-                  .lambda_n_per_mm = {sqrtf(s->lambda_n_per_mm[0]), sqrtf(s->lambda_n_per_mm[1]),
-                                      sqrtf(s->lambda_n_per_mm[2])},
-                  .across_n_per_mm = sqrtf(s->across_n_per_mm)}};
+    *sigma = (brace_k_sigma_t){.plane = {.k_xx_n_per_mm = sqrtf(p->k_xx_n_per_mm),
+                                         .k_xz_n_per_mm = sqrtf(p->k_xz_n_per_mm),
+                                         .k_zz_n_per_mm = sqrtf(p->k_zz_n_per_mm),
+                                         .lambda_min_n_per_mm = sqrtf(p->lambda_min_n_per_mm),
+                                         .lambda_max_n_per_mm = sqrtf(p->lambda_max_n_per_mm),
+                                         .stiff_axis_rad = is_known ? axis_rad : BRACE_UNKNOWN_AXIS_RAD,
+                                         .flags = is_known ? 0u : (uint32_t)BRACE_FLAG_SATURATED},
+                               .space = {.k_xx_n_per_mm = sqrtf(s->k_xx_n_per_mm),
+                                         .k_xy_n_per_mm = sqrtf(s->k_xy_n_per_mm),
+                                         .k_xz_n_per_mm = sqrtf(s->k_xz_n_per_mm),
+                                         .k_yy_n_per_mm = sqrtf(s->k_yy_n_per_mm),
+                                         .k_yz_n_per_mm = sqrtf(s->k_yz_n_per_mm),
+                                         .k_zz_n_per_mm = sqrtf(s->k_zz_n_per_mm),
+                                         .lambda_n_per_mm = {sqrtf(s->lambda_n_per_mm[0]), sqrtf(s->lambda_n_per_mm[1]),
+                                                             sqrtf(s->lambda_n_per_mm[2])},
+                                         .across_n_per_mm = sqrtf(s->across_n_per_mm)}};
 }

@@ -20,8 +20,8 @@ static brace_status_t k_in_plane(const where_t *where, const brace_k_inputs_t *i
     brace_loaded_t loaded;
     brace_loaded_stiffness_t found;
     brace_loaded_collapse(&inputs->limb, where->weights, &loaded);
-    const brace_status_t status = brace_loaded_stiffness(&loaded, inputs->angle_rad[BRACE_FEMUR],
-                                                         inputs->angle_rad[BRACE_TIBIA], &load, &found);
+    const brace_status_t status =
+        brace_loaded_stiffness(&loaded, inputs->angle_rad[BRACE_FEMUR], inputs->angle_rad[BRACE_TIBIA], &load, &found);
     if (status == BRACE_OK) {
         *plane = found.stiffness;
     }

@@ -61,38 +61,38 @@ typedef struct {
     uint8_t next_mark[BRACE_NVM_SLOT_COUNT]; /* where the next mark goes */
     bool is_old;              /* the set in force is not the one that was kept last */
     uint32_t wanted_sequence; /* of that one, while is_old; while a slot gets the mark PAST: of the set that follows */
-    bool affirmed[BRACE_NVM_SLOT_COUNT];     /* its last mark is a KEEP that this session has written whole */
-    bool clean[BRACE_NVM_SLOT_COUNT];        /* nothing has touched that place since the erase */
-    uint8_t in_force;                        /* brace_parameter_origin_t */
+    bool affirmed[BRACE_NVM_SLOT_COUNT]; /* its last mark is a KEEP that this session has written whole */
+    bool clean[BRACE_NVM_SLOT_COUNT]; /* nothing has touched that place since the erase */
+    uint8_t in_force; /* brace_parameter_origin_t */
     uint8_t state;
     uint8_t stage;
-    uint8_t target;         /* slot that an update writes, or that a roll-back puts in force */
+    uint8_t target; /* slot that an update writes, or that a roll-back puts in force */
     int8_t failure, refusal;
     bool rolling_back, reloading, memory_fault;
-    uint32_t position;      /* within the stage [bytes] */
-    uint32_t sequence;      /* of the set on its way */
-    uint32_t block_crc;     /* of what is being read */
-    uint32_t identity;      /* brace_parameters_crc, as far as it has been read */
-    bool is_named;          /* only a set with this brace_parameters_crc is stored */
+    uint32_t position; /* within the stage [bytes] */
+    uint32_t sequence; /* of the set on its way */
+    uint32_t block_crc; /* of what is being read */
+    uint32_t identity; /* brace_parameters_crc, as far as it has been read */
+    bool is_named; /* only a set with this brace_parameters_crc is stored */
     uint32_t named_crc;
-    uint32_t erases;        /* of a slot, since start; saturates */
-    uint32_t wrong_index;   /* with E_REFUSED */
+    uint32_t erases; /* of a slot, since start; saturates */
+    uint32_t wrong_index; /* with E_REFUSED */
     uint8_t block[BRACE_STORE_BLOCK_ROOM]; /* on its way */
 } brace_store_t;
 
 typedef struct {
     brace_store_state_t state;
     brace_store_failure_t failure; /* of the last update or roll-back */
-    brace_status_t refusal;        /* with E_REFUSED: what brace_parameters_check says, and of which member */
+    brace_status_t refusal; /* with E_REFUSED: what brace_parameters_check says, and of which member */
     uint32_t wrong_index;
     brace_parameter_origin_t in_force;
-    uint32_t sequence;             /* of the set in force; 0 for the defaults */
-    bool is_old;                   /* a newer set was kept and is not whole any more: BRACE_FAULT_OLD_PARAMETERS */
-    uint32_t wanted_sequence;      /* of the set that was kept last, as far as its slots say; the same as sequence while
+    uint32_t sequence; /* of the set in force; 0 for the defaults */
+    bool is_old; /* a newer set was kept and is not whole any more: BRACE_FAULT_OLD_PARAMETERS */
+    uint32_t wanted_sequence; /* of the set that was kept last, as far as its slots say; the same as sequence while
                                       not is_old */
     brace_slot_report_t slot[BRACE_NVM_SLOT_COUNT];
     bool can_roll_back;
-    bool memory_fault;             /* the last update failed on the memory, or it does not answer: BRACE_FAULT_STORE */
+    bool memory_fault; /* the last update failed on the memory, or it does not answer: BRACE_FAULT_STORE */
 } brace_store_status_t;
 
 #endif

@@ -38,7 +38,7 @@ using Six = std::array<float, 6>;
 
 struct Version {
     std::string name;
-    std::function<void(const Inputs&, std::size_t)> run; // one batch of that size
+    std::function<void(const Inputs &, std::size_t)> run; // one batch of that size
     std::function<Six(std::size_t)> result;              // at an index of the last batch
     double best_postures_per_s = 0.0;
 };
@@ -67,9 +67,12 @@ Inputs inputs()
     return in;
 }
 
-Six six(const plain_stiffness_t& k) { return {k.k_xx, k.k_xz, k.k_zz, k.lambda_min, k.lambda_max, k.stiff_axis}; }
+Six six(const plain_stiffness_t &k)
+{
+    return {k.k_xx, k.k_xz, k.k_zz, k.lambda_min, k.lambda_max, k.stiff_axis};
+}
 
-Six six(const brace_stiffness_t& k)
+Six six(const brace_stiffness_t &k)
 {
     return {k.k_xx_n_per_mm,       k.k_xz_n_per_mm,       k.k_zz_n_per_mm,
             k.lambda_min_n_per_mm, k.lambda_max_n_per_mm, k.stiff_axis_rad};
@@ -86,8 +89,8 @@ struct Columns {
         soa = {column[0].data(), column[1].data(), column[2].data(),
                column[3].data(), column[4].data(), column[5].data()};
     }
-    Columns(const Columns&) = delete;
-    Columns& operator=(const Columns&) = delete;
+    Columns(const Columns &) = delete;
+    Columns &operator=(const Columns &) = delete;
 
     Six at(std::size_t i) const
     {
@@ -95,7 +98,7 @@ struct Columns {
     }
 };
 
-void require(bool ok, const char* what)
+void require(bool ok, const char *what)
 {
     if (!ok) {
         std::fprintf(stderr, "throughput: %s failed\n", what);
@@ -103,7 +106,7 @@ void require(bool ok, const char* what)
     }
 }
 
-void measure_round(Version& version, const Inputs& in, std::size_t batch_size)
+void measure_round(Version &version, const Inputs &in, std::size_t batch_size)
 {
     std::size_t batches = 0;
     const double start = thread_time_s();
@@ -119,7 +122,7 @@ void measure_round(Version& version, const Inputs& in, std::size_t batch_size)
     }
 }
 
-void print(const Version& version)
+void print(const Version &version)
 {
     std::printf("version %s\n", version.name.c_str());
     for (std::size_t i = 0; i < BENCH_POSTURE_COUNT; i++) {
@@ -155,28 +158,28 @@ int main()
 
     std::vector<Version> versions;
     versions.push_back({"Eigen fixed size, -O3 -march=native",
-                        [&](const Inputs& x, std::size_t n) {
+                        [&](const Inputs &x, std::size_t n) {
                             for (std::size_t i = 0; i < n; i++) {
                                 eigen_stiffness(plain_limb, x.theta1_rad[i], x.theta2_rad[i], by_eigen[i]);
                             }
                         },
                         [&](std::size_t i) { return six(by_eigen[i]); }});
     versions.push_back({"plain C, -O3 -march=native",
-                        [&](const Inputs& x, std::size_t n) {
+                        [&](const Inputs &x, std::size_t n) {
                             for (std::size_t i = 0; i < n; i++) {
                                 plain_stiffness(&plain_limb, x.theta1_rad[i], x.theta2_rad[i], &by_plain[i]);
                             }
                         },
                         [&](std::size_t i) { return six(by_plain[i]); }});
     versions.push_back({"Brace, one at a time",
-                        [&](const Inputs& x, std::size_t n) {
+                        [&](const Inputs &x, std::size_t n) {
                             for (std::size_t i = 0; i < n; i++) {
                                 (void)brace_planar_stiffness(&tick, x.theta1_rad[i], x.theta2_rad[i], &by_tick[i]);
                             }
                         },
                         [&](std::size_t i) { return six(by_tick[i]); }});
-    const auto by_columns = [](const brace_planar_t& model, Columns& out) {
-        return [&](const Inputs& x, std::size_t n) {
+    const auto by_columns = [](const brace_planar_t &model, Columns &out) {
+        return [&](const Inputs &x, std::size_t n) {
             const std::size_t refused =
                 brace_planar_batch(&model, n, x.theta1_rad.data(), x.theta2_rad.data(), &out.soa);
             require(refused == 0, "brace_planar_batch");
@@ -186,13 +189,13 @@ int main()
     versions.push_back({"Brace, batch, tilted limb", by_columns(tilted_batch, tilted_columns),
                         [&](std::size_t i) { return tilted_columns.at(i); }});
     for (int round = 0; round < rounds; round++) {
-        for (Version& version : versions) {
+        for (Version &version : versions) {
             for (const std::size_t batch_size : batch_sizes) {
                 measure_round(version, in, batch_size);
             }
         }
     }
-    for (const Version& version : versions) {
+    for (const Version &version : versions) {
         print(version);
     }
     return 0;

@@ -29,9 +29,7 @@ __asm__(".syntax unified\n.thumb\n"
 
 void calibration(int loops);
 
-void job_setup(void)
-{
-}
+void job_setup(void) {}
 
 void job_run(int index, float *out)
 {

@@ -10,9 +10,7 @@ static const brace_limb_t limbs[BENCH_LIMB_COUNT] = BENCH_LIMBS;
 const int job_runs = BENCH_LIMB_COUNT;
 const int job_out_count = 1;
 
-void job_setup(void)
-{
-}
+void job_setup(void) {}
 
 void job_run(int index, float *out)
 {

@@ -40,7 +40,10 @@ void job_run(int index, float *out)
         exit(1);
     }
     const float scale = index > READINGS / 4 * 3 ? 0.9f : 1.0f, d = 0.635f * (float)(index % RUN - RUN / 2);
-    const brace_drift_reading_t reading = {posture[1], posture[2], d, 0.1f * d,
+    const brace_drift_reading_t reading = {posture[1],
+                                           posture[2],
+                                           d,
+                                           0.1f * d,
                                            scale * d * (k.k_xx_n_per_mm + 0.1f * k.k_xz_n_per_mm) + 0.2f * noise(),
                                            scale * d * (k.k_xz_n_per_mm + 0.1f * k.k_zz_n_per_mm) + 0.2f * noise(),
                                            10.0f * noise()};

@@ -22,8 +22,7 @@ const int job_out_count = 9;
 
 void job_setup(void)
 {
-    static const brace_gravity_t weights = {
-        .femur_n = BENCH_FEMUR_N, .knee_n = BENCH_KNEE_N, .tibia_n = BENCH_TIBIA_N};
+    static const brace_gravity_t weights = {.femur_n = BENCH_FEMUR_N, .knee_n = BENCH_KNEE_N, .tibia_n = BENCH_TIBIA_N};
 #ifdef BENCH_FIXED
     brace_loaded_t loaded;
     brace_loaded_collapse(&limb, &weights, &loaded);

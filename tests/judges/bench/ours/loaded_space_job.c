@@ -45,10 +45,11 @@ void job_run(int index, float *out)
         exit(1);
     }
     const float factor = brace_loaded_space_buckling_factor(&loaded, &rest);
-    const float numbers[10] = {result.k.xx_n_per_mm,     result.k.xy_n_per_mm,     result.k.xz_n_per_mm,
-                               result.k.yy_n_per_mm,     result.k.yz_n_per_mm,     result.k.zz_n_per_mm,
-                               result.displacement_mm.x, result.displacement_mm.y, result.displacement_mm.z,
-                               factor};
+    const float numbers[10] = {result.k.xx_n_per_mm,     result.k.xy_n_per_mm,
+                               result.k.xz_n_per_mm,     result.k.yy_n_per_mm,
+                               result.k.yz_n_per_mm,     result.k.zz_n_per_mm,
+                               result.displacement_mm.x, result.displacement_mm.y,
+                               result.displacement_mm.z, factor};
     for (int i = 0; i < 10; i++) {
         out[i] = numbers[i];
     }

@@ -25,10 +25,9 @@ void job_run(int index, float *out)
     if (brace_spatial_stiffness(&spatial, postures[index][0], postures[index][1], postures[index][2], &k) != BRACE_OK) {
         exit(1);
     }
-    const float numbers[12] = {k.k_xx_n_per_mm,       k.k_xy_n_per_mm,       k.k_xz_n_per_mm,
-                               k.k_yy_n_per_mm,       k.k_yz_n_per_mm,       k.k_zz_n_per_mm,
-                               k.lambda_n_per_mm[0],  k.lambda_n_per_mm[1],  k.lambda_n_per_mm[2],
-                               k.stiff_axis[0],       k.stiff_axis[1],       k.stiff_axis[2]};
+    const float numbers[12] = {k.k_xx_n_per_mm,      k.k_xy_n_per_mm, k.k_xz_n_per_mm,      k.k_yy_n_per_mm,
+                               k.k_yz_n_per_mm,      k.k_zz_n_per_mm, k.lambda_n_per_mm[0], k.lambda_n_per_mm[1],
+                               k.lambda_n_per_mm[2], k.stiff_axis[0], k.stiff_axis[1],      k.stiff_axis[2]};
     for (int i = 0; i < 12; i++) {
         out[i] = numbers[i];
     }

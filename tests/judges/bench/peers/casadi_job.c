@@ -23,21 +23,21 @@ void job_setup(void)
 #ifdef BENCH_SPATIAL
     const plain_link_t *link[2] = {&limb.coxa, &limb.femur};
     for (int i = 0; i < 2; i++) {
-        const float p[6] = {link[i]->length, link[i]->axial, link[i]->bending, link[i]->lateral, link[i]->torsion,
-                            link[i]->moment_transfer};
+        const float p[6] = {link[i]->length,  link[i]->axial,   link[i]->bending,
+                            link[i]->lateral, link[i]->torsion, link[i]->moment_transfer};
         for (int j = 0; j < 6; j++) {
             parameters[6 * i + j] = p[j];
         }
     }
-    const float rest[8] = {limb.tibia.length, limb.tibia.axial, limb.tibia.bending, limb.tibia.lateral,
-                           limb.tibia.torsion, limb.joint[0], limb.joint[1], limb.joint[2]};
+    const float rest[8] = {limb.tibia.length,  limb.tibia.axial, limb.tibia.bending, limb.tibia.lateral,
+                           limb.tibia.torsion, limb.joint[0],    limb.joint[1],      limb.joint[2]};
     for (int j = 0; j < 8; j++) {
         parameters[12 + j] = rest[j];
     }
 #else
-    const float p[9] = {limb.femur.length, limb.tibia.length, limb.femur.axial, limb.femur.bending,
-                        limb.femur.moment_transfer, limb.tibia.axial, limb.tibia.bending, limb.joint[1],
-                        limb.joint[2]};
+    const float p[9] = {
+        limb.femur.length, limb.tibia.length,  limb.femur.axial, limb.femur.bending, limb.femur.moment_transfer,
+        limb.tibia.axial,  limb.tibia.bending, limb.joint[1],    limb.joint[2]};
     for (int j = 0; j < 9; j++) {
         parameters[j] = p[j];
     }

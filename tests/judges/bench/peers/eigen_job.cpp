@@ -14,18 +14,21 @@ plain_limb_t limb;
 extern "C" {
 extern const int job_runs = BENCH_POSTURE_COUNT;
 
-void job_setup(void) { plain_limb_from_bench(&limb); }
+void job_setup(void)
+{
+    plain_limb_from_bench(&limb);
+}
 
 #ifdef BENCH_SPATIAL
 extern const int job_out_count = 12;
 
-void job_run(int index, float* out)
+void job_run(int index, float *out)
 {
     plain_spatial_t result;
     eigen_spatial_stiffness(limb, postures[index][0], postures[index][1], postures[index][2], result);
-    const float numbers[12] = {result.k[0][0], result.k[0][1], result.k[0][2], result.k[1][1], result.k[1][2],
-                               result.k[2][2], result.lambda[0], result.lambda[1], result.lambda[2],
-                               result.stiff_axis[0], result.stiff_axis[1], result.stiff_axis[2]};
+    const float numbers[12] = {result.k[0][0],   result.k[0][1],       result.k[0][2],       result.k[1][1],
+                               result.k[1][2],   result.k[2][2],       result.lambda[0],     result.lambda[1],
+                               result.lambda[2], result.stiff_axis[0], result.stiff_axis[1], result.stiff_axis[2]};
     for (int i = 0; i < 12; i++) {
         out[i] = numbers[i];
     }
@@ -33,7 +36,7 @@ void job_run(int index, float* out)
 #else
 extern const int job_out_count = 6;
 
-void job_run(int index, float* out)
+void job_run(int index, float *out)
 {
     plain_stiffness_t result;
     eigen_stiffness(limb, postures[index][1], postures[index][2], result);

@@ -26,9 +26,8 @@ const float postures[BENCH_ALL_COUNT][3] = BENCH_ALL;
 // Turn at three Gauss points of a beam by its root and its two curvatures, and the points' shares.
 const float place[3] = {0.112701665f, 0.5f, 0.887298335f};
 const float share[3] = {0.277777778f, 0.444444444f, 0.277777778f};
-const Vector3f turn_by[3] = {{1.0f, 0.285906746f, -0.0605034154f},
-                             {1.0f, 0.933012702f, 0.0669872981f},
-                             {1.0f, 1.06050342f, 0.714093254f}};
+const Vector3f turn_by[3] = {
+    {1.0f, 0.285906746f, -0.0605034154f}, {1.0f, 0.933012702f, 0.0669872981f}, {1.0f, 1.06050342f, 0.714093254f}};
 
 Vector2f turned(const Vector2f &v)
 {
@@ -180,8 +179,15 @@ __attribute__((noinline)) void eigen_loaded(const float *theta, const float *for
     const Vector2f moved = state.femur.end + state.tibia.end - limb.femur_mm * along(theta[1]) -
                            limb.tibia_mm * along(theta[1] - theta[2]) +
                            Vector2f(limb.base.x_mm_per_n * on_base.x(), limb.base.z_mm_per_n * on_base.y());
-    const float numbers[9] = {k(0, 0), k(0, 1), k(1, 1), solver.eigenvalues()(0), solver.eigenvalues()(1),
-                              std::atan2(stiff.y(), stiff.x()), moved.x(), moved.y(), buckling(k0, state)};
+    const float numbers[9] = {k(0, 0),
+                              k(0, 1),
+                              k(1, 1),
+                              solver.eigenvalues()(0),
+                              solver.eigenvalues()(1),
+                              std::atan2(stiff.y(), stiff.x()),
+                              moved.x(),
+                              moved.y(),
+                              buckling(k0, state)};
     for (int i = 0; i < 9; i++) {
         out[i] = numbers[i];
     }

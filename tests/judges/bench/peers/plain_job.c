@@ -22,9 +22,9 @@ void job_run(int index, float *out)
 {
     plain_spatial_t result;
     BENCH_SPATIAL(&limb, postures[index][0], postures[index][1], postures[index][2], &result);
-    const float numbers[12] = {result.k[0][0],      result.k[0][1],      result.k[0][2],      result.k[1][1],
-                               result.k[1][2],      result.k[2][2],      result.lambda[0],    result.lambda[1],
-                               result.lambda[2],    result.stiff_axis[0], result.stiff_axis[1], result.stiff_axis[2]};
+    const float numbers[12] = {result.k[0][0],   result.k[0][1],       result.k[0][2],       result.k[1][1],
+                               result.k[1][2],   result.k[2][2],       result.lambda[0],     result.lambda[1],
+                               result.lambda[2], result.stiff_axis[0], result.stiff_axis[1], result.stiff_axis[2]};
     for (int i = 0; i < 12; i++) {
         out[i] = numbers[i];
     }

@@ -11,8 +11,12 @@
 
 static inline plain_link_t plain_link(const brace_link_t *link, float length)
 {
-    plain_link_t copy = {length, link->axial_mm_per_n, link->bending_mm_per_n, link->lateral_mm_per_n,
-                         link->torsion_rad_per_n_mm, link->moment_transfer_ratio};
+    plain_link_t copy = {length,
+                         link->axial_mm_per_n,
+                         link->bending_mm_per_n,
+                         link->lateral_mm_per_n,
+                         link->torsion_rad_per_n_mm,
+                         link->moment_transfer_ratio};
     return copy;
 }
 

@@ -117,9 +117,9 @@ void plain_spatial_stiffness(const plain_limb_t *limb, float theta0, float theta
 
     const float along = shank.x * u1.x + shank.z * u1.z, across = shank.z * u1.x - shank.x * u1.z;
     const float reach = limb->coxa.length + tip.x;
-    const float c_yy = limb->joint[0] * reach * reach + lateral(&limb->coxa, tip.x)
-                       + limb->coxa.torsion * tip.z * tip.z + lateral(&limb->femur, along)
-                       + limb->femur.torsion * across * across + limb->tibia.lateral;
+    const float c_yy = limb->joint[0] * reach * reach + lateral(&limb->coxa, tip.x) +
+                       limb->coxa.torsion * tip.z * tip.z + lateral(&limb->femur, along) +
+                       limb->femur.torsion * across * across + limb->tibia.lateral;
 
     const float det = c.xx * c.zz - c.xz * c.xz;
     const float k_rr = c.zz / det, k_rz = -c.xz / det, k_yy = 1.0f / c_yy;

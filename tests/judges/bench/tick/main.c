@@ -83,8 +83,10 @@ static brace_parameters_t random_parameters(const world_manner_t *manner)
 
 static void begin_episode(bool tests)
 {
-    world_manner_t manner = {.cooperative = dice_in(&dice, 2), .restless = dice_in(&dice, 2),
-                             .drives_fail = dice_in(&dice, 4), .slcan = dice_in(&dice, 3) || flooded,
+    world_manner_t manner = {.cooperative = dice_in(&dice, 2),
+                             .restless = dice_in(&dice, 2),
+                             .drives_fail = dice_in(&dice, 4),
+                             .slcan = dice_in(&dice, 3) || flooded,
                              .flooded = flooded,
                              .coxa = dice_in(&dice, 3),
                              .spring_n_mm_per_rad = dice_between(&dice, 2e4f, 1e5f)};
@@ -173,8 +175,14 @@ static void begin_upload(void)
 static void upload_on(void)
 {
     const uint8_t *crc = upload.block + BRACE_BLOCK_BYTES - 4, *word = upload.block + 4u * (upload.next - 2u);
-    uint8_t data[8] = {BRACE_REQUEST_UPLOAD_BEGIN, (uint8_t)upload.next, (uint8_t)BRACE_BLOCK_BYTES,
-                       (uint8_t)(BRACE_BLOCK_BYTES >> 8), crc[0], crc[1], crc[2], crc[3]};
+    uint8_t data[8] = {BRACE_REQUEST_UPLOAD_BEGIN,
+                       (uint8_t)upload.next,
+                       (uint8_t)BRACE_BLOCK_BYTES,
+                       (uint8_t)(BRACE_BLOCK_BYTES >> 8),
+                       crc[0],
+                       crc[1],
+                       crc[2],
+                       crc[3]};
     if (upload.next > 1u + BRACE_BLOCK_BYTES / 4u) {
         data[0] = BRACE_REQUEST_COMMIT;
         for (uint32_t i = 0; i < 4u; i++) {
@@ -210,10 +218,10 @@ static void random_question(bool harmless)
     for (int i = 0; i < 8; i++) {
         data[i] = (uint8_t)dice_below(&dice, 256);
     }
-    const uint32_t code = harmless            ? 1u + dice_below(&dice, 8)
-                          : dice_in(&dice, 20)  ? dice_below(&dice, 256)
-                          : dice_in(&dice, 2) ? questions[dice_below(&dice, question_count)]
-                                              : 1u + dice_below(&dice, BRACE_REQUEST_CODE_MOST);
+    const uint32_t code = harmless             ? 1u + dice_below(&dice, 8)
+                          : dice_in(&dice, 20) ? dice_below(&dice, 256)
+                          : dice_in(&dice, 2)  ? questions[dice_below(&dice, question_count)]
+                                               : 1u + dice_below(&dice, BRACE_REQUEST_CODE_MOST);
     const uint32_t token = data[1];
     data[0] = (uint8_t)code;
     if (code == BRACE_REQUEST_K_AT_POSTURE || code == BRACE_REQUEST_K_UNDER_LOAD_AT_POSTURE) {
@@ -230,13 +238,15 @@ static void random_question(bool harmless)
         (void)brace_can_pack_tip_force_in_space_request(
             &(brace_can_tip_force_in_space_request_t){token, dice_between(&dice, -20.0f, 20.0f),
                                                       dice_between(&dice, -20.0f, 20.0f),
-                                                      dice_between(&dice, -20.0f, 20.0f)}, data);
+                                                      dice_between(&dice, -20.0f, 20.0f)},
+            data);
     } else if (code == BRACE_REQUEST_K_AT_TIP_KNEE_UP || code == BRACE_REQUEST_K_AT_TIP_KNEE_DOWN ||
                code == BRACE_REQUEST_K_UNDER_LOAD_AT_TIP_KNEE_UP ||
                code == BRACE_REQUEST_K_UNDER_LOAD_AT_TIP_KNEE_DOWN) {
         (void)brace_can_pack_k_at_tip_knee_up_request(
             &(brace_can_k_at_tip_knee_up_request_t){token, dice_between(&dice, -300.0f, 300.0f),
-                                                    dice_between(&dice, -300.0f, 300.0f)}, data);
+                                                    dice_between(&dice, -300.0f, 300.0f)},
+            data);
         data[0] = (uint8_t)code;
     } else if (code == BRACE_REQUEST_READ_ENTRY && !dice_in(&dice, 10)) {
         const uint32_t entry = dice_in(&dice, 4) ? dice_below(&dice, BRACE_PARAMETER_COUNT)

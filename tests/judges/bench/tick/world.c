@@ -275,8 +275,8 @@ static void asks_in_text(uint32_t node_id, const uint8_t data[8])
 /* The channel is open, most of the time; and what else may come. */
 static void random_text(dice_t *dice)
 {
-    static const char *const words[] = {"\rO\r", "O\r", "V\r", "C\rO\r", "t12", "x\r", "F\r",
-                                        "rubbish that is no line of any kind and too long\r"};
+    static const char *const words[] = {"\rO\r", "O\r", "V\r", "C\rO\r",
+                                        "t12",   "x\r", "F\r", "rubbish that is no line of any kind and too long\r"};
     const char *word = words[dice_below(dice, 8)];
     if (text.first < text.count || !dice_in(dice, 40)) {
         return;
@@ -350,10 +350,10 @@ static void spoil(dice_t *dice, int joint)
 static uint32_t random_pdu(dice_t *dice, uint8_t *pdu)
 {
     static const uint8_t functions[] = {3, 4, 4, 4, 6, 8, 16, 16, 17, 43, 99};
-    static const uint16_t starts[] = {0, 0, 2, 100, 4096, 16384, 16386, 16390, 16392, 16394,
-                                      16396, 16400, 16406, 16410, 16414, 16418, 16422, 16430};
+    static const uint16_t starts[] = {0,     0,     2,     100,   4096,  16384, 16386, 16390, 16392,
+                                      16394, 16396, 16400, 16406, 16410, 16414, 16418, 16422, 16430};
     const uint32_t start = starts[dice_below(dice, 18)], function = functions[dice_below(dice, 11)];
-    const uint32_t count = dice_in(dice, 2)  ? 1u + dice_below(dice, 120)
+    const uint32_t count = dice_in(dice, 2) ? 1u + dice_below(dice, 120)
                            : start == 16400 ? 6
                            : start == 16422 ? 8
                            : start == 16430 ? 10
@@ -368,11 +368,10 @@ static uint32_t random_pdu(dice_t *dice, uint8_t *pdu)
     pdu[4] = (uint8_t)count;
     pdu[5] = (uint8_t)(2u * count);
     for (uint32_t i = 0; i < 2u * count; i++) {
-        const float angle =
-            is_tip && i >= tip ? dice_between(dice, 100.0f, 300.0f) : dice_between(dice, 0.2f, 1.5f);
+        const float angle = is_tip && i >= tip ? dice_between(dice, 100.0f, 300.0f) : dice_between(dice, 0.2f, 1.5f);
         pdu[6u + i] = is_tip && i >= tip + 8u ? (uint8_t)(i == tip + 11u) /* the knee */
-                      : start >= 16396          ? ((const uint8_t *)&angle)[3u - i % 4u]
-                                                : (uint8_t)dice_below(dice, 256);
+                      : start >= 16396        ? ((const uint8_t *)&angle)[3u - i % 4u]
+                                              : (uint8_t)dice_below(dice, 256);
     }
     if (start == 16384 && function == 16) {
         pdu[6] = 0xc0;
@@ -453,7 +452,7 @@ void world_step(dice_t *dice)
     force_answer = !manner.cooperative && dice_in(dice, 100) ? BRACE_HAL_E_DEVICE : BRACE_HAL_OK;
     command_answer = manner.drives_fail && dice_in(dice, 20) ? BRACE_HAL_E_DEVICE : BRACE_HAL_OK;
     send_answer = dice_in(dice, 10) ? BRACE_HAL_AGAIN : BRACE_HAL_OK;
-    frames_waiting = manner.flooded       ? (dice_in(dice, 2000) ? RING_FRAMES : REQUESTS_PER_MS)
+    frames_waiting = manner.flooded     ? (dice_in(dice, 2000) ? RING_FRAMES : REQUESTS_PER_MS)
                      : dice_in(dice, 4) ? dice_below(dice, 4)
                                         : 0u;
     fresh_bus_off = fresh_bus_off || dice_in(dice, 20000);

@@ -7,13 +7,13 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#define PROVE(condition, claim)                                                                                        \
-    do {                                                                                                               \
-        enum { PROVED };                                                                                               \
-        if (!(condition)) {                                                                                            \
-            printf("%s:%d: %s\n", __FILE__, __LINE__, (claim));                                                        \
-            exit(1);                                                                                                   \
-        }                                                                                                              \
+#define PROVE(condition, claim) \
+    do { \
+        enum { PROVED }; \
+        if (!(condition)) { \
+            printf("%s:%d: %s\n", __FILE__, __LINE__, (claim)); \
+            exit(1); \
+        } \
     } while (0)
 
 #endif

@@ -252,8 +252,15 @@ static fixed_vec_t any_spring(void)
 
 static fixed_link_t any_link(void)
 {
-    fixed_link_t link = {any_vector(TO_BEAM_MOST), any_vector(BEAM_MOST), any_vector(RIGID_MOST), any_spring(),
-                         any_spring(), any_i32(), any_i32(), any_vector(FORCE_MOST), any_vector(FORCE_MOST),
+    fixed_link_t link = {any_vector(TO_BEAM_MOST),
+                         any_vector(BEAM_MOST),
+                         any_vector(RIGID_MOST),
+                         any_spring(),
+                         any_spring(),
+                         any_i32(),
+                         any_i32(),
+                         any_vector(FORCE_MOST),
+                         any_vector(FORCE_MOST),
                          any_vector(FORCE_MOST)};
     link.beyond.what = FORCE_BEYOND, link.own.what = OWN_FORCE;
     ASSUME(link.end_q30 >= 0 && link.end_q30 <= END_MOST && link.bend >= 0);

@@ -56,8 +56,12 @@ static void is_scaled(const fixed_scaled_t *link)
 /* Compliances are not negative (loaded_whole). */
 static fixed_stance_t any_stance(const fixed_rest_t *femur, const fixed_rest_t *tibia)
 {
-    return (fixed_stance_t){femur, tibia, any_not_below_0(INT32_MAX), any_not_below_0(INT32_MAX),
-                            any_not_below_0(INT32_MAX), any_not_below_0(INT32_MAX)};
+    return (fixed_stance_t){femur,
+                            tibia,
+                            any_not_below_0(INT32_MAX),
+                            any_not_below_0(INT32_MAX),
+                            any_not_below_0(INT32_MAX),
+                            any_not_below_0(INT32_MAX)};
 }
 
 static void units(void)

@@ -133,12 +133,12 @@ static std::vector<long> told;
 #define MOMENT(place) given(-SEARCH_MOMENT_MOST, SEARCH_MOMENT_MOST, sample == nullptr ? 0 : sample->place)
 #define SOFTENS(place) given(0, SEARCH_SOFTENS_MOST, sample == nullptr ? 0 : sample->place)
 #define COMPLIANCE(place) given(0, SEARCH_COMPLIANCE_MOST, sample == nullptr ? 0 : sample->place)
-#define LINK(link)                                                                                                     \
-    fixed_scaled_t                                                                                                     \
-    {                                                                                                                  \
-        {MOMENT(link.resists.rr), MOMENT(link.resists.ra), MOMENT(link.resists.rb), MOMENT(link.resists.aa),           \
-         MOMENT(link.resists.ab), MOMENT(link.resists.bb)},                                                            \
-            MOMENT(link.end_resists), SOFTENS(link.root_softens), SOFTENS(link.end_softens), COMPLIANCE(link.bend)     \
+#define LINK(link) \
+    fixed_scaled_t \
+    { \
+        {MOMENT(link.resists.rr), MOMENT(link.resists.ra), MOMENT(link.resists.rb), \
+         MOMENT(link.resists.aa), MOMENT(link.resists.ab), MOMENT(link.resists.bb)}, \
+            MOMENT(link.end_resists), SOFTENS(link.root_softens), SOFTENS(link.end_softens), COMPLIANCE(link.bend) \
     }
 
 static void softened(void)
@@ -214,7 +214,10 @@ static plain::fixed_scaled_t any_link(void)
     const auto moment = [] { return any(-SEARCH_MOMENT_MOST, SEARCH_MOMENT_MOST); };
     const auto softens = [] { return any(0, SEARCH_SOFTENS_MOST); };
     return {{moment(), moment(), moment(), moment(), moment(), moment()},
-            moment(), softens(), softens(), any(0, SEARCH_COMPLIANCE_MOST)};
+            moment(),
+            softens(),
+            softens(),
+            any(0, SEARCH_COMPLIANCE_MOST)};
 }
 
 /* returns whether numbers keep to their ranges, and are the firmware's */

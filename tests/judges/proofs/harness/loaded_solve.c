@@ -101,11 +101,10 @@ static fixed_matrix_t any_matrix(int64_t most)
 /* What a link's proof promises (loaded_link). */
 static void any_pull(fixed_pull_t *pull)
 {
-    *pull = (fixed_pull_t){
-        any_matrix(RESISTS_MOST),
-        {any_within(ROOT_DRIVES_MOST), any_within(DRIVES_MOST), any_within(DRIVES_MOST)},
-        any_within(END_RESISTS_MOST),
-        any_within(END_DRIVES_MOST)};
+    *pull = (fixed_pull_t){any_matrix(RESISTS_MOST),
+                           {any_within(ROOT_DRIVES_MOST), any_within(DRIVES_MOST), any_within(DRIVES_MOST)},
+                           any_within(END_RESISTS_MOST),
+                           any_within(END_DRIVES_MOST)};
 }
 
 static bool is_bent_as_promised(const fixed_shape_t *shape)
@@ -134,8 +133,8 @@ static void any_pull_bent(const fixed_link_t *link, const fixed_shape_t *shape, 
 #define sum3 sum3_fits
 #define IS_SUM(text) ((text)[0] == 's')
 #define IS_OVER_PIVOT(text) ((text)[9] == 'b' && (text)[16] == 'i') /* (int64_t)bend * inverse_q27(...) */
-#define kept(sum, bits, room, lost)                                                                                    \
-    (IS_SUM(#sum) ? (void)(sum) : (void)0,                                                                             \
+#define kept(sum, bits, room, lost) \
+    (IS_SUM(#sum) ? (void)(sum) : (void)0, \
      any_kept(IS_OVER_PIVOT(#sum) ? any_above_zero() : any_i64(), bits, room, lost))
 #define wrapped_plus plus_or_not
 #define wrapped_less less_or_not

@@ -67,7 +67,7 @@ static int64_t length_of(fixed_vec_t v)
 
 /* One of the two links at least is half of the reach at most. */
 #define HALF_MOST (UNIT_REACH_MOST_Q28 / 2)
-#define TILTED(length) ((length) * UNIT_ROOT_OF_TWO_Q15 >> 15)
+#define TILTED(length) ((length)*UNIT_ROOT_OF_TWO_Q15 >> 15)
 
 static bool is_femur_short;
 static brace_loaded_fixed_t limb;

@@ -59,7 +59,6 @@ static void vectors(void)
     (void)fixed_turned_back(a, b);
 }
 
-
 static void pivots(void)
 {
     const int32_t pivot = any_i32();

@@ -66,17 +66,15 @@ static bool sound(const modbus_line_t *line)
 {
     const modbus_link_t *link = &line->link;
     const bool is_request = link->count > 0u && !link->is_sending;
-    return link->count <= (link->is_skipping ? (uint32_t)MODBUS_LINK_BYTES : 256u) &&
-           link->ready <= link->count && link->sent <= link->ready &&
-           ((link->ready == 0u && link->sent == 0u) || link->is_sending) &&
+    return link->count <= (link->is_skipping ? (uint32_t)MODBUS_LINK_BYTES : 256u) && link->ready <= link->count &&
+           link->sent <= link->ready && ((link->ready == 0u && link->sent == 0u) || link->is_sending) &&
            (!line->has_question || (!link->is_sending && !link->is_skipping && link->count >= 4u)) &&
            line->ahead_count <= MODBUS_AHEAD_BYTES && line->asked_count <= MODBUS_LINE_QUESTION_BYTES &&
            line->sound <= link->count && line->looked <= MODBUS_LINK_BYTES &&
            (!link->is_sending || link->ready == link->count ||
             (link->ready == line->checked && line->checked + 2u <= link->count)) &&
-           !(link->is_sending && link->is_skipping) &&
-           (!link->is_sending || link->count >= 5u) && line->checked <= MODBUS_LINK_BYTES &&
-           (!is_request || line->checked <= link->count);
+           !(link->is_sending && link->is_skipping) && (!link->is_sending || link->count >= 5u) &&
+           line->checked <= MODBUS_LINK_BYTES && (!is_request || line->checked <= link->count);
 }
 
 int main(void)

@@ -16,13 +16,29 @@ static brace_status_t any_status(void)
 
 /* ------------------------------------------------------------------------------------- the controller -- */
 
-brace_mode_t brace_app_mode(const brace_app_t *app) { (void)app; return (brace_mode_t)any_u32(); }
-uint32_t brace_app_faults(const brace_app_t *app) { (void)app; return any_u32(); }
-bool brace_app_is_storing(const brace_app_t *app) { (void)app; return any_bool(); }
-brace_status_t brace_app_may_write(brace_app_t *app) { (void)app; return any_status(); }
+brace_mode_t brace_app_mode(const brace_app_t *app)
+{
+    (void)app;
+    return (brace_mode_t)any_u32();
+}
+uint32_t brace_app_faults(const brace_app_t *app)
+{
+    (void)app;
+    return any_u32();
+}
+bool brace_app_is_storing(const brace_app_t *app)
+{
+    (void)app;
+    return any_bool();
+}
+brace_status_t brace_app_may_write(brace_app_t *app)
+{
+    (void)app;
+    return any_status();
+}
 
 brace_status_t brace_app_parameters_stage(brace_app_t *app, uint32_t first_number, uint32_t count,
-                                   const uint32_t *words)
+                                          const uint32_t *words)
 {
     (void)app;
     PROVE(count >= 1u && first_number < BRACE_PARAMETER_NUMBERS && count <= BRACE_PARAMETER_NUMBERS - first_number,
@@ -39,7 +55,11 @@ brace_status_t brace_app_store_status(const brace_app_t *app, brace_store_status
     return BRACE_OK;
 }
 
-brace_setting_t brace_app_setting(const brace_app_t *app) { (void)app; return (brace_setting_t)any_u32(); }
+brace_setting_t brace_app_setting(const brace_app_t *app)
+{
+    (void)app;
+    return (brace_setting_t)any_u32();
+}
 
 int32_t brace_app_life(brace_app_t *app, brace_who_t who, const brace_sign_t *sign)
 {

@@ -17,7 +17,11 @@ void *memcpy(void *restrict to, const void *restrict from, size_t count)
 }
 
 static brace_parameters_t staged;
-const brace_parameters_t *brace_app_parameters_staged(const brace_app_t *app) { (void)app; return &staged; }
+const brace_parameters_t *brace_app_parameters_staged(const brace_app_t *app)
+{
+    (void)app;
+    return &staged;
+}
 
 /* Of each number any parameter, or none: the table lies elsewhere, so its entries are any. */
 static void assume_parameters(void)

@@ -62,8 +62,8 @@ static bool sound(const modbus_tcp_t *tcp)
     bool are_sound = tcp->turn < MODBUS_CONNECTIONS && tcp->waiting < MODBUS_CONNECTIONS;
     for (uint32_t i = 0; i < MODBUS_CONNECTIONS; i++) {
         const modbus_connection_t *connection = &tcp->connection[i];
-        are_sound = are_sound && connection->first < MODBUS_QUESTIONS_EACH &&
-                    connection->count <= MODBUS_QUESTIONS_EACH;
+        are_sound =
+            are_sound && connection->first < MODBUS_QUESTIONS_EACH && connection->count <= MODBUS_QUESTIONS_EACH;
         for (uint32_t k = 0; k < MODBUS_QUESTIONS_EACH; k++) {
             const uint8_t length = connection->question[k].length;
             are_sound = are_sound && length >= HEADER_BYTES + 1u && length <= MODBUS_QUESTION_BYTES;

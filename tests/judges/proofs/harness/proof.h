@@ -8,11 +8,11 @@
 #include <stdint.h>
 #include <string.h>
 
-#define ANY_OF(type, name)                                                                                             \
-    static inline type name(void)                                                                                      \
-    {                                                                                                                  \
-        type any;                                                                                                      \
-        return any;                                                                                                    \
+#define ANY_OF(type, name) \
+    static inline type name(void) \
+    { \
+        type any; \
+        return any; \
     }
 ANY_OF(uint8_t, any_u8)
 static inline bool any_bool(void)

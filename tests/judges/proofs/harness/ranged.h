@@ -117,9 +117,9 @@ struct number_t {
     std::size_t top_as;      /* a number with the same highest bit */
     multiple_t multiple[2];  /* a product is one of either factor */
     shares_t shares;
-    int right;               /* made_by right: bits; right of 64 unsigned bits that may be negative: whole below that */
-    int whole_bits;          /* how many of its lower bits are the machine's */
-    std::size_t zeros_of;    /* it is the leading zeros of that number, plus zeros_more */
+    int right; /* made_by right: bits; right of 64 unsigned bits that may be negative: whole below that */
+    int whole_bits; /* how many of its lower bits are the machine's */
+    std::size_t zeros_of; /* it is the leading zeros of that number, plus zeros_more */
     int zeros_more;
 };
 
@@ -169,10 +169,7 @@ public:
     }
 
     /* The number that an object that nobody has written holds. */
-    static std::size_t zero_of(kind_t kind)
-    {
-        return (kind.bits == 64 ? 2u : 0u) + (kind.is_signed ? 0u : 1u);
-    }
+    static std::size_t zero_of(kind_t kind) { return (kind.bits == 64 ? 2u : 0u) + (kind.is_signed ? 0u : 1u); }
 
     void keep(std::size_t id, bool does)
     {
@@ -240,8 +237,8 @@ public:
         }
         const std::size_t id = numbers.size();
         const multiple_t itself{id, 1.0L, 0.0L};
-        numbers.push_back({made_by, kind, range, from, with, id, false, id, false, id, {itself, itself}, {}, 0,
-                           kind.bits, none, 0});
+        numbers.push_back(
+            {made_by, kind, range, from, with, id, false, id, false, id, {itself, itself}, {}, 0, kind.bits, none, 0});
         keys.push_back(key);
         return id;
     }
@@ -397,9 +394,7 @@ public:
         case made_by_t::right:
             learn(n.from, {both.least << n.right, ((both.most + 1) << n.right) - 1}, steps - 1);
             break;
-        case made_by_t::magnitude:
-            learn(n.from, {-both.most - 1, both.most}, steps - 1);
-            break;
+        case made_by_t::magnitude: learn(n.from, {-both.most - 1, both.most}, steps - 1); break;
         case made_by_t::plus:
             learn(n.from, {both.least - with.most, both.most - with.least}, steps - 1);
             learn(n.with, {both.least - from.most, both.most - from.least}, steps - 1);
@@ -408,8 +403,7 @@ public:
             learn(n.from, {both.least + with.least, both.most + with.most}, steps - 1);
             learn(n.with, {from.least - both.most, from.most - both.least}, steps - 1);
             break;
-        default:
-            break;
+        default: break;
         }
     }
 
@@ -462,12 +456,15 @@ public:
     word() : id(machine::zero_of(kind)) {} /* static objects outlive a run, so this number is the same in all */
     template <class NUMBER>
         requires(std::integral<NUMBER> || std::is_enum_v<NUMBER>)
-    word(NUMBER number) : id(constant(static_cast<wide_t>(number))) {}
-    template <std::floating_point NUMBER>
-    explicit word(NUMBER number) : id(constant(static_cast<wide_t>(number))) {}
+    word(NUMBER number) : id(constant(static_cast<wide_t>(number)))
+    {
+    }
+    template <std::floating_point NUMBER> explicit word(NUMBER number) : id(constant(static_cast<wide_t>(number))) {}
     template <int OTHER_BITS, bool OTHER_SIGNED>
         requires(OTHER_BITS != BITS || OTHER_SIGNED != IS_SIGNED)
-    word(const word<OTHER_BITS, OTHER_SIGNED> &other) : id(now.cast(other.id, kind)) {}
+    word(const word<OTHER_BITS, OTHER_SIGNED> &other) : id(now.cast(other.id, kind))
+    {
+    }
 
     static word of(std::size_t id)
     {
@@ -482,10 +479,7 @@ private:
     struct already_t {};
     explicit word(already_t) : id(none) {}
 
-    static std::size_t constant(wide_t number)
-    {
-        return now.make(made_by_t::constant, kind, {number, number});
-    }
+    static std::size_t constant(wide_t number) { return now.make(made_by_t::constant, kind, {number, number}); }
 };
 
 using i32 = word<32, true>;
@@ -782,12 +776,30 @@ template <a_word A> A operator~(const A &a)
     return A::of(now.make(made_by_t::other, A::kind, {-p.most - 1, -p.least - 1}));
 }
 
-template <a_word A, class B> A &operator+=(A &a, const B &b) { return a = a + b; }
-template <a_word A, class B> A &operator-=(A &a, const B &b) { return a = a - b; }
-template <a_word A, class B> A &operator*=(A &a, const B &b) { return a = a * b; }
-template <a_word A, class B> A &operator>>=(A &a, const B &b) { return a = a >> b; }
-template <a_word A, class B> A &operator<<=(A &a, const B &b) { return a = a << b; }
-template <a_word A, class B> A &operator&=(A &a, const B &b) { return a = a & b; }
+template <a_word A, class B> A &operator+=(A &a, const B &b)
+{
+    return a = a + b;
+}
+template <a_word A, class B> A &operator-=(A &a, const B &b)
+{
+    return a = a - b;
+}
+template <a_word A, class B> A &operator*=(A &a, const B &b)
+{
+    return a = a * b;
+}
+template <a_word A, class B> A &operator>>=(A &a, const B &b)
+{
+    return a = a >> b;
+}
+template <a_word A, class B> A &operator<<=(A &a, const B &b)
+{
+    return a = a << b;
+}
+template <a_word A, class B> A &operator&=(A &a, const B &b)
+{
+    return a = a & b;
+}
 
 /* What is noted: below the limit in a run that is not refused. */
 template <a_word A, class B> A &operator|=(A &a, const B &b)

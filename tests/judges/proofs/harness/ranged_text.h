@@ -4,12 +4,12 @@
 
 #include "ranged.h"
 
-#define PROVE(condition, claim)                                                                                        \
-    do {                                                                                                               \
-        enum { PROVED };                                                                                               \
-        if (!(condition)) {                                                                                            \
-            ranged::now.complain(claim);                                                                               \
-        }                                                                                                              \
+#define PROVE(condition, claim) \
+    do { \
+        enum { PROVED }; \
+        if (!(condition)) { \
+            ranged::now.complain(claim); \
+        } \
     } while (0)
 
 /* A function that its own file calls: its definition, whose first parameter begins with a type, becomes text_..., and a

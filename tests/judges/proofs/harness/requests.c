@@ -5,8 +5,18 @@
 #include "wire/measured.h"
 
 /* What was done, besides answering. */
-enum { MOVES = 1, CONFIGURES = 2, LEAVES = 4, STAGES = 8, STORES = 16, ROLLS_BACK = 32, CLEARS = 64, TESTS = 128,
-       FEEDS = 256, STOPS = 512 };
+enum {
+    MOVES = 1,
+    CONFIGURES = 2,
+    LEAVES = 4,
+    STAGES = 8,
+    STORES = 16,
+    ROLLS_BACK = 32,
+    CLEARS = 64,
+    TESTS = 128,
+    FEEDS = 256,
+    STOPS = 512
+};
 static uint32_t done;
 static bool open_for_writing;
 static bool is_admitted; /* whoever asks may command it */
@@ -50,9 +60,21 @@ int32_t brace_app_life(brace_app_t *app, brace_who_t who, const brace_sign_t *si
     return status;
 }
 
-brace_setting_t brace_app_setting(const brace_app_t *app) { (void)app; return (brace_setting_t)any_u32(); }
-brace_status_t brace_app_stop(brace_app_t *app) { (void)app; return asked_for(STOPS); }
-bool brace_app_has_staged(const brace_app_t *app) { (void)app; return any_bool(); }
+brace_setting_t brace_app_setting(const brace_app_t *app)
+{
+    (void)app;
+    return (brace_setting_t)any_u32();
+}
+brace_status_t brace_app_stop(brace_app_t *app)
+{
+    (void)app;
+    return asked_for(STOPS);
+}
+bool brace_app_has_staged(const brace_app_t *app)
+{
+    (void)app;
+    return any_bool();
+}
 
 int32_t brace_app_may_commit(brace_app_t *app, uint32_t *wait_ms)
 {
@@ -81,21 +103,37 @@ brace_status_t brace_app_take_up(brace_app_t *app, int32_t joint, int32_t flank)
     return status;
 }
 
-brace_status_t brace_app_let_go(brace_app_t *app) { (void)app; return asked_for(MOVES); }
+brace_status_t brace_app_let_go(brace_app_t *app)
+{
+    (void)app;
+    return asked_for(MOVES);
+}
 brace_status_t brace_app_loading_start(brace_app_t *app, const brace_loading_setup_t *setup)
 {
     (void)app;
     (void)setup;
     return asked_for(TESTS);
 }
-brace_status_t brace_app_loading_stop(brace_app_t *app) { (void)app; return asked_for(TESTS); }
+brace_status_t brace_app_loading_stop(brace_app_t *app)
+{
+    (void)app;
+    return asked_for(TESTS);
+}
 brace_status_t brace_app_configuration_enter(brace_app_t *app)
 {
     (void)app;
     return asked_for(CONFIGURES);
 }
-brace_status_t brace_app_configuration_leave(brace_app_t *app) { (void)app; return asked_for(LEAVES); }
-brace_status_t brace_app_parameters_rollback(brace_app_t *app) { (void)app; return asked_for(ROLLS_BACK); }
+brace_status_t brace_app_configuration_leave(brace_app_t *app)
+{
+    (void)app;
+    return asked_for(LEAVES);
+}
+brace_status_t brace_app_parameters_rollback(brace_app_t *app)
+{
+    (void)app;
+    return asked_for(ROLLS_BACK);
+}
 brace_status_t brace_app_clear(brace_app_t *app, uint32_t faults)
 {
     (void)app;
@@ -146,21 +184,53 @@ brace_status_t brace_app_parameters_stage(brace_app_t *app, uint32_t first_numbe
 /* ------------------------------------------------------------------------------------- what only informs -- */
 
 static brace_snapshot_t snapshot;
-const brace_snapshot_t *brace_app_snapshot(const brace_app_t *app) { (void)app; return &snapshot; }
+const brace_snapshot_t *brace_app_snapshot(const brace_app_t *app)
+{
+    (void)app;
+    return &snapshot;
+}
 static brace_parameters_t parameters;
-const brace_parameters_t *brace_app_parameters(const brace_app_t *app) { (void)app; return &parameters; }
-const brace_parameters_t *brace_app_parameters_staged(const brace_app_t *app) { (void)app; return &parameters; }
-brace_mode_t brace_app_mode(const brace_app_t *app) { (void)app; return (brace_mode_t)any_u32(); }
-uint32_t brace_app_faults(const brace_app_t *app) { (void)app; return any_u32(); }
-bool brace_app_is_storing(const brace_app_t *app) { (void)app; return any_bool(); }
-bool brace_app_loading_is_returning(const brace_app_t *app) { (void)app; return any_bool(); }
+const brace_parameters_t *brace_app_parameters(const brace_app_t *app)
+{
+    (void)app;
+    return &parameters;
+}
+const brace_parameters_t *brace_app_parameters_staged(const brace_app_t *app)
+{
+    (void)app;
+    return &parameters;
+}
+brace_mode_t brace_app_mode(const brace_app_t *app)
+{
+    (void)app;
+    return (brace_mode_t)any_u32();
+}
+uint32_t brace_app_faults(const brace_app_t *app)
+{
+    (void)app;
+    return any_u32();
+}
+bool brace_app_is_storing(const brace_app_t *app)
+{
+    (void)app;
+    return any_bool();
+}
+bool brace_app_loading_is_returning(const brace_app_t *app)
+{
+    (void)app;
+    return any_bool();
+}
 static brace_loading_result_t result;
 const brace_loading_result_t *brace_app_loading_result(const brace_app_t *app)
 {
     (void)app;
     return &result;
 }
-uint32_t brace_app_row_count(const brace_app_t *app) { (void)app; return any_u32(); }
+uint32_t brace_app_row_count(const brace_app_t *app)
+{
+    (void)app;
+    return any_u32();
+}
 
 brace_status_t brace_app_row(const brace_app_t *app, uint32_t index, brace_row_t *row)
 {
@@ -215,7 +285,7 @@ void brace_app_gravity(const brace_app_t *app, float *direction_rad, float *lean
 }
 
 brace_status_t brace_app_contact_force(const brace_app_t *app, brace_displacement_t displacement,
-                                     brace_contact_force_t *contact)
+                                       brace_contact_force_t *contact)
 {
     (void)app;
     (void)displacement;
@@ -234,7 +304,7 @@ brace_status_t brace_app_sag(const brace_app_t *app, brace_force_t load, brace_d
 }
 
 brace_status_t brace_app_grip(const brace_app_t *app, float normal_rad, float friction_ratio,
-                            brace_contact_grip_t *grip)
+                              brace_contact_grip_t *grip)
 {
     (void)app;
     (void)normal_rad;
@@ -412,15 +482,12 @@ int main(void)
     PROVE(is_admitted || (done & ~(uint32_t)STOPS) == 0u, "and nothing but stopping by whoever may not command");
     PROVE(!stores || (port.storing == code && port.storing_token == data[1]),
           "what is stored is answered to who asked");
-    PROVE(storing_before == 0u ||
-              (port.storing == storing_before && port.storing_token == token_before),
+    PROVE(storing_before == 0u || (port.storing == storing_before && port.storing_token == token_before),
           "nobody else is given the answer to what is being stored");
-    PROVE(upload->next <= BRACE_BLOCK_BYTES / 4 && download->next <= BRACE_BLOCK_BYTES / 4,
-          "words within the block");
+    PROVE(upload->next <= BRACE_BLOCK_BYTES / 4 && download->next <= BRACE_BLOCK_BYTES / 4, "words within the block");
     const bool uploads =
         code == BRACE_REQUEST_UPLOAD_BEGIN || code == BRACE_REQUEST_UPLOAD_WORD || code == BRACE_REQUEST_COMMIT;
-    PROVE(uploads || (upload->is_open == before->is_open &&
-                      upload->next == before->next &&
+    PROVE(uploads || (upload->is_open == before->is_open && upload->next == before->next &&
                       upload->sum == before->sum && upload->crc == before->crc),
           "an upload is left alone");
     PROVE(code == BRACE_REQUEST_UPLOAD_WORD || upload->block[at] == before->block[at], "and so are its words");

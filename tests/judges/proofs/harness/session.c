@@ -60,10 +60,9 @@ static bool is_sound(const ownership_t *o)
 static void any_state(ownership_t *o)
 {
     session_t *const s = &o->session;
-    bool *const flags[] = {&s->has_challenge, &s->is_open,   &s->is_alive,       &s->has_hung_up,
-                           &s->has_begin,     &s->has_begun, &s->is_begun,       &o->program_moves,
-                           &o->is_held,       &o->waits,     &o->fell_silent,    &o->is_by_wire,
-                           &o->has_configurer};
+    bool *const flags[] = {&s->has_challenge, &s->is_open,    &s->is_alive,      &s->has_hung_up, &s->has_begin,
+                           &s->has_begun,     &s->is_begun,   &o->program_moves, &o->is_held,     &o->waits,
+                           &o->fell_silent,   &o->is_by_wire, &o->has_configurer};
     ANY(*o);
     for (uint32_t i = 0; i < sizeof flags / sizeof *flags; i++) {
         *flags[i] = any_bool();

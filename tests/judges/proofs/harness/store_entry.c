@@ -18,8 +18,7 @@ void store_look(brace_store_t *store, uint32_t slot, brace_parameters_t *paramet
     store->next_mark[slot] = any_u8();
     ASSUME(store->next_mark[slot] <= BRACE_STORE_MARK_COUNT);
     store->clean[slot] = store->affirmed[slot] = false;
-    *claim = (store_claim_t){
-        .is_past = any_bool(), .later = any_u32(), .is_rotten = any_bool(), .sequence = any_u32()};
+    *claim = (store_claim_t){.is_past = any_bool(), .later = any_u32(), .is_rotten = any_bool(), .sequence = any_u32()};
 }
 
 bool store_fits(const brace_hal_t *hal)

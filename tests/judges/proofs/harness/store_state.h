@@ -15,16 +15,16 @@ static bool is_bool(const bool *value)
 static bool members_are_sound(const brace_store_t *s)
 {
     return s->in_force <= 2u && s->next_mark[0] <= BRACE_STORE_MARK_COUNT &&
-           s->next_mark[1] <= BRACE_STORE_MARK_COUNT && is_bool(&s->rolling_back) &&
-           is_bool(&s->reloading) && is_bool(&s->memory_fault) && is_bool(&s->is_old) && is_bool(&s->clean[0]) &&
-           is_bool(&s->clean[1]) && is_bool(&s->affirmed[0]) && is_bool(&s->affirmed[1]);
+           s->next_mark[1] <= BRACE_STORE_MARK_COUNT && is_bool(&s->rolling_back) && is_bool(&s->reloading) &&
+           is_bool(&s->memory_fault) && is_bool(&s->is_old) && is_bool(&s->clean[0]) && is_bool(&s->clean[1]) &&
+           is_bool(&s->affirmed[0]) && is_bool(&s->affirmed[1]);
 }
 
 /* Nothing is under way. */
 static bool at_rest(const brace_store_t *s)
 {
-    return members_are_sound(s) && (s->state == BRACE_STORE_IDLE || s->state == BRACE_STORE_DONE ||
-                                    s->state == BRACE_STORE_FAILED);
+    return members_are_sound(s) &&
+           (s->state == BRACE_STORE_IDLE || s->state == BRACE_STORE_DONE || s->state == BRACE_STORE_FAILED);
 }
 
 /* How far a stage has come. */
@@ -47,8 +47,7 @@ static bool position_is_sound(uint32_t stage, uint32_t at)
 static bool sound(const brace_store_t *s)
 {
     const uint32_t stage = s->stage;
-    const bool only_rollback =
-        stage == STAGE_REREAD || stage == STAGE_WITHDRAW || stage == STAGE_WITHDRAW_AGAIN;
+    const bool only_rollback = stage == STAGE_REREAD || stage == STAGE_WITHDRAW || stage == STAGE_WITHDRAW_AGAIN;
     const bool either = stage == STAGE_AFFIRM || stage == STAGE_UNDO;
     const bool manner = s->reloading      ? !s->rolling_back && stage == STAGE_REREAD && s->in_force == s->target + 1u
                         : s->rolling_back ? (only_rollback || either) && s->in_force == 2u - s->target

@@ -22,12 +22,17 @@ void setUp(void)
     memset(&parameters, 0, sizeof parameters);
     parameters.controller.tick_us = 1000;
     for (int i = 0; i < BRACE_LINK_COUNT; i++) {
-        parameters.drive[i] = (brace_drive_t){.torque_range_n_mm = 10000.0f, .torque_noise_n_mm = 10.0f,
-                                              .torque_bias_n_mm = 10.0f, .motor_friction_n_mm = 20.0f,
-                                              .motor_friction_tolerance_ratio = 0.2f, .angle_step_rad = 1e-5f,
+        parameters.drive[i] = (brace_drive_t){.torque_range_n_mm = 10000.0f,
+                                              .torque_noise_n_mm = 10.0f,
+                                              .torque_bias_n_mm = 10.0f,
+                                              .motor_friction_n_mm = 20.0f,
+                                              .motor_friction_tolerance_ratio = 0.2f,
+                                              .angle_step_rad = 1e-5f,
                                               .takeup_torque_n_mm = 4000.0f};
         parameters.limb.joint[i] = (brace_joint_t){.compliance_rad_per_n_mm = 1e-5f, .gap_rad = 0.02f};
-        joints.joint[i] = (joint_t){.fitted = true, .sound = true, .is_new_enough_to_prove_a_flank = true,
+        joints.joint[i] = (joint_t){.fitted = true,
+                                    .sound = true,
+                                    .is_new_enough_to_prove_a_flank = true,
                                     .torque_n_mm = 50.0f * (float)(i + 1)};
     }
 }
@@ -91,9 +96,12 @@ static void test_a_machine_has_its_joint_s_numbers(void)
     parameters.controller.tick_us = 2000;
     for (int i = 0; i < BRACE_LINK_COUNT; i++) {
         const float n = (float)(i + 1);
-        parameters.drive[i] = (brace_drive_t){.torque_range_n_mm = 9000.0f + n, .torque_noise_n_mm = 10.0f + n,
-                                              .torque_bias_n_mm = 20.0f + n, .motor_friction_n_mm = 30.0f + n,
-                                              .motor_friction_tolerance_ratio = 0.1f * n, .angle_step_rad = 1e-5f * n,
+        parameters.drive[i] = (brace_drive_t){.torque_range_n_mm = 9000.0f + n,
+                                              .torque_noise_n_mm = 10.0f + n,
+                                              .torque_bias_n_mm = 20.0f + n,
+                                              .motor_friction_n_mm = 30.0f + n,
+                                              .motor_friction_tolerance_ratio = 0.1f * n,
+                                              .angle_step_rad = 1e-5f * n,
                                               .motor_inertia_n_mm_s2_per_rad = 5.0f + n,
                                               .takeup_torque_n_mm = 4000.0f + n};
         parameters.limb.joint[i].gap_rad = 0.02f + 0.001f * n;

@@ -66,7 +66,8 @@ static void test_what_moves_the_limb_names_the_mode(void)
             TEST_ASSERT_FALSE(update_from(working[i]));
             TEST_ASSERT_EQUAL(inputs.tests      ? BRACE_MODE_LOADING_TEST
                               : inputs.takes_up ? BRACE_MODE_TAKING_UP
-                                                : BRACE_MODE_MONITOR, mode.now);
+                                                : BRACE_MODE_MONITOR,
+                              mode.now);
         }
     }
 }
@@ -164,7 +165,7 @@ static void test_a_fault_ends_with_the_first_tick_beyond(void)
 
 static void test_some_faults_stand_as_long_as_somebody_says_so(void)
 {
-    static const uint32_t stands[] = {BRACE_FAULT_PARAMETERS, BRACE_FAULT_STORE, BRACE_FAULT_MODEL_DRIFT,
+    static const uint32_t stands[] = {BRACE_FAULT_PARAMETERS, BRACE_FAULT_STORE,          BRACE_FAULT_MODEL_DRIFT,
                                       BRACE_FAULT_CRASHED,    BRACE_FAULT_OLD_PARAMETERS, BRACE_FAULT_JUMP_COXA,
                                       BRACE_FAULT_JUMP_FEMUR, BRACE_FAULT_JUMP_TIBIA};
     for (int i = 0; i < 8; i++) {

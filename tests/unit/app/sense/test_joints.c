@@ -97,10 +97,10 @@ static void test_the_mean_follows_what_two_samples_agree_on(void)
 /* Femur and tibia joint take the other's temperature where they have no sensor; the coxa joint has its own or none. */
 static void test_temperatures_of_joints(void)
 {
-    static const float given[][3] = {{33.0f, 30.0f, 40.0f}, {NAN, 30.0f, NAN},     {33.0f, NAN, 40.0f},
+    static const float given[][3] = {{33.0f, 30.0f, 40.0f}, {NAN, 30.0f, NAN},       {33.0f, NAN, 40.0f},
                                      {NAN, NAN, NAN},       {150.0f, 40.0f, -60.0f}, {151.0f, 40.0f, -61.0f}};
-    static const float reported[][3] = {{33.0f, 30.0f, 40.0f}, {NAN, 30.0f, 30.0f},    {33.0f, 40.0f, 40.0f},
-                                    {NAN, NAN, NAN},       {150.0f, 40.0f, -60.0f}, {NAN, 40.0f, 40.0f}};
+    static const float reported[][3] = {{33.0f, 30.0f, 40.0f}, {NAN, 30.0f, 30.0f},     {33.0f, 40.0f, 40.0f},
+                                        {NAN, NAN, NAN},       {150.0f, 40.0f, -60.0f}, {NAN, 40.0f, 40.0f}};
     for (int i = 0; i < 6; i++) {
         float temp_degc[BRACE_LINK_COUNT] = {-1.0f, -1.0f, -1.0f};
         for (int j = 0; j < BRACE_LINK_COUNT; j++) {
@@ -186,9 +186,8 @@ static void test_a_gap_makes_nothing_trusted(void)
     static const struct {
         uint32_t gap_ms;
         float reached_rad, beyond_rad;
-    } row[] = {{0, 0.0599f, 0.0601f},    {1, 0.1099f, 0.1101f},   {3, 0.2099f, 0.2101f},
-               {4, 0.2499f, 0.2501f},    {18, 0.2499f, 0.2501f},  {20, 0.0599f, 0.0601f},
-               {1000, 0.0599f, 0.0601f}, {60000, 0.0599f, 0.0601f}};
+    } row[] = {{0, 0.0599f, 0.0601f},  {1, 0.1099f, 0.1101f},  {3, 0.2099f, 0.2101f},    {4, 0.2499f, 0.2501f},
+               {18, 0.2499f, 0.2501f}, {20, 0.0599f, 0.0601f}, {1000, 0.0599f, 0.0601f}, {60000, 0.0599f, 0.0601f}};
     for (uint32_t i = 0; i < sizeof row / sizeof *row; i++) {
         for (int side = -1; side <= 1; side += 2) {
             for (int goes_round = 0; goes_round < 2; goes_round++) {

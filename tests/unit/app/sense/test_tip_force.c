@@ -55,9 +55,13 @@ static void test_the_sensor_s_model_is_undone(void)
     for (int i = 0; i < 200; i++) {
         const float turn = -3.0f + 0.03f * (float)i;
         const float xz = 0.3f * sinf(1.7f * (float)i), zx = 0.3f * cosf(2.9f * (float)i);
-        parameters.sensor = (brace_sensor_t){.bias_x_n = 2.0f * sinf((float)i), .bias_z_n = -1.5f + 0.02f * (float)i,
-                                             .gain = 0.5f + 0.01f * (float)i, .rotation_rad = turn,
-                                             .crosstalk_xz = xz, .crosstalk_zx = zx, .saturation_n = INFINITY};
+        parameters.sensor = (brace_sensor_t){.bias_x_n = 2.0f * sinf((float)i),
+                                             .bias_z_n = -1.5f + 0.02f * (float)i,
+                                             .gain = 0.5f + 0.01f * (float)i,
+                                             .rotation_rad = turn,
+                                             .crosstalk_xz = xz,
+                                             .crosstalk_zx = zx,
+                                             .saturation_n = INFINITY};
         tip_force_configure(&force, &hal, &parameters.sensor);
         TEST_ASSERT_TRUE(force.fitted && !force.known);
         const double is_x = 7.0 * cos(0.3 * i), is_z = 7.0 * sin(0.3 * i);

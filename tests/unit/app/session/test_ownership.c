@@ -82,8 +82,8 @@ static void test_the_patience_with_an_owner(void)
         setUp();
         ownership.session.setting = row[i].setting;
         ownership.session.is_open = ownership.session.is_alive = true;
-        ownership_inputs_t inputs = {.moves = row[i].moves, .runs = row[i].runs, .configures = row[i].configures,
-                                     .since_us = row[i].limit_us};
+        ownership_inputs_t inputs = {
+            .moves = row[i].moves, .runs = row[i].runs, .configures = row[i].configures, .since_us = row[i].limit_us};
         (void)ownership_step(&ownership, &inputs);
         TEST_ASSERT_TRUE(ownership.session.is_open);
         inputs.since_us = 1;

@@ -552,8 +552,8 @@ static void test_an_owner_that_comes_back_has_not_hung_up(void)
         TEST_ASSERT_EQUAL(BRACE_OK, session_command(&session, elsewhere, NULL, order, 8));
         session_hang_up(&session);
         TEST_ASSERT_TRUE(session.has_hung_up);
-        TEST_ASSERT_EQUAL(BRACE_OK, by_life != 0 ? life(elsewhere)
-                                                 : session_command(&session, elsewhere, NULL, order, 8));
+        TEST_ASSERT_EQUAL(BRACE_OK,
+                          by_life != 0 ? life(elsewhere) : session_command(&session, elsewhere, NULL, order, 8));
         TEST_ASSERT_FALSE(session.has_hung_up);
         const brace_who_t neighbour = {elsewhere.port, elsewhere.master + 1u};
         TEST_ASSERT_EQUAL(BRACE_REFUSED_OWNED, life(neighbour));

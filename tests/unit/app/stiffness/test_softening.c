@@ -20,8 +20,8 @@ static void rest_under(float times)
     model_rest_t rest;
     rest.buckling_factor = 7.0f; /* for a limb in space the search finds the factor later */
     model_springs(&model, &parameters, load_n_mm, temp_degc, springs);
-    TEST_ASSERT_EQUAL(BRACE_OK, model_loaded(&model, &parameters.limb, unbent_rad, springs, tip_n, down, &softening.now,
-                                             &rest));
+    TEST_ASSERT_EQUAL(BRACE_OK,
+                      model_loaded(&model, &parameters.limb, unbent_rad, springs, tip_n, down, &softening.now, &rest));
     TEST_ASSERT_TRUE(isnan(rest.buckling_factor));
 }
 

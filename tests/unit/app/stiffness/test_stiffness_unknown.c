@@ -54,8 +54,8 @@ static void test_a_straight_limb_reports_K_without_its_load(void)
         TEST_ASSERT_TRUE(isnan(now()->force_x_n) && isnan(now()->force_z_n));
         TEST_ASSERT_FALSE(now()->load.is_counted);
         TEST_ASSERT_TRUE(isnan(now()->load.force_x_n) && isnan(now()->load.force_y_n) && isnan(now()->load.force_z_n));
-        TEST_ASSERT_TRUE(isnan(now()->load.moved_x_mm) && isnan(now()->load.moved_y_mm)
-                         && isnan(now()->load.moved_z_mm));
+        TEST_ASSERT_TRUE(isnan(now()->load.moved_x_mm) && isnan(now()->load.moved_y_mm) &&
+                         isnan(now()->load.moved_z_mm));
         TEST_ASSERT_TRUE(isnan(now()->load.buckling_factor));
         TEST_ASSERT_BITS_HIGH(BRACE_FLAG_LOAD_UNKNOWN, now()->stiffness.now.flags);
         TEST_ASSERT_BITS_HIGH(BRACE_FLAG_LOAD_UNKNOWN, now()->stiffness.engaged.flags);
@@ -66,8 +66,8 @@ static void test_a_straight_limb_reports_K_without_its_load(void)
             const float most = lambda[2], plane_least = now()->stiffness.now.lambda_min_n_per_mm;
             TEST_ASSERT_BITS_HIGH(BRACE_FLAG_LOAD_UNKNOWN, now()->space.now.flags);
             TEST_ASSERT_FLOAT_WITHIN(1e-4f * most, now()->stiffness.now.lambda_max_n_per_mm, most);
-            TEST_ASSERT_TRUE(fabsf(lambda[0] - plane_least) < 1e-4f * most
-                             || fabsf(lambda[1] - plane_least) < 1e-4f * most);
+            TEST_ASSERT_TRUE(fabsf(lambda[0] - plane_least) < 1e-4f * most ||
+                             fabsf(lambda[1] - plane_least) < 1e-4f * most);
             TEST_ASSERT_EQUAL_FLOAT(now()->load.unloaded_across_n_per_mm, now()->space.across_n_per_mm);
         }
         brace_stiffness_sigma_t by_parameters;

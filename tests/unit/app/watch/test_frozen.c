@@ -27,8 +27,10 @@ void setUp(void)
         joints.joint[i] = (joint_t){.fitted = true, .sound = true, .samples_seen = 3};
         joints.joint[i].sample = (brace_hal_joint_t){
             .motor_rad = 1.0f, .link_rad = NAN, .torque_n_mm = 10.0f, .temp_degc = NAN, .taken_us = now_us};
-        parameters.drive[i] = (brace_drive_t){.torque_range_n_mm = 8000.0f, .torque_noise_n_mm = 5.0f,
-                                              .motor_friction_n_mm = 40.0f, .angle_step_rad = 0.001f};
+        parameters.drive[i] = (brace_drive_t){.torque_range_n_mm = 8000.0f,
+                                              .torque_noise_n_mm = 5.0f,
+                                              .motor_friction_n_mm = 40.0f,
+                                              .angle_step_rad = 0.001f};
         parameters.limb.joint[i] = (brace_joint_t){.compliance_rad_per_n_mm = 1e-5f, .gap_rad = 0.02f};
         told_rad[i] = 0.0f, limit_n_mm[i] = INFINITY;
     }
@@ -40,8 +42,13 @@ void tearDown(void) {}
 /* A new sample of every joint, and a look at each. */
 static bool look(uint32_t after_us)
 {
-    const frozen_inputs_t inputs = {.joints = &joints, .posture = &posture, .force = &force, .parameters = &parameters,
-                                    .down = {0.0f, 0.0f, -1.0f}, .told_rad = told_rad, .limit_n_mm = limit_n_mm};
+    const frozen_inputs_t inputs = {.joints = &joints,
+                                    .posture = &posture,
+                                    .force = &force,
+                                    .parameters = &parameters,
+                                    .down = {0.0f, 0.0f, -1.0f},
+                                    .told_rad = told_rad,
+                                    .limit_n_mm = limit_n_mm};
     now_us += after_us;
     for (int i = 0; i < BRACE_LINK_COUNT; i++) {
         joints.joint[i].sample.taken_us = now_us;
@@ -173,7 +180,7 @@ static void test_a_load_on_the_tibia_joint_that_is_not_felt(void)
     parameters.sensor.noise_n = 0.1f;
     press(0.0f);
     posture.pose.lever_femur = (brace_point_t){0.0f, 1000.0f}; /* there the bound is 1,775 N mm, */
-    posture.pose.lever_tibia = (brace_point_t){0.0f, 100.0f};  /* here 425 */
+    posture.pose.lever_tibia = (brace_point_t){0.0f, 100.0f}; /* here 425 */
     TEST_ASSERT_FALSE(others_move(BRACE_TIBIA, 3, 0.0f));
     force.z_n = 4.2f;
     TEST_ASSERT_FALSE(others_move(BRACE_TIBIA, 30, 0.0f));
@@ -215,7 +222,7 @@ static void test_an_angle_stands_after_a_quarter_of_a_second(void)
         joint->sample.motor_rad += 0.1f;
         joint->sample.link_rad = 1.0f;
         TEST_ASSERT_FALSE(look(LOOK_US)); /* it moves, and stands from here on */
-        joint->sample.link_rad = 1.1f;    /* away from its motor */
+        joint->sample.link_rad = 1.1f; /* away from its motor */
         for (uint32_t i = 0; i < 4u; i++) {
             joint->sample.torque_n_mm += 1.0f;
             TEST_ASSERT_FALSE(look(LOOK_US));

@@ -28,7 +28,12 @@ static void any_k(brace_stiffness_t *k)
 
 static void any_k_in_space(brace_stiffness_spatial_t *k)
 {
-    *k = (brace_stiffness_spatial_t){next + 0.01f, next + 0.02f, next + 0.03f, next + 0.04f, next + 0.05f, next + 0.06f,
+    *k = (brace_stiffness_spatial_t){next + 0.01f,
+                                     next + 0.02f,
+                                     next + 0.03f,
+                                     next + 0.04f,
+                                     next + 0.05f,
+                                     next + 0.06f,
                                      {next + 0.07f, next + 0.08f, next + 0.09f},
                                      {next + 0.10f, next + 0.11f, next + 0.12f},
                                      0u};
@@ -80,9 +85,16 @@ static void test_k_in_the_plane_and_its_load(void)
     TEST_ASSERT_EQUAL_FLOAT(3.1f, m.unloaded_k_xx_n_per_mm);
     TEST_ASSERT_EQUAL_FLOAT(3.2f, m.unloaded_k_xz_n_per_mm);
     TEST_ASSERT_EQUAL_FLOAT(3.3f, m.unloaded_k_zz_n_per_mm);
-    const float load[] = {m.counted_force_x_n, m.counted_force_y_n, m.counted_force_z_n, m.moved_x_mm,
-                          m.moved_y_mm,        m.moved_z_mm,        m.buckling_factor,   m.unloaded_k_across_n_per_mm,
-                          m.gravity_direction_rad, m.gravity_lean_rad};
+    const float load[] = {m.counted_force_x_n,
+                          m.counted_force_y_n,
+                          m.counted_force_z_n,
+                          m.moved_x_mm,
+                          m.moved_y_mm,
+                          m.moved_z_mm,
+                          m.buckling_factor,
+                          m.unloaded_k_across_n_per_mm,
+                          m.gravity_direction_rad,
+                          m.gravity_lean_rad};
     for (int i = 0; i < 10; i++) {
         TEST_ASSERT_EQUAL_FLOAT(31.0f + (float)i, load[i]);
     }
@@ -103,11 +115,10 @@ static void test_k_in_space(void)
                          m.space_k_yy_n_per_mm,     m.space_k_yz_n_per_mm,     m.space_k_zz_n_per_mm,
                          m.space_lambda_1_n_per_mm, m.space_lambda_2_n_per_mm, m.space_lambda_3_n_per_mm,
                          m.space_stiff_axis_x,      m.space_stiff_axis_y,      m.space_stiff_axis_z};
-    const float engaged[] = {m.engaged_space_k_xx_n_per_mm,     m.engaged_space_k_xy_n_per_mm,
-                             m.engaged_space_k_xz_n_per_mm,     m.engaged_space_k_yy_n_per_mm,
-                             m.engaged_space_k_yz_n_per_mm,     m.engaged_space_k_zz_n_per_mm,
-                             m.engaged_space_lambda_1_n_per_mm, m.engaged_space_lambda_2_n_per_mm,
-                             m.engaged_space_lambda_3_n_per_mm};
+    const float engaged[] = {
+        m.engaged_space_k_xx_n_per_mm,     m.engaged_space_k_xy_n_per_mm,     m.engaged_space_k_xz_n_per_mm,
+        m.engaged_space_k_yy_n_per_mm,     m.engaged_space_k_yz_n_per_mm,     m.engaged_space_k_zz_n_per_mm,
+        m.engaged_space_lambda_1_n_per_mm, m.engaged_space_lambda_2_n_per_mm, m.engaged_space_lambda_3_n_per_mm};
     for (int i = 0; i < 12; i++) {
         TEST_ASSERT_EQUAL_FLOAT(1.01f + 0.01f * (float)i, now[i]);
     }
@@ -123,14 +134,13 @@ static void test_k_in_space(void)
 
 static void expect_sigma(const brace_measured_t *m, float first)
 {
-    const float sigma[] = {m->sigma_k_xx_n_per_mm,           m->sigma_k_xz_n_per_mm,
-                           m->sigma_k_zz_n_per_mm,           m->sigma_lambda_min_n_per_mm,
-                           m->sigma_lambda_max_n_per_mm,     m->sigma_stiff_axis_rad,
-                           m->sigma_space_k_xx_n_per_mm,     m->sigma_space_k_xy_n_per_mm,
-                           m->sigma_space_k_xz_n_per_mm,     m->sigma_space_k_yy_n_per_mm,
-                           m->sigma_space_k_yz_n_per_mm,     m->sigma_space_k_zz_n_per_mm,
-                           m->sigma_space_lambda_1_n_per_mm, m->sigma_space_lambda_2_n_per_mm,
-                           m->sigma_space_lambda_3_n_per_mm, m->sigma_k_across_n_per_mm};
+    const float sigma[] = {
+        m->sigma_k_xx_n_per_mm,           m->sigma_k_xz_n_per_mm,           m->sigma_k_zz_n_per_mm,
+        m->sigma_lambda_min_n_per_mm,     m->sigma_lambda_max_n_per_mm,     m->sigma_stiff_axis_rad,
+        m->sigma_space_k_xx_n_per_mm,     m->sigma_space_k_xy_n_per_mm,     m->sigma_space_k_xz_n_per_mm,
+        m->sigma_space_k_yy_n_per_mm,     m->sigma_space_k_yz_n_per_mm,     m->sigma_space_k_zz_n_per_mm,
+        m->sigma_space_lambda_1_n_per_mm, m->sigma_space_lambda_2_n_per_mm, m->sigma_space_lambda_3_n_per_mm,
+        m->sigma_k_across_n_per_mm};
     for (int i = 0; i < 16; i++) {
         TEST_ASSERT_TRUE(isnan(first) ? isnan(sigma[i]) : sigma[i] == first + (float)i);
     }
@@ -142,8 +152,7 @@ static void test_one_sigma_of_k(void)
     const brace_app_counters_t counters = {0};
     brace_snapshot_t *s = newest();
     s->sigma = (brace_stiffness_sigma_t){1.0f, 2.0f, 3.0f, 4.0f, 5.0f, 6.0f, 0u};
-    s->sigma_space =
-        (brace_space_sigma_t){7.0f, 8.0f, 9.0f, 10.0f, 11.0f, 12.0f, {13.0f, 14.0f, 15.0f}, 16.0f};
+    s->sigma_space = (brace_space_sigma_t){7.0f, 8.0f, 9.0f, 10.0f, 11.0f, 12.0f, {13.0f, 14.0f, 15.0f}, 16.0f};
     s->sigma_is_known = true;
     brace_measured_t m = reported_of(&counters);
     expect_sigma(&m, 1.0f);
@@ -168,7 +177,7 @@ static void test_joints_and_what_is_around_them(void)
         s->play[i].state = (brace_backlash_state_t)i;
         s->play[i].offset_rad = joint + 4.0f;
         s->play[i].load_n_mm = joint + 5.0f;
-        s->play[i].takeup = (brace_takeup_result_t)-(i + 1);
+        s->play[i].takeup = (brace_takeup_result_t) - (i + 1);
     }
     s->tip_mm = (brace_point_t){51.0f, 52.0f};
     s->play_shift_mm = (brace_point_t){53.0f, 54.0f};
@@ -188,7 +197,7 @@ static void test_joints_and_what_is_around_them(void)
         TEST_ASSERT_EQUAL_UINT32(i, play[i]);
         TEST_ASSERT_EQUAL_UINT32(255 - i, taken[i]);
     }
-    const float around[] = {m.tip_x_mm, m.tip_z_mm, m.play_shift_x_mm, m.play_shift_z_mm,
+    const float around[] = {m.tip_x_mm,  m.tip_z_mm,  m.play_shift_x_mm, m.play_shift_z_mm,
                             m.force_x_n, m.force_z_n, m.temperature_degc};
     for (int i = 0; i < 7; i++) {
         TEST_ASSERT_EQUAL_FLOAT(51.0f + (float)i, around[i]);
@@ -198,8 +207,13 @@ static void test_joints_and_what_is_around_them(void)
 
 static void test_counters_and_who_owns_it(void)
 {
-    const brace_app_counters_t counters = {.ticks_late = 1, .samples_bad = 2, .frames_refused = 3, .frames_unknown = 4,
-                                           .frames_lost = 5, .commands_failed = 6, .modbus_broken = 7,
+    const brace_app_counters_t counters = {.ticks_late = 1,
+                                           .samples_bad = 2,
+                                           .frames_refused = 3,
+                                           .frames_unknown = 4,
+                                           .frames_lost = 5,
+                                           .commands_failed = 6,
+                                           .modbus_broken = 7,
                                            .modbus_refused = 8};
     session_t *session = &app.controller.ownership.session;
     session->counts = (session_counts_t){11, 12, 13};
@@ -210,7 +224,7 @@ static void test_counters_and_who_owns_it(void)
     app.controller.ownership.last_refusal = -3;
     const brace_measured_t m = reported_of(&counters);
     const uint32_t reported[] = {m.ticks_late,  m.samples_bad,     m.frames_refused, m.frames_unknown,
-                             m.frames_lost, m.commands_failed, m.modbus_broken,  m.modbus_refused};
+                                 m.frames_lost, m.commands_failed, m.modbus_broken,  m.modbus_refused};
     for (uint32_t i = 0; i < 8u; i++) {
         TEST_ASSERT_EQUAL_UINT32(i + 1u, reported[i]);
     }
@@ -238,7 +252,7 @@ static void test_a_loading_test_that_is_done(void)
     result->z_x = 5.0f, result->z_z = 6.0f;
     brace_measured_t m = reported_of(&counters);
     const float reported[] = {m.loading_k_x_n_per_mm,       m.loading_k_z_n_per_mm, m.loading_ratio_k_x_n_per_mm,
-                          m.loading_ratio_k_z_n_per_mm, m.loading_score_x,      m.loading_score_z};
+                              m.loading_ratio_k_z_n_per_mm, m.loading_score_x,      m.loading_score_z};
     for (int i = 0; i < 6; i++) {
         TEST_ASSERT_EQUAL_FLOAT(1.0f + (float)i, reported[i]);
     }

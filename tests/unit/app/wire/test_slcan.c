@@ -133,12 +133,12 @@ static void test_an_urgent_frame_needs_no_open_channel(void)
 static void test_commands_are_answered_as_an_adapter_answers_them(void)
 {
     static const char *const said[][2] = {
-        {"\r", "\r"},           {"V\r", "V1013\r"}, {"v\r", "v0100\r"}, {"N\r", "NBRC1\r"}, {"F\r", "\a"},
-        {"S8\r", "\r"},         {"S9\r", "\a"},     {"S\r", "\a"},      {"S/\r", "\a"},     {"S88\r", "\a"},
-        {"s0312\r", "\r"},      {"Z0\r", "\r"},     {"Z1\r", "\a"},     {"Q\r", "\a"},      {"C\r", "\r"},
-        {"t1230\r", "\a"},      {"OO\r", "\a"},     {"O\r", "\r"},      {"O\r", "\a"},      {"L\r", "\a"},
-        {"S8\r", "\a"},         {"s0312\r", "\a"},  {"Z0\r", "\a"},     {"F\r", "F00\r"},   {"\nV\r", "V1013\r"},
-        {"CC\r", "\a"},         {"C\r", "\r"},      {"L\r", "\r"},      {"t1230\r", "\a"},  {"C\r", "\r"},
+        {"\r", "\r"},      {"V\r", "V1013\r"}, {"v\r", "v0100\r"}, {"N\r", "NBRC1\r"}, {"F\r", "\a"},
+        {"S8\r", "\r"},    {"S9\r", "\a"},     {"S\r", "\a"},      {"S/\r", "\a"},     {"S88\r", "\a"},
+        {"s0312\r", "\r"}, {"Z0\r", "\r"},     {"Z1\r", "\a"},     {"Q\r", "\a"},      {"C\r", "\r"},
+        {"t1230\r", "\a"}, {"OO\r", "\a"},     {"O\r", "\r"},      {"O\r", "\a"},      {"L\r", "\a"},
+        {"S8\r", "\a"},    {"s0312\r", "\a"},  {"Z0\r", "\a"},     {"F\r", "F00\r"},   {"\nV\r", "V1013\r"},
+        {"CC\r", "\a"},    {"C\r", "\r"},      {"L\r", "\r"},      {"t1230\r", "\a"},  {"C\r", "\r"},
     };
     brace_can_frame_t frame;
     for (size_t i = 0; i < sizeof said / sizeof *said; i++) {
@@ -163,11 +163,11 @@ static void test_a_frame_comes_as_it_was_sent(void)
 static void test_frames_that_are_none_are_refused(void)
 {
     static const char *const said[][2] = {
-        {"t8000\r", "\a"},   {"t12g0\r", "\a"},       {"t1239\r", "\a"},           {"t12310\r", "\a"},
-        {"t1231012\r", "\a"}, {"t12310g\r", "\a"},    {"t123\r", "\a"},            {"t12/0\r", "\a"},
-        {"t1231 0\r", "\a"}, {"T000000000\r", "Z\r"}, {"T1fffffff10a\r", "Z\r"},   {"r1238\r", "z\r"},
-        {"R000001238\r", "Z\r"}, {"r12381\r", "\a"},  {"T00000000\r", "\a"},       {"t123:\r", "\a"},
-        {"t123@\r", "\a"},   {"t1231@0\r", "\a"},     {"t1231`0\r", "\a"},         {"t1231G0\r", "\a"},
+        {"t8000\r", "\a"},       {"t12g0\r", "\a"},       {"t1239\r", "\a"},         {"t12310\r", "\a"},
+        {"t1231012\r", "\a"},    {"t12310g\r", "\a"},     {"t123\r", "\a"},          {"t12/0\r", "\a"},
+        {"t1231 0\r", "\a"},     {"T000000000\r", "Z\r"}, {"T1fffffff10a\r", "Z\r"}, {"r1238\r", "z\r"},
+        {"R000001238\r", "Z\r"}, {"r12381\r", "\a"},      {"T00000000\r", "\a"},     {"t123:\r", "\a"},
+        {"t123@\r", "\a"},       {"t1231@0\r", "\a"},     {"t1231`0\r", "\a"},       {"t1231G0\r", "\a"},
     };
     brace_can_frame_t frame;
     (void)say("O\r", "\r", &frame);

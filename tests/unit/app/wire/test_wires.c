@@ -212,7 +212,13 @@ static void test_process_data_count(void)
 /* In a second each frame leaves as often as its rate says, whatever the others' rates are. */
 static void test_each_frame_at_its_rate(void)
 {
-    enum { STIFFNESS_HZ = 10, POSTURE_HZ = 20, LOAD_HZ = 40, SIGMA_HZ = 5, IDS = 0x800 }; /* the first is not the most
+    enum {
+        STIFFNESS_HZ = 10,
+        POSTURE_HZ = 20,
+        LOAD_HZ = 40,
+        SIGMA_HZ = 5,
+        IDS = 0x800
+    }; /* the first is not the most
                                                                                             frequent */
     static const struct {
         uint32_t id;
@@ -314,10 +320,10 @@ static uint32_t values_sent_on_bus(void)
     brace_can_frame_t frame;
     uint32_t count = 0;
     while (brace_fake_frame_take(&fake, &frame)) {
-        const bool is_condition = frame.id == BRACE_CAN_ID_DETAILS + NODE &&
-                                  brace_can_details_part(frame.data) == BRACE_CAN_PART_CONDITION;
-        count += frame.id != BRACE_CAN_ID_HEARTBEAT + NODE && frame.id != BRACE_CAN_ID_EMERGENCY + NODE &&
-                 !is_condition;
+        const bool is_condition =
+            frame.id == BRACE_CAN_ID_DETAILS + NODE && brace_can_details_part(frame.data) == BRACE_CAN_PART_CONDITION;
+        count +=
+            frame.id != BRACE_CAN_ID_HEARTBEAT + NODE && frame.id != BRACE_CAN_ID_EMERGENCY + NODE && !is_condition;
     }
     return count;
 }

@@ -55,7 +55,7 @@ enum {
     BRACE_PART_SPACE = 8,       /* K in space of a limb whose coxa joint is fitted: in every snapshot */
     BRACE_PART_LOAD = 16,       /* the load that K counts: at controller.load_hz, which is 0 at first */
     BRACE_PART_LOAD_ACROSS = 32, /* its y and K across without load, of a limb whose coxa joint is fitted: beside it */
-    BRACE_PART_SIGMA = 64,       /* how sure K is: 10 Hz (controller.sigma_hz) */
+    BRACE_PART_SIGMA = 64, /* how sure K is: 10 Hz (controller.sigma_hz) */
     BRACE_PART_SIGMA_SPACE = 128 /* how sure K in space is, of a limb whose coxa joint is fitted: beside it */
 };
 
@@ -63,16 +63,16 @@ enum {
 typedef struct {
     float k_xx_n_per_mm, k_xy_n_per_mm, k_xz_n_per_mm, k_yy_n_per_mm, k_yz_n_per_mm, k_zz_n_per_mm;
     float lambda_n_per_mm[3]; /* eigenvalues, ascending */
-    uint32_t flags;           /* BRACE_CLIENT_FLAG_... */
+    uint32_t flags; /* BRACE_CLIENT_FLAG_... */
 } brace_client_space_k_t;
 
 typedef struct {
     bool k_is_valid; /* K in space may be used, with its flags */
     brace_client_space_k_t k;
-    float stiff_axis[3];     /* unit vector along which K is largest */
-    float theta0_rad;        /* true angle of the coxa joint */
+    float stiff_axis[3]; /* unit vector along which K is largest */
+    float theta0_rad; /* true angle of the coxa joint */
     float k_across_n_per_mm; /* K across the limb's plane */
-    uint32_t play_coxa;      /* state of the coxa joint's backlash, numbered as play_femur */
+    uint32_t play_coxa; /* state of the coxa joint's backlash, numbered as play_femur */
 } brace_client_space_t;
 
 /* One sigma of each value of K in the limb's plane, every gap closed; NaN: not known. */
@@ -96,24 +96,24 @@ typedef struct {
     float unloaded_k_xx_n_per_mm, unloaded_k_xz_n_per_mm, unloaded_k_zz_n_per_mm; /* K without force and weight */
     float unloaded_k_across_n_per_mm; /* the same across the plane */
     float moved_x_mm, moved_y_mm, moved_z_mm; /* how far force and weight have moved the tip */
-    float buckling_factor;            /* multiple of the load at which the limb, held as it stands, would have no
+    float buckling_factor; /* multiple of the load at which the limb, held as it stands, would have no
                                          stiffness left in some direction; infinite: none. Below 3: flag SOFTENED */
     float gravity_direction_rad, gravity_lean_rad; /* where down is: in the plane from +x, and out of the plane */
 } brace_client_load_t;
 
 typedef struct {
-    uint32_t parts;       /* parts that this snapshot has; members of the other parts are NaN or all ones */
-    uint32_t sequence;    /* 8 bits, over CAN FD too */
+    uint32_t parts; /* parts that this snapshot has; members of the other parts are NaN or all ones */
+    uint32_t sequence; /* 8 bits, over CAN FD too */
     uint64_t received_us; /* time of its first frame, CLOCK_MONOTONIC */
-    float age_ms;         /* age of the samples when the frame was sent; over classic CAN 127 at most */
-    bool k_is_valid;      /* K may be used, with its flags */
-    uint32_t flags;       /* BRACE_CLIENT_FLAG_... */
+    float age_ms; /* age of the samples when the frame was sent; over classic CAN 127 at most */
+    bool k_is_valid; /* K may be used, with its flags */
+    uint32_t flags; /* BRACE_CLIENT_FLAG_... */
     float k_xx_n_per_mm, k_xz_n_per_mm, k_zz_n_per_mm;
     uint32_t play_femur, play_tibia; /* 0 unknown, 1 taking up, 2 + side loaded, 3 - side loaded, 4 crossing, 5 fault */
-    uint32_t parameter_tag;          /* low half of the CRC of the parameters in force */
+    uint32_t parameter_tag; /* low half of the CRC of the parameters in force */
     float lambda_min_n_per_mm, lambda_max_n_per_mm, stiff_axis_rad;
     float theta1_rad, theta2_rad;
-    uint32_t mode;   /* 0 start, 1 monitor, 2 configuration, 3 taking up, 4 loading test, 5 fault */
+    uint32_t mode; /* 0 start, 1 monitor, 2 configuration, 3 taking up, 4 loading test, 5 fault */
     uint32_t faults; /* bits as docs/protocol.md lists them; all ones: not heard yet. Over CAN they come at a change and
                         with each heartbeat (controller.heartbeat_hz), so these are the newest that were heard */
     brace_client_sigma_t sigma;
@@ -133,7 +133,7 @@ typedef struct {
 typedef struct {
     brace_client_k_t k;
     float moved_x_mm, moved_z_mm; /* how far force and weight move the tip there */
-    float buckling_factor;        /* as in brace_client_load_t */
+    float buckling_factor; /* as in brace_client_load_t */
 } brace_client_loaded_k_t;
 
 /* The same in space. */
@@ -150,33 +150,33 @@ enum {
     BRACE_CLIENT_FLAG_STALE = 16,
     BRACE_CLIENT_FLAG_OUT_OF_RANGE = 32,
     BRACE_CLIENT_FLAG_LOAD_UNKNOWN = 64, /* K counts no load */
-    BRACE_CLIENT_FLAG_SOFTENED = 128,    /* the load has made the limb much softer */
-    BRACE_CLIENT_FLAG_MOVED_FAR = 256,   /* the load moves the tip further than the accuracy is promised for */
+    BRACE_CLIENT_FLAG_SOFTENED = 128, /* the load has made the limb much softer */
+    BRACE_CLIENT_FLAG_MOVED_FAR = 256, /* the load moves the tip further than the accuracy is promised for */
     BRACE_CLIENT_FLAG_PLAY_ASSUMED = 512 /* a joint counts as engaged because the load says so; nothing has proven it */
 };
 
 typedef struct {
-    float fx_n, fz_n;    /* force on the tip */
+    float fx_n, fz_n; /* force on the tip */
     float low_n, high_n; /* least and largest force that a displacement of this size gives in any direction */
 } brace_client_force_t;
 
 typedef struct {
-    float margin_n;       /* force that may be added along the surface before the foot slides */
+    float margin_n; /* force that may be added along the surface before the foot slides */
     float angle_left_rad; /* angle from the force to the edge of the friction cone */
-    uint32_t contact;     /* 0 holds, 1 slides, 2 lifts */
+    uint32_t contact; /* 0 holds, 1 slides, 2 lifts */
 } brace_client_margin_t;
 
 /* What the drift check knows. brace/code_names.h has one sentence for each number. */
 typedef struct {
-    uint32_t state;          /* brace_drift_state_text; 2: drifted */
-    uint32_t cause;          /* brace_drift_cause_text: the likeliest; 0: none */
-    uint32_t could_be;       /* every cause that is nearly as likely, a bit each: brace_drift_could_be_text */
-    uint32_t next_step;      /* brace_drift_next_step_text */
-    float evidence;          /* the largest log likelihood ratio of all causes; the alarm is at 20 */
-    float loss_ratio;        /* share of stiffness that the likeliest cause has lost; negative: it has become stiffer */
-    float loss_sigma_ratio;  /* one sigma of loss_ratio */
+    uint32_t state; /* brace_drift_state_text; 2: drifted */
+    uint32_t cause; /* brace_drift_cause_text: the likeliest; 0: none */
+    uint32_t could_be; /* every cause that is nearly as likely, a bit each: brace_drift_could_be_text */
+    uint32_t next_step; /* brace_drift_next_step_text */
+    float evidence; /* the largest log likelihood ratio of all causes; the alarm is at 20 */
+    float loss_ratio; /* share of stiffness that the likeliest cause has lost; negative: it has become stiffer */
+    float loss_sigma_ratio; /* one sigma of loss_ratio */
     uint32_t since_readings; /* readings of loading tests since the change began; 65535: so many or more */
-    uint32_t readings;       /* readings taken in since the check began to learn */
+    uint32_t readings; /* readings taken in since the check began to learn */
 } brace_client_drift_t;
 
 typedef struct {

@@ -189,8 +189,7 @@ bool drift_job_work(drift_job_t *job, const drift_inputs_t *inputs)
         (void)brace_drift_report(&job->drift, limb, &job->report);
         job->reports = false;
     } else if (job->foresees) {
-        job->has_outlook =
-            brace_drift_outlook(&job->drift, limb, &job->model, &job->widest, &job->outlook) == BRACE_OK;
+        job->has_outlook = brace_drift_outlook(&job->drift, limb, &job->model, &job->widest, &job->outlook) == BRACE_OK;
         job->foresees = false;
     } else {
         return job->looks && inputs->may_write && keep_if_due(job);

@@ -48,8 +48,7 @@ static void count_run(brace_loading_t *test, brace_axis_t axis, const float thet
 {
     brace_loading_counts_t *counts = &test->counts;
     const bool is_elsewhere =
-        counts->run == 0u ||
-        __builtin_fabsf(theta_rad[BRACE_FEMUR] - counts->config_theta_rad[0]) > SAME_POSTURE_RAD ||
+        counts->run == 0u || __builtin_fabsf(theta_rad[BRACE_FEMUR] - counts->config_theta_rad[0]) > SAME_POSTURE_RAD ||
         __builtin_fabsf(theta_rad[BRACE_TIBIA] - counts->config_theta_rad[1]) > SAME_POSTURE_RAD;
     counts->run++;
     if (is_elsewhere) {
@@ -111,9 +110,8 @@ static brace_status_t made(const brace_loading_t *test, const loading_inputs_t *
     if (!setup_is_sound(setup) || !moves_everywhere(setup, inputs->parameters->controller.tick_us)) {
         return BRACE_E_RANGE;
     }
-    *next = (brace_loading_t){.phase = LOADING_LISTEN,
-                              .counts = test->counts,
-                              .result = {.outcome = BRACE_LOADING_RUNNING, .setup = *setup}};
+    *next = (brace_loading_t){
+        .phase = LOADING_LISTEN, .counts = test->counts, .result = {.outcome = BRACE_LOADING_RUNNING, .setup = *setup}};
     levers_begin(next, inputs);
     return inputs->now->k_is_valid && set_out(next, inputs) ? BRACE_OK : BRACE_E_SINGULAR;
 }
@@ -193,7 +191,7 @@ static brace_loading_outcome_t broken_bound(const brace_loading_t *test, const l
         return BRACE_LOADING_E_NO_FORCE;
     }
     if (test->result.rows > 0u && (__builtin_fabsf(now->force_x_n - test->result.preload_x_n) > most_n ||
-                                  __builtin_fabsf(now->force_z_n - test->result.preload_z_n) > most_n)) {
+                                   __builtin_fabsf(now->force_z_n - test->result.preload_z_n) > most_n)) {
         return BRACE_LOADING_E_FORCE;
     }
     for (int i = 0; i < 2; i++) {
@@ -346,9 +344,8 @@ static void judge(brace_loading_t *test)
 {
     brace_loading_result_t *result = &test->result;
     const brace_slope_t *slope = &test->slope;
-    const bool has_slopes =
-        brace_slope_column(slope, BRACE_SLOPE_LEAST_SQUARES, &result->least_squares) == BRACE_OK &&
-        brace_slope_column(slope, BRACE_SLOPE_MEAN_OF_RATIOS, &result->mean_of_ratios) == BRACE_OK;
+    const bool has_slopes = brace_slope_column(slope, BRACE_SLOPE_LEAST_SQUARES, &result->least_squares) == BRACE_OK &&
+                            brace_slope_column(slope, BRACE_SLOPE_MEAN_OF_RATIOS, &result->mean_of_ratios) == BRACE_OK;
     if (has_slopes) {
         test->phase = LOADING_COMPARE;
     } else {

@@ -62,8 +62,7 @@ static bool begin_at_preload(brace_loading_t *test, const loading_inputs_t *inpu
     test->result.preload_z_n = mean->force_z_n;
     test->model = now->stiffness.engaged;
     test->dx_mm = test->dz_mm = 0.0f;
-    return now->k_is_valid &&
-           brace_slope_start(&test->slope, 0.0f, mean->force_x_n, mean->force_z_n) == BRACE_OK;
+    return now->k_is_valid && brace_slope_start(&test->slope, 0.0f, mean->force_x_n, mean->force_z_n) == BRACE_OK;
 }
 
 bool reading_add_to_slope(brace_loading_t *test, float fx_n, float fz_n)
@@ -132,11 +131,10 @@ static bool k_under_preload(const brace_loading_t *test, const loading_inputs_t 
     const brace_limb_t *limb = &inputs->parameters->limb;
     const brace_vec3_t preload_n = {test->result.preload_x_n, inputs->now->load.force_y_n, test->result.preload_z_n};
     model_rest_t rest;
-    const int32_t status =
-        inputs->work->is_under_way
-            ? model_loaded_go_on(inputs->model, limb, inputs->work, &rest)
-            : model_loaded_begin(inputs->model, inputs->posture->unbent_rad, springs, preload_n, inputs->down,
-                                 inputs->work);
+    const int32_t status = inputs->work->is_under_way
+                               ? model_loaded_go_on(inputs->model, limb, inputs->work, &rest)
+                               : model_loaded_begin(inputs->model, inputs->posture->unbent_rad, springs, preload_n,
+                                                    inputs->down, inputs->work);
     if (status == BRACE_OK) {
         *k = rest.plane;
     }

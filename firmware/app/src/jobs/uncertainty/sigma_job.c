@@ -5,7 +5,8 @@
 #define CAUSES_FROM 1u
 #define LOADS_FROM (CAUSES_FROM + BRACE_CAUSE_COUNT)
 #define KS_OF_A_ROUND (LOADS_FROM + (uint32_t)(SIGMA_SIDES * BRACE_LINK_COUNT))
-#define WAITS_TICKS_MOST 3u  /* so a round of 300 steps ends within 1,200 ticks where questions never end, and within
+#define WAITS_TICKS_MOST \
+    3u  /* so a round of 300 steps ends within 1,200 ticks where questions never end, and within
                               * 1,500 in a flood of commands, which leaves it each fifth tick, */
 #define TRIES_IN_A_STEP 8u   /* of the causes that this limb may not have */
 #define OLDEST_TICKS 3000u   /* and what it tells holds until the next has ended */

@@ -32,16 +32,15 @@ int32_t answer_sign_of_life(request_t *request, const brace_sign_of_life_request
                             brace_sign_of_life_answer_t *answer)
 {
     const bool is_bench = brace_app_setting(request->app) == BRACE_SETTING_BENCH;
-    const brace_sign_t sign = {.heard = is_bench ? asked->check : asked->heard,
-                               .heard_bits = is_bench ? 32u : 16u,
-                               .check = asked->check};
+    const brace_sign_t sign = {
+        .heard = is_bench ? asked->check : asked->heard, .heard_bits = is_bench ? 32u : 16u, .check = asked->check};
     const int32_t status = brace_app_life(request->app, request->who, &sign);
     brace_session_report_t session;
     brace_app_session(request->app, &session);
     request->detail = session.number;
     if (status == BRACE_OK) {
-        *answer = (brace_sign_of_life_answer_t){
-            .owner = session.owner, .setting = session.setting, .number = session.number};
+        *answer =
+            (brace_sign_of_life_answer_t){.owner = session.owner, .setting = session.setting, .number = session.number};
     }
     return status;
 }
@@ -69,9 +68,9 @@ int32_t answer_take_up_result(request_t *request, const brace_take_up_result_req
     }
     const brace_backlash_out_t *play = &snapshot->play[asked->joint];
     *answer = (brace_take_up_result_answer_t){.joint = asked->joint,
-                                                  .outcome = play->takeup,
-                                                  .phase = play->phase,
-                                                  .torque_n_mm = snapshot->torque_n_mm[asked->joint]};
+                                              .outcome = play->takeup,
+                                              .phase = play->phase,
+                                              .torque_n_mm = snapshot->torque_n_mm[asked->joint]};
     return BRACE_OK;
 }
 
@@ -96,15 +95,14 @@ int32_t answer_loading_test_start(request_t *request, const brace_loading_test_s
     const brace_drive_t *drive = brace_app_parameters(app)->drive;
     const float femur_n_mm = drive[BRACE_FEMUR].torque_range_n_mm;
     const float tibia_n_mm = drive[BRACE_TIBIA].torque_range_n_mm;
-    const brace_loading_setup_t setup = {
-        .axis = asked->axis == 0u ? BRACE_AXIS_X : BRACE_AXIS_Z,
-        .steps_per_side = asked->steps_per_side,
-        .step_mm = asked->step_mm,
-        .dwell_us = 1000u * asked->dwell_ms,
-        .rate_mm_per_s = RATE_MM_PER_S,
-        .force_max_n = FORCE_MOST_N,
-        .torque_max_n_mm = femur_n_mm > tibia_n_mm ? femur_n_mm : tibia_n_mm,
-        .source = BRACE_LOADING_ENCODED};
+    const brace_loading_setup_t setup = {.axis = asked->axis == 0u ? BRACE_AXIS_X : BRACE_AXIS_Z,
+                                         .steps_per_side = asked->steps_per_side,
+                                         .step_mm = asked->step_mm,
+                                         .dwell_us = 1000u * asked->dwell_ms,
+                                         .rate_mm_per_s = RATE_MM_PER_S,
+                                         .force_max_n = FORCE_MOST_N,
+                                         .torque_max_n_mm = femur_n_mm > tibia_n_mm ? femur_n_mm : tibia_n_mm,
+                                         .source = BRACE_LOADING_ENCODED};
     request->detail = brace_app_mode(app);
     if (brace_app_loading_is_returning(app)) {
         return BRACE_REFUSED_BUSY; /* the last test is over by itself in a moment */
@@ -180,17 +178,17 @@ int32_t answer_identify(request_t *request, const brace_identify_request_t *aske
     const brace_snapshot_t *snapshot = brace_app_snapshot(request->app);
     (void)asked;
     *answer = (brace_identify_answer_t){.major = BRACE_FIRMWARE_MAJOR,
-                                            .minor = BRACE_FIRMWARE_MINOR,
-                                            .patch = BRACE_FIRMWARE_PATCH,
-                                            .protocol = BRACE_PROTOCOL,
-                                            .node = request->node_id,
-                                            .dictionary_hash = BRACE_DICTIONARY_HASH,
-                                            .schema_hash = BRACE_SCHEMA_HASH,
-                                            .parameter_crc = snapshot->parameter_crc,
-                                            .origin = snapshot->parameter_origin,
-                                            .faults = brace_app_faults(request->app),
-                                            .mode = brace_app_mode(request->app),
-                                            .setting = brace_app_setting(request->app)};
+                                        .minor = BRACE_FIRMWARE_MINOR,
+                                        .patch = BRACE_FIRMWARE_PATCH,
+                                        .protocol = BRACE_PROTOCOL,
+                                        .node = request->node_id,
+                                        .dictionary_hash = BRACE_DICTIONARY_HASH,
+                                        .schema_hash = BRACE_SCHEMA_HASH,
+                                        .parameter_crc = snapshot->parameter_crc,
+                                        .origin = snapshot->parameter_origin,
+                                        .faults = brace_app_faults(request->app),
+                                        .mode = brace_app_mode(request->app),
+                                        .setting = brace_app_setting(request->app)};
     return BRACE_OK;
 }
 
@@ -199,14 +197,14 @@ int32_t answer_drift(request_t *request, const brace_drift_request_t *asked, bra
     const brace_measured_t *measured = request->measured;
     (void)asked;
     *answer = (brace_drift_answer_t){.state = measured->drift_state,
-                                         .cause = measured->drift_cause,
-                                         .could_be = measured->drift_could_be,
-                                         .next_step = measured->drift_next_step,
-                                         .evidence = measured->drift_evidence,
-                                         .loss_ratio = measured->drift_loss_ratio,
-                                         .loss_sigma_ratio = measured->drift_loss_sigma_ratio,
-                                         .since_readings = measured->drift_since_readings,
-                                         .readings = measured->drift_readings};
+                                     .cause = measured->drift_cause,
+                                     .could_be = measured->drift_could_be,
+                                     .next_step = measured->drift_next_step,
+                                     .evidence = measured->drift_evidence,
+                                     .loss_ratio = measured->drift_loss_ratio,
+                                     .loss_sigma_ratio = measured->drift_loss_sigma_ratio,
+                                     .since_readings = measured->drift_since_readings,
+                                     .readings = measured->drift_readings};
     return BRACE_OK;
 }
 

@@ -11,10 +11,9 @@ int32_t answer_read_entry(request_t *request, const brace_read_entry_request_t *
 {
     uint32_t value = 0;
     request->detail = asked->index;
-    const brace_status_t status =
-        asked->index < BRACE_ENTRY_MEASURED
-            ? parameter_entry(brace_app_parameters(request->app), asked->index, &value)
-            : measured_entry(request->measured, asked->index, &value);
+    const brace_status_t status = asked->index < BRACE_ENTRY_MEASURED
+                                      ? parameter_entry(brace_app_parameters(request->app), asked->index, &value)
+                                      : measured_entry(request->measured, asked->index, &value);
     if (status == BRACE_OK) {
         *answer = (brace_read_entry_answer_t){asked->index, value};
     }
@@ -78,8 +77,7 @@ static int32_t go_to(brace_app_t *app, uint32_t wanted)
         return brace_app_configuration_enter(app); /* or keeps it going */
     }
     if (wanted == BRACE_MODE_MONITOR && mode == BRACE_MODE_CONFIGURATION) {
-        return brace_app_is_storing(app) ? (int32_t)BRACE_REFUSED_BUSY
-                                              : (int32_t)brace_app_configuration_leave(app);
+        return brace_app_is_storing(app) ? (int32_t)BRACE_REFUSED_BUSY : (int32_t)brace_app_configuration_leave(app);
     }
     if (wanted == (uint32_t)mode) {
         return BRACE_OK;

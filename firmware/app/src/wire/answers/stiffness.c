@@ -109,17 +109,15 @@ static int32_t answer_k_under_load(request_t *request, const brace_k_question_t 
 int32_t answer_k_under_load_at_posture(request_t *request, const brace_k_under_load_at_posture_request_t *asked,
                                        brace_k_under_load_at_posture_answer_t *answer)
 {
-    const brace_k_question_t question = at_posture(BRACE_K_AT_POSTURE, 0.0f, asked->theta1_rad, asked->theta2_rad,
-                                                   request->asked_force->force, 0.0f);
+    const brace_k_question_t question =
+        at_posture(BRACE_K_AT_POSTURE, 0.0f, asked->theta1_rad, asked->theta2_rad, request->asked_force->force, 0.0f);
     return answer_k_under_load(request, &question, answer);
 }
 
-int32_t answer_k_under_load_at_tip_knee_up(request_t *request,
-                                           const brace_k_under_load_at_tip_knee_up_request_t *asked,
+int32_t answer_k_under_load_at_tip_knee_up(request_t *request, const brace_k_under_load_at_tip_knee_up_request_t *asked,
                                            brace_k_under_load_at_tip_knee_up_answer_t *answer)
 {
-    const brace_k_question_t question =
-        at_tip(asked->x_mm, asked->z_mm, BRACE_KNEE_UP, request->asked_force->force);
+    const brace_k_question_t question = at_tip(asked->x_mm, asked->z_mm, BRACE_KNEE_UP, request->asked_force->force);
     return answer_k_under_load(request, &question, answer);
 }
 
@@ -127,8 +125,7 @@ int32_t answer_k_under_load_at_tip_knee_down(request_t *request,
                                              const brace_k_under_load_at_tip_knee_down_request_t *asked,
                                              brace_k_under_load_at_tip_knee_down_answer_t *answer)
 {
-    const brace_k_question_t question =
-        at_tip(asked->x_mm, asked->z_mm, BRACE_KNEE_DOWN, request->asked_force->force);
+    const brace_k_question_t question = at_tip(asked->x_mm, asked->z_mm, BRACE_KNEE_DOWN, request->asked_force->force);
     return answer_k_under_load(request, &question, answer);
 }
 

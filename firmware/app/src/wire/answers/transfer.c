@@ -56,14 +56,12 @@ int32_t answer_upload_word(request_t *request, const brace_upload_word_request_t
     }
     const bool comes_again = asked->word + 1u == upload->next;
     request->detail = upload->is_open ? upload->next : 0u;
-    if (!upload->is_open || asked->word >= BLOCK_WORDS ||
-        (asked->word != upload->next && !comes_again)) {
+    if (!upload->is_open || asked->word >= BLOCK_WORDS || (asked->word != upload->next && !comes_again)) {
         return BRACE_REFUSED_ORDER;
     }
     uint8_t *place = &upload->block[WORD_BYTES * asked->word];
     if (!comes_again) { /* the word before stays as it is now */
-        upload->sum =
-            asked->word == 0u ? 0u : brace_crc32(upload->sum, place - WORD_BYTES, WORD_BYTES);
+        upload->sum = asked->word == 0u ? 0u : brace_crc32(upload->sum, place - WORD_BYTES, WORD_BYTES);
     }
     brace_put_u32(place, asked->data);
     upload->next = asked->word + 1u;
@@ -161,8 +159,7 @@ int32_t answer_commit(request_t *request, const brace_commit_request_t *asked, b
     }
     const upload_t *upload = request->upload;
     const bool is_staged = upload == NULL || (!upload->is_open && brace_app_has_staged(request->app));
-    return later(asked->crc == 0u || is_staged ? store_staged(request, asked->crc)
-                                               : store_upload(request, asked->crc));
+    return later(asked->crc == 0u || is_staged ? store_staged(request, asked->crc) : store_upload(request, asked->crc));
 }
 
 int32_t answer_rollback(request_t *request, const brace_rollback_request_t *asked, brace_rollback_answer_t *answer)

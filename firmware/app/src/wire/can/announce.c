@@ -64,17 +64,17 @@ bool announce_next(const announce_t *announce, const wire_tick_t *tick, brace_ca
                                                                 .error_register = faults != 0u,
                                                                 .drift_cause = cause,
                                                                 .mode = mode,
-                                                                .faults = faults}, frame->data);
+                                                                .faults = faults},
+                                       frame->data);
         return true;
     }
     if (announce->owes_condition) {
         frame->id = BRACE_CAN_ID_DETAILS;
         const uint32_t sequence = brace_app_snapshot(tick->app)->sequence & 0xffu;
-        (void)brace_can_pack_condition(&(brace_can_condition_t){.sequence = sequence,
-                                                                .faults = faults,
-                                                                .mode = mode,
-                                                                .setting = brace_app_setting(tick->app)},
-                                       frame->data);
+        (void)brace_can_pack_condition(
+            &(brace_can_condition_t){
+                .sequence = sequence, .faults = faults, .mode = mode, .setting = brace_app_setting(tick->app)},
+            frame->data);
         return true;
     }
     if (mode != announce->mode_told || heart_beats(announce, tick)) {

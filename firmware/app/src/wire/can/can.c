@@ -22,8 +22,7 @@ typedef enum { ON_BUS, AS_TEXT } way_t;
 
 void can_start(can_t *can, const brace_hal_t *hal, const brace_parameters_t *parameters)
 {
-    *can = (can_t){.node_id = (uint8_t)parameters->controller.node_id,
-                   .bit_rate = parameters->controller.can_bit_rate};
+    *can = (can_t){.node_id = (uint8_t)parameters->controller.node_id, .bit_rate = parameters->controller.can_bit_rate};
     can_bus_start(&can->bus, hal, &parameters->controller);
     slcan_start(&can->text, hal, parameters->controller.stop_id);
 }
@@ -40,8 +39,9 @@ static bool is_known_function(uint32_t id)
 {
 #define FUNCTION_OF_RATE(ID, name, rate, coxa) | 1u << (ID >> 7)
 #define FUNCTION_BY_HAND(ID, name) | 1u << (ID >> 7)
-    const uint32_t known = 1u << (BRACE_CAN_ID_REQUEST >> 7) | 1u << (BRACE_CAN_ID_ANSWER >> 7)
-        BRACE_CAN_PROCESS(FUNCTION_OF_RATE) BRACE_CAN_PROCESS_FD(FUNCTION_OF_RATE) BRACE_CAN_BY_HAND(FUNCTION_BY_HAND);
+    const uint32_t known = 1u << (BRACE_CAN_ID_REQUEST >> 7) |
+                           1u << (BRACE_CAN_ID_ANSWER >> 7) BRACE_CAN_PROCESS(FUNCTION_OF_RATE)
+                                   BRACE_CAN_PROCESS_FD(FUNCTION_OF_RATE) BRACE_CAN_BY_HAND(FUNCTION_BY_HAND);
 #undef FUNCTION_OF_RATE
 #undef FUNCTION_BY_HAND
     return (known >> (id >> 7 & 15u) & 1u) != 0u;
@@ -225,8 +225,7 @@ static uint32_t answer_question(can_t *can, way_t way, const wire_tick_t *tick)
     if (waited && brace_app_k_is_coming(tick->app, asker_of(way))) {
         return WIRE_NOTHING;
     }
-    const uint8_t *data =
-        waited ? can_queue_question(&requests->queue) : can_queue_next_question(&requests->queue);
+    const uint8_t *data = waited ? can_queue_question(&requests->queue) : can_queue_next_question(&requests->queue);
     if (data == NULL) {
         return WIRE_NOTHING;
     }

@@ -104,8 +104,8 @@ static void configure(process_t *process, const process_bus_t *bus, const wire_t
     const bool k_is_in_each = process->share[PROCESS_STIFFNESS].every == 1u;
     process->share[PROCESS_SIGMA].left = k_is_in_each ? process->share[PROCESS_SIGMA].every / 4u : 0u;
     /* Heartbeats and the frame behind each are never thinned, so their part of the bus is taken off first. */
-    const float share_per_s = wanted->bus_load_ratio * (float)bus->bit_rate / (float)PROCESS_FRAME_BITS -
-                              2.0f * (float)wanted->heartbeat_hz;
+    const float share_per_s =
+        wanted->bus_load_ratio * (float)bus->bit_rate / (float)PROCESS_FRAME_BITS - 2.0f * (float)wanted->heartbeat_hz;
     const float allowed_per_s = share_per_s > FRAMES_PER_S_LEAST ? share_per_s : FRAMES_PER_S_LEAST;
     const float thinned = allowed_per_s >= wanted_per_s ? 1.0f : wanted_per_s / allowed_per_s;
     const float period_us = 1e6f * thinned / base;

@@ -59,10 +59,20 @@ modbus_exception_t modbus_ask(modbus_server_t *server, const wire_tick_t *tick, 
                                  .is_there_in_space = false,
                                  .force_in_space = {0.0f, 0.0f},
                                  .across_n = 0.0f};
-    request_t request = {
-        .app = tick->app, .measured = tick->measured, .asker = server->asker, .asked_force = &asked_force,
-        .who = server->who, .seal = server->seal, .token = 0, .bytes = server->pdu, .count = server->length,
-        .upload = NULL, .download = NULL, .node_id = 0, .detail = 0, .is_of_now = false};
+    request_t request = {.app = tick->app,
+                         .measured = tick->measured,
+                         .asker = server->asker,
+                         .asked_force = &asked_force,
+                         .who = server->who,
+                         .seal = server->seal,
+                         .token = 0,
+                         .bytes = server->pdu,
+                         .count = server->length,
+                         .upload = NULL,
+                         .download = NULL,
+                         .node_id = 0,
+                         .detail = 0,
+                         .is_of_now = false};
     brace_request_t asked;
     brace_answer_t answer;
     const uint32_t picks = question == NULL ? 0u : (uint32_t)question->begin_fields + question->fields;

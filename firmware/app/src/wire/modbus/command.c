@@ -22,9 +22,7 @@ static uint32_t request_of(uint32_t command, uint32_t value, brace_request_t *as
         asked->commit = (brace_commit_request_t){.crc = 0}; /* what has been written value by value */
         return high == KEY && low == STORES_NOW ? BRACE_REQUEST_COMMIT : 0u;
     case COMMAND(rollback): return high == KEY && low == STORES_NOW ? BRACE_REQUEST_ROLLBACK : 0u;
-    case COMMAND(clear_faults):
-        asked->clear = (brace_clear_request_t){.faults = value};
-        return BRACE_REQUEST_CLEAR;
+    case COMMAND(clear_faults): asked->clear = (brace_clear_request_t){.faults = value}; return BRACE_REQUEST_CLEAR;
     case COMMAND(take_up):
         asked->take_up = (brace_take_up_request_t){.joint = value & 0xffu, .flank = flank == FLANK_POSITIVE ? 1 : -1};
         return flank == FLANK_POSITIVE || flank == FLANK_NEGATIVE ? BRACE_REQUEST_TAKE_UP : 0u;

@@ -6,8 +6,13 @@
 #include "brace/can_messages.h"
 #include "wire/version.h"
 
-enum { SERVER_ID = 0xb2, RUNS = 0xff, READ_DEVICE_ID = 14, OBJECTS = 3,
-       CONFORMITY = 0x81 /* basic, stream and single */ };
+enum {
+    SERVER_ID = 0xb2,
+    RUNS = 0xff,
+    READ_DEVICE_ID = 14,
+    OBJECTS = 3,
+    CONFORMITY = 0x81 /* basic, stream and single */
+};
 
 static const char name[] = "Brace";
 static const char code[] = "limb controller";
@@ -32,7 +37,7 @@ static uint32_t put_version(uint8_t *text)
 static uint32_t put_hex(uint8_t *text, uint32_t value)
 {
     for (uint32_t i = 0; i < 8u; i++) {
-        text[i] = (uint8_t)"0123456789abcdef"[value >> (28u - 4u * i) & 0xfu];
+        text[i] = (uint8_t) "0123456789abcdef"[value >> (28u - 4u * i) & 0xfu];
     }
     return 8;
 }

@@ -77,8 +77,8 @@ static bool gather(modbus_line_t *line, const wire_tick_t *tick)
         begin_frame(line);
         take_ahead(line, tick);
     }
-    line->came = (uint16_t)modbus_link_receive(link, tick, BRACE_SERIAL_MODBUS,
-                                               MODBUS_LINK_BYTES - (uint32_t)link->count);
+    line->came =
+        (uint16_t)modbus_link_receive(link, tick, BRACE_SERIAL_MODBUS, MODBUS_LINK_BYTES - (uint32_t)link->count);
     if (link->is_skipping || link->count > FRAME_MOST) {
         link->is_skipping = true;
         line->checked = link->count;
@@ -90,8 +90,8 @@ static bool gather(modbus_line_t *line, const wire_tick_t *tick)
 static void gather_ahead(modbus_line_t *line, const wire_tick_t *tick)
 {
     const uint32_t room = MODBUS_AHEAD_BYTES - (uint32_t)line->ahead_count;
-    const int32_t count = tick->hal->serial_read(tick->hal->context, BRACE_SERIAL_MODBUS,
-                                                 line->ahead + line->ahead_count, room);
+    const int32_t count =
+        tick->hal->serial_read(tick->hal->context, BRACE_SERIAL_MODBUS, line->ahead + line->ahead_count, room);
     line->came = count > 0 ? (uint16_t)count : (uint16_t)0u;
     line->ahead_count = (uint8_t)(line->ahead_count + line->came);
 }
@@ -261,8 +261,7 @@ static uint32_t take_request(modbus_line_t *line, modbus_server_t *server, const
 {
     const uint32_t count = bytes - CRC_BYTES;
     forget_question(line, server, tick);
-    line->has_question =
-        modbus_pdu_rank(line->link.bytes + ADDRESS_BYTES, count - ADDRESS_BYTES) == ANSWER_QUESTION;
+    line->has_question = modbus_pdu_rank(line->link.bytes + ADDRESS_BYTES, count - ADDRESS_BYTES) == ANSWER_QUESTION;
     if (line->has_question) {
         return WIRE_NOTHING;
     }
@@ -336,8 +335,7 @@ bool modbus_line_hear(modbus_line_t *line, modbus_server_t *server, const wire_t
     const bool is_behind = link->count > line->checked + CHECKED_PER_TICK; /* with the check */
     if (bytes_came || silent_us < line->silence_us || is_behind) {
         check_on(line, link->count, CHECKED_PER_TICK);
-        const bool is_sound =
-            !bytes_came && !link->is_skipping && line->checked == link->count && line->crc == 0u;
+        const bool is_sound = !bytes_came && !link->is_skipping && line->checked == link->count && line->crc == 0u;
         line->sound = is_sound && link->count >= FRAME_LEAST ? link->count : (uint16_t)0u;
     } else if (link->count > 0u || link->is_skipping) {
         *done += end_frame(line, server, tick, silent_us);

@@ -36,8 +36,8 @@ void modbus_link_answer(modbus_link_t *link, const wire_tick_t *tick, uint32_t c
 
 void modbus_link_send(modbus_link_t *link, const wire_tick_t *tick, brace_serial_port_t port)
 {
-    const int32_t taken = tick->hal->serial_write(tick->hal->context, port, link->bytes + link->sent,
-                                                  (uint32_t)link->ready - link->sent);
+    const int32_t taken =
+        tick->hal->serial_write(tick->hal->context, port, link->bytes + link->sent, (uint32_t)link->ready - link->sent);
     if (taken > 0) {
         link->sent = (uint16_t)(link->sent + taken);
         link->active_us = tick->now_us;

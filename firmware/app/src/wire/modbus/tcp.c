@@ -97,10 +97,9 @@ static void send(const modbus_tcp_t *tcp, uint32_t place, const wire_tick_t *tic
     const brace_hal_t *hal = tick->hal;
     const uint32_t peer = tcp->connection[place].half.peer;
     const uint8_t *bytes = tcp->link.bytes;
-    const int32_t taken =
-        hal->serial_write_to != NULL
-            ? hal->serial_write_to(hal->context, BRACE_SERIAL_MODBUS_TCP, peer, bytes, count)
-            : hal->serial_write(hal->context, BRACE_SERIAL_MODBUS_TCP, bytes, count);
+    const int32_t taken = hal->serial_write_to != NULL
+                              ? hal->serial_write_to(hal->context, BRACE_SERIAL_MODBUS_TCP, peer, bytes, count)
+                              : hal->serial_write(hal->context, BRACE_SERIAL_MODBUS_TCP, bytes, count);
     if (taken != (int32_t)count) {
         brace_count(&tick->counters->requests_lost);
     }

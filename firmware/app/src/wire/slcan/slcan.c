@@ -37,11 +37,12 @@ static uint8_t *end_of_out(slcan_t *slcan)
 
 /* Every byte as two digits, one after the other: 512 bytes of flash halve what a frame costs as text. A tick may send
  * eight of them. */
-#define BYTES_OF(high) high "0" high "1" high "2" high "3" high "4" high "5" high "6" high "7" \
-                       high "8" high "9" high "A" high "B" high "C" high "D" high "E" high "F"
+#define BYTES_OF(high) \
+    high "0" high "1" high "2" high "3" high "4" high "5" high "6" high "7" high "8" high "9" high "A" high "B" high \
+         "C" high "D" high "E" high "F"
 static const char hex_byte[] =
     BYTES_OF("0") BYTES_OF("1") BYTES_OF("2") BYTES_OF("3") BYTES_OF("4") BYTES_OF("5") BYTES_OF("6") BYTES_OF("7")
-    BYTES_OF("8") BYTES_OF("9") BYTES_OF("A") BYTES_OF("B") BYTES_OF("C") BYTES_OF("D") BYTES_OF("E") BYTES_OF("F");
+        BYTES_OF("8") BYTES_OF("9") BYTES_OF("A") BYTES_OF("B") BYTES_OF("C") BYTES_OF("D") BYTES_OF("E") BYTES_OF("F");
 #undef BYTES_OF
 
 static uint8_t hex_digit(uint32_t value)

@@ -15,20 +15,20 @@
 
 enum {
     SLCAN_BAUD = 921600,
-    SLCAN_IN_BYTES = 32,  /* the longest line there is has 27 characters, then CR; and some hosts send a LF before it */
+    SLCAN_IN_BYTES = 32, /* the longest line there is has 27 characters, then CR; and some hosts send a LF before it */
     SLCAN_OUT_BYTES = 256 /* an answer of five frames, six others and the replies to commands: 22 bytes a frame */
 };
 
 typedef struct {
-    bool is_fitted;      /* the board has the port */
-    bool is_open;        /* the channel, as the other end wants it */
-    bool was_closed;     /* by the other end, since the caller last looked: it may be open again, for another host */
+    bool is_fitted; /* the board has the port */
+    bool is_open; /* the channel, as the other end wants it */
+    bool was_closed; /* by the other end, since the caller last looked: it may be open again, for another host */
     bool is_listen_only; /* opened with L: the other end hears, and its frames are refused */
-    uint32_t urgent_id;  /* frames of this identifier are taken also while the channel is closed or listens only */
-    bool skips;          /* the line that is coming is too long; its rest is passed over */
-    uint8_t in_count;    /* [0, 32] */
+    uint32_t urgent_id; /* frames of this identifier are taken also while the channel is closed or listens only */
+    bool skips; /* the line that is coming is too long; its rest is passed over */
+    uint8_t in_count; /* [0, 32] */
     uint16_t out_first, out_count; /* the bytes of out that wait to be written */
-    uint8_t in[SLCAN_IN_BYTES];   /* what has come, from the beginning of a line on */
+    uint8_t in[SLCAN_IN_BYTES]; /* what has come, from the beginning of a line on */
     uint8_t out[SLCAN_OUT_BYTES]; /* what has not left yet */
 } slcan_t;
 

@@ -71,9 +71,9 @@ static void test_the_first_reading_is_what_all_counts_from(void)
     TEST_ASSERT_EQUAL(1, test.result.rows);
     brace_row_t row;
     TEST_ASSERT_EQUAL(BRACE_OK, brace_recorder_row(&recorder, 0, &row));
-    const float reported[] = {row.run,       row.config, row.axis,  row.rep,  row.step, row.t_s,        row.temp_degc,
-                          row.dx_mm,     row.dz_mm,  row.fx_n,  row.fz_n, row.theta1_rad, row.theta2_rad,
-                          row.enc1_rad,  row.enc2_rad};
+    const float reported[] = {row.run,  row.config,     row.axis,       row.rep,      row.step,
+                              row.t_s,  row.temp_degc,  row.dx_mm,      row.dz_mm,    row.fx_n,
+                              row.fz_n, row.theta1_rad, row.theta2_rad, row.enc1_rad, row.enc2_rad};
     const double wanted[] = {3, 4, BRACE_AXIS_Z, 5, 0, 0.25, 32.0, 0.0, 0.0, 5.0, 8.5, 1.06, 1.15, 0.0, 0.0};
     for (int i = 0; i < 15; i++) {
         ASSERT_CLOSE(wanted[i], reported[i], 1e-5);
@@ -187,7 +187,7 @@ static void test_the_drift_check_gets_each_number(void)
     TEST_ASSERT_TRUE(r.is_fit);
     TEST_ASSERT_EQUAL_FLOAT(7.0f, r.model.k_xx_n_per_mm);
     const float reported[] = {r.reading.theta1_rad, r.reading.theta2_rad, r.reading.dx_mm,      r.reading.dz_mm,
-                          r.reading.fx_n,       r.reading.fz_n,       r.reading.warmer_degc};
+                              r.reading.fx_n,       r.reading.fz_n,       r.reading.warmer_degc};
     const float wanted[] = {1.1f, 1.2f, 0.3f, 0.4f, 5.0f, 6.0f, 29.0f - reference_degc};
     TEST_ASSERT_EQUAL_FLOAT_ARRAY(wanted, reported, 7);
 }

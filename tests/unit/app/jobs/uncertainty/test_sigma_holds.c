@@ -7,7 +7,7 @@
 #define TICK_S ((float)TICK_US * 1e-6f)
 
 enum {
-    ROUND_TICKS = 60,        /* at most, where nobody asks for anything */
+    ROUND_TICKS = 60, /* at most, where nobody asks for anything */
     SPACE_ROUND_TICKS = 300,
     MOVED_TICKS = ON_BOARD ? 400 : 3000,
 };
@@ -84,8 +84,8 @@ static float share_known_at(float rad_per_s)
     float step_rad = rad_per_s * TICK_S;
     for (int i = 0; i < count; i++) {
         const float theta2_rad = fake.joint[BRACE_TIBIA].sample.motor_rad;
-        step_rad = (theta2_rad > 2.0f && step_rad > 0.0f) || (theta2_rad < 0.8f && step_rad < 0.0f) ? -step_rad
-                                                                                                    : step_rad;
+        step_rad =
+            (theta2_rad > 2.0f && step_rad > 0.0f) || (theta2_rad < 0.8f && step_rad < 0.0f) ? -step_rad : step_rad;
         fake.joint[BRACE_TIBIA].sample.motor_rad += step_rad;
         fake.joint[BRACE_FEMUR].sample.motor_rad -= 0.5f * step_rad;
         ticks(1);

@@ -34,9 +34,19 @@ void tearDown(void) {}
 static int32_t put(uint32_t code)
 {
     static const uint8_t bytes[8];
-    request = (request_t){.app = &app, .measured = &app.wires.measured, .asker = BRACE_ASKER_CAN, .who = who,
-                          .seal = &seal, .brings = &brought, .token = 0x31, .bytes = bytes, .count = sizeof bytes,
-                          .asked_force = &asked_force, .upload = &uploaded, .download = &downloaded, .node_id = 5};
+    request = (request_t){.app = &app,
+                          .measured = &app.wires.measured,
+                          .asker = BRACE_ASKER_CAN,
+                          .who = who,
+                          .seal = &seal,
+                          .brings = &brought,
+                          .token = 0x31,
+                          .bytes = bytes,
+                          .count = sizeof bytes,
+                          .asked_force = &asked_force,
+                          .upload = &uploaded,
+                          .download = &downloaded,
+                          .node_id = 5};
     memset(&answer, 0x5a, sizeof answer);
     untouched = answer;
     app.controller.ownership.is_by_wire = true; /* as while the wires are served */
@@ -100,8 +110,8 @@ static void test_where_down_is(void)
 
 static void test_a_loading_test_from_its_start_to_its_rows(void)
 {
-    asked.loading_test_start = (brace_loading_test_start_request_t){.axis = 1, .steps_per_side = 2, .step_mm = 0.5f,
-                                                                    .dwell_ms = 20};
+    asked.loading_test_start =
+        (brace_loading_test_start_request_t){.axis = 1, .steps_per_side = 2, .step_mm = 0.5f, .dwell_ms = 20};
     asked.loading_test_start.axis = 2;
     refuses(BRACE_E_RANGE, BRACE_MODE_MONITOR, BRACE_REQUEST_LOADING_TEST_START);
     asked.loading_test_start.axis = 1;
@@ -156,8 +166,8 @@ static void test_the_torque_of_a_test_is_the_stronger_motor_s(void)
         brace_parameters_t p = bench_parameters();
         p.drive[BRACE_FEMUR + i].torque_range_n_mm = 12000.0f;
         stand(&p);
-        asked.loading_test_start = (brace_loading_test_start_request_t){.axis = 0, .steps_per_side = 2, .step_mm = 0.5f,
-                                                                        .dwell_ms = 20};
+        asked.loading_test_start =
+            (brace_loading_test_start_request_t){.axis = 0, .steps_per_side = 2, .step_mm = 0.5f, .dwell_ms = 20};
         takes(BRACE_REQUEST_LOADING_TEST_START);
         living_master = &who;
         ticks(3);
@@ -172,9 +182,9 @@ static void test_each_item_of_a_loading_test_s_result(void)
     run(&along_x);
     TEST_ASSERT_EQUAL(BRACE_LOADING_DONE, result()->outcome);
     const brace_measured_t *reported = &app.wires.measured;
-    const float wanted[] = {reported->loading_k_x_n_per_mm, reported->loading_k_z_n_per_mm,
-                            reported->loading_ratio_k_x_n_per_mm, reported->loading_ratio_k_z_n_per_mm,
-                            reported->loading_score_x, reported->loading_score_z};
+    const float wanted[] = {
+        reported->loading_k_x_n_per_mm,       reported->loading_k_z_n_per_mm, reported->loading_ratio_k_x_n_per_mm,
+        reported->loading_ratio_k_z_n_per_mm, reported->loading_score_x,      reported->loading_score_z};
     const uint32_t first = (uint32_t)(offsetof(brace_measured_t, loading_outcome) / 4u);
     const uint32_t at = (uint32_t)(offsetof(brace_measured_t, loading_k_x_n_per_mm) / 4u) - first;
     for (uint32_t i = 0; i < 2u; i++) {
@@ -223,8 +233,9 @@ static void test_each_number_of_a_drift(void)
     m->drift_since_readings = 8, m->drift_readings = 9;
     takes(BRACE_REQUEST_DRIFT);
     const brace_drift_answer_t *a = &answer.drift;
-    const float reported[] = {(float)a->state, (float)a->cause, (float)a->could_be, (float)a->next_step, a->evidence,
-                          a->loss_ratio, a->loss_sigma_ratio, (float)a->since_readings, (float)a->readings};
+    const float reported[] = {(float)a->state,   (float)a->cause, (float)a->could_be,  (float)a->next_step,
+                              a->evidence,       a->loss_ratio,   a->loss_sigma_ratio, (float)a->since_readings,
+                              (float)a->readings};
     for (int i = 0; i < 9; i++) {
         TEST_ASSERT_EQUAL_FLOAT(1.0f + (float)i, reported[i]);
     }
@@ -303,8 +314,8 @@ static void test_stop_takes_back_what_has_not_begun(void)
     ticks(2);
     TEST_ASSERT_EQUAL(BRACE_MODE_MONITOR, now()->mode);
     const uint32_t begin = begin_now();
-    asked.write_entry = (brace_write_entry_request_t){
-        BRACE_ENTRY_COMMANDS + (uint32_t)(offsetof(brace_commands_t, stop) / 4u), 1};
+    asked.write_entry =
+        (brace_write_entry_request_t){BRACE_ENTRY_COMMANDS + (uint32_t)(offsetof(brace_commands_t, stop) / 4u), 1};
     takes(BRACE_REQUEST_WRITE_ENTRY);
     TEST_ASSERT_EQUAL(asked.write_entry.index, answer.write_entry.index);
     TEST_ASSERT_EQUAL(BRACE_SETTING_BENCH, answer.write_entry.value);
@@ -725,8 +736,8 @@ static void test_a_set_that_is_stored_answers_with_what_is_in_force(void)
 static void test_a_download_is_the_block(void)
 {
     uint8_t block[BRACE_BLOCK_BYTES];
-    TEST_ASSERT_EQUAL(BRACE_OK, brace_parameters_pack(brace_app_parameters(&app), now()->parameter_sequence,
-                                                      block, sizeof block));
+    TEST_ASSERT_EQUAL(
+        BRACE_OK, brace_parameters_pack(brace_app_parameters(&app), now()->parameter_sequence, block, sizeof block));
     asked.download_word = (brace_download_word_request_t){.word = 0xffff};
     takes(BRACE_REQUEST_DOWNLOAD_WORD);
     TEST_ASSERT_EQUAL_HEX32(BRACE_BLOCK_BYTES | (uint32_t)now()->parameter_origin << 16, answer.download_word.data);

@@ -108,8 +108,8 @@ static void test_every_change_of_the_mode_is_reported_once(void)
     static const struct {
         brace_mode_t mode;
         uint32_t state;
-    } row[] = {{BRACE_MODE_START, 0x00}, {BRACE_MODE_CONFIGURATION, 0x7f}, {BRACE_MODE_FAULT, 0x04},
-               {BRACE_MODE_TAKING_UP, 0x05}, {BRACE_MODE_LOADING_TEST, 0x05}, {BRACE_MODE_MONITOR, 0x05}};
+    } row[] = {{BRACE_MODE_START, 0x00},     {BRACE_MODE_CONFIGURATION, 0x7f}, {BRACE_MODE_FAULT, 0x04},
+               {BRACE_MODE_TAKING_UP, 0x05}, {BRACE_MODE_LOADING_TEST, 0x05},  {BRACE_MODE_MONITOR, 0x05}};
     for (uint32_t i = 0; i < sizeof row / sizeof *row; i++) {
         brace_can_frame_t frame;
         brace_can_heartbeat_t reported;

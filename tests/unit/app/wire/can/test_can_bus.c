@@ -58,15 +58,17 @@ static int32_t port_recover(void *context)
 
 static void start(uint32_t fd_bit_rate, uint32_t node_id)
 {
-    const brace_controller_t controller = {
-        .node_id = node_id, .can_bit_rate = 500000, .can_fd_bit_rate = fd_bit_rate};
+    const brace_controller_t controller = {.node_id = node_id, .can_bit_rate = 500000, .can_fd_bit_rate = fd_bit_rate};
     can_bus_start(&bus, &hal, &controller);
 }
 
 void setUp(void)
 {
-    hal = (brace_hal_t){.can_setup = port_setup, .can_send = port_send, .can_receive = port_receive,
-                        .can_health = port_health, .can_recover = port_recover};
+    hal = (brace_hal_t){.can_setup = port_setup,
+                        .can_send = port_send,
+                        .can_receive = port_receive,
+                        .can_health = port_health,
+                        .can_recover = port_recover};
     setup_status = classic_status = health_status = send_status = BRACE_HAL_OK;
     health = (brace_can_health_t){.bus_off = false};
     setups = recoveries = looks = 0;

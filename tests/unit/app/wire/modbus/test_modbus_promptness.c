@@ -27,13 +27,34 @@ static modbus_t modbus;
 
 /* ------------------------------------------------------------------------------------- the controller -- */
 
-const brace_snapshot_t *brace_app_snapshot(const brace_app_t *asked) { return &asked->snapshot; }
-brace_mode_t brace_app_mode(const brace_app_t *asked) { return asked->mode; }
-uint32_t brace_app_faults(const brace_app_t *asked) { return (void)asked, 0; }
-const brace_parameters_t *brace_app_parameters_staged(const brace_app_t *asked) { return &asked->staged; }
-const brace_parameters_t *brace_app_parameters(const brace_app_t *asked) { return &asked->staged; }
-bool brace_app_is_storing(const brace_app_t *asked) { return (void)asked, false; }
-brace_setting_t brace_app_setting(const brace_app_t *asked) { return (void)asked, BRACE_SETTING_BENCH; }
+const brace_snapshot_t *brace_app_snapshot(const brace_app_t *asked)
+{
+    return &asked->snapshot;
+}
+brace_mode_t brace_app_mode(const brace_app_t *asked)
+{
+    return asked->mode;
+}
+uint32_t brace_app_faults(const brace_app_t *asked)
+{
+    return (void)asked, 0;
+}
+const brace_parameters_t *brace_app_parameters_staged(const brace_app_t *asked)
+{
+    return &asked->staged;
+}
+const brace_parameters_t *brace_app_parameters(const brace_app_t *asked)
+{
+    return &asked->staged;
+}
+bool brace_app_is_storing(const brace_app_t *asked)
+{
+    return (void)asked, false;
+}
+brace_setting_t brace_app_setting(const brace_app_t *asked)
+{
+    return (void)asked, BRACE_SETTING_BENCH;
+}
 
 int32_t brace_app_life(brace_app_t *asked, brace_who_t who, const brace_sign_t *sign)
 {
@@ -62,7 +83,10 @@ brace_status_t brace_app_stop(brace_app_t *asked)
     return BRACE_OK;
 }
 
-bool brace_app_k_is_coming(brace_app_t *asked, brace_asker_t asker) { return (void)asked, (void)asker, false; }
+bool brace_app_k_is_coming(brace_app_t *asked, brace_asker_t asker)
+{
+    return (void)asked, (void)asker, false;
+}
 
 brace_status_t brace_app_store_status(const brace_app_t *asked, brace_store_status_t *status)
 {

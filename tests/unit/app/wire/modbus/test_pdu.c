@@ -39,14 +39,25 @@ static void test_which_exception_stands_for_which_refusal(void)
     static const struct {
         int32_t status;
         modbus_exception_t why;
-    } row[] = {{BRACE_OK, MODBUS_FINE}, {ANSWER_LATER, MODBUS_FINE}, {BRACE_E_MODE, MODBUS_E_FUNCTION},
-               {BRACE_E_CHECKSUM, MODBUS_E_VALUE}, {BRACE_E_RANGE, MODBUS_E_VALUE}, {BRACE_E_PARAMETER, MODBUS_E_VALUE},
-               {BRACE_E_NOT_FINITE, MODBUS_E_VALUE}, {BRACE_E_UNREACHABLE, MODBUS_E_VALUE},
-               {BRACE_REFUSED_CEILING, MODBUS_E_VALUE}, {BRACE_REFUSED_EARLY, MODBUS_E_BUSY},
-               {BRACE_REFUSED_BUSY, MODBUS_E_BUSY}, {BRACE_REFUSED_STRANGER, MODBUS_E_OWNER},
-               {BRACE_REFUSED_REPLAY, MODBUS_E_OWNER}, {BRACE_REFUSED_OWNED, MODBUS_E_OWNER},
-               {BRACE_REFUSED_NO_KEY, MODBUS_E_OWNER}, {BRACE_E_UNSUPPORTED, MODBUS_E_DEVICE},
-               {BRACE_E_SINGULAR, MODBUS_E_DEVICE}, {BRACE_REFUSED_ORDER, MODBUS_E_DEVICE}, {-12345, MODBUS_E_DEVICE}};
+    } row[] = {{BRACE_OK, MODBUS_FINE},
+               {ANSWER_LATER, MODBUS_FINE},
+               {BRACE_E_MODE, MODBUS_E_FUNCTION},
+               {BRACE_E_CHECKSUM, MODBUS_E_VALUE},
+               {BRACE_E_RANGE, MODBUS_E_VALUE},
+               {BRACE_E_PARAMETER, MODBUS_E_VALUE},
+               {BRACE_E_NOT_FINITE, MODBUS_E_VALUE},
+               {BRACE_E_UNREACHABLE, MODBUS_E_VALUE},
+               {BRACE_REFUSED_CEILING, MODBUS_E_VALUE},
+               {BRACE_REFUSED_EARLY, MODBUS_E_BUSY},
+               {BRACE_REFUSED_BUSY, MODBUS_E_BUSY},
+               {BRACE_REFUSED_STRANGER, MODBUS_E_OWNER},
+               {BRACE_REFUSED_REPLAY, MODBUS_E_OWNER},
+               {BRACE_REFUSED_OWNED, MODBUS_E_OWNER},
+               {BRACE_REFUSED_NO_KEY, MODBUS_E_OWNER},
+               {BRACE_E_UNSUPPORTED, MODBUS_E_DEVICE},
+               {BRACE_E_SINGULAR, MODBUS_E_DEVICE},
+               {BRACE_REFUSED_ORDER, MODBUS_E_DEVICE},
+               {-12345, MODBUS_E_DEVICE}};
     for (uint32_t i = 0; i < sizeof row / sizeof *row; i++) {
         TEST_ASSERT_EQUAL(row[i].why, modbus_refusal_of(row[i].status));
     }
@@ -345,9 +356,8 @@ static void test_half_a_value_is_read_alone(void)
     static const struct {
         uint8_t function;
         uint32_t first, values;
-    } area[] = {{4, 0, 20},
-                {3, BRACE_REGISTER_COMMANDS, sizeof(brace_commands_t) / 4u},
-                {3, 0, BRACE_PARAMETER_NUMBERS}};
+    } area[] = {
+        {4, 0, 20}, {3, BRACE_REGISTER_COMMANDS, sizeof(brace_commands_t) / 4u}, {3, 0, BRACE_PARAMETER_NUMBERS}};
     for (uint32_t i = 0; i < sizeof area / sizeof *area; i++) {
         uint32_t differs = 0;
         for (uint32_t place = 0; place < area[i].values; place++) {
@@ -375,8 +385,11 @@ static void test_what_a_request_carries(void)
     const uint8_t pdu[] = {6, 0x40, 0, 0xc0, 0xde};
     brace_seal_t seal = {.is_there = true};
     brace_measured_t measured;
-    const modbus_server_t server = {.asker = BRACE_ASKER_MODBUS_TCP, .who = {BRACE_ASKER_MODBUS_TCP, 3}, .seal = &seal,
-                                    .pdu = pdu, .length = sizeof pdu};
+    const modbus_server_t server = {.asker = BRACE_ASKER_MODBUS_TCP,
+                                    .who = {BRACE_ASKER_MODBUS_TCP, 3},
+                                    .seal = &seal,
+                                    .pdu = pdu,
+                                    .length = sizeof pdu};
     const wire_tick_t tick = {.hal = &fake.hal, .app = &app, .measured = &measured, .now_us = 7};
     const request_t request = modbus_request(&server, &tick);
     TEST_ASSERT_EQUAL_PTR(&app, request.app);

@@ -1,5 +1,5 @@
-"""What .editorconfig says holds in every text file: UTF-8, line ends, no trailing blanks; C and C++ have no tabs and no
-line of more than 120 columns. tests/check.py judges the columns."""
+"""What .editorconfig says holds in every text file: UTF-8, line ends, no trailing blanks; C and C++ have no tabs, no
+line of more than 120 columns, and the form that .clang-format describes. tests/check.py judges columns and form."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from pathlib import Path
 PROJECT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(PROJECT / "tests"))
 
-from check import ALL_LINES, base, long_lines  # noqa: E402
+from check import ALL_LINES, base, clang_format, formatted_by_clang, long_lines  # noqa: E402
 
 
 def faults(name: str, content: bytes) -> list[str]:
@@ -41,3 +41,10 @@ def test_faults_are_seen() -> None:
 
 def test_no_line_has_too_many_columns() -> None:
     assert long_lines(base()) == []
+
+
+def test_c_and_cpp_are_as_clang_format_says() -> None:
+    names = subprocess.run(["git", "ls-files", "-z"], cwd=PROJECT, capture_output=True, text=True, check=True).stdout
+    files = formatted_by_clang(Path(name) for name in names.split("\0") if name)
+    assert len(files) > 700
+    assert clang_format(files)

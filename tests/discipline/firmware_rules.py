@@ -1,7 +1,7 @@
 """The firmware's discipline: no heap, no stdio, no recursion, a bound on every loop, no floating point in interrupt
 handlers, every call through a pointer known; and how deep the stack can get.
 
-    python tests/discipline/check.py [BUILD]     BUILD: a Cortex-M4F build, build/m4f if not given
+    python tests/discipline/firmware_rules.py [BUILD]     BUILD: a Cortex-M4F build, build/m4f if not given
 
 Sources are all .c under firmware/ and hal/, found by looking; objects and images those of the build. Every finding
 names file, line and rule. Exit codes: 0 none, 1 some, 4 no build.
