@@ -14,6 +14,7 @@ from brace.native.plant_batch import number_index
 
 Z_90 = 1.6449
 TIMES_AT_ONCE = 100
+SIZE_STEP = 1e-3  # of a factor of change, which is about one
 
 
 def intervals(record: Record, fitted: Fit, keys: tuple[str, ...]) -> dict[str, Interval]:
@@ -61,7 +62,8 @@ def without_none(found: Interval, none: float, lost: float) -> Interval:
 
 def _time_interval(record: Record, fitted: Fit, place: int) -> Interval:
     """From the times' own posterior, the other keys refitted linearly at each: the reading before its 5 % point to the
-    reading after its 95 % point."""
+    reading after its 95 % point. How large the change is, is refitted with the change at the time in question: its
+    signature at the best time would make up for a change that comes later."""
     space, x = fitted.space, fitted.x
     clock = record.dataset["t_s"]
     between = 0.5 * (clock[1:] + clock[:-1])
@@ -70,12 +72,20 @@ def _time_interval(record: Record, fitted: Fit, place: int) -> Interval:
     times, widths = between[inside], widths[inside]
     if not times.size:
         return Interval(float(x[place]), float(x[place]), float(x[place]))
-    remover = Remover(fitted)
+    of_changes = {factor for factor, _ in space.changing}
+    sizes = [i for i, key in enumerate(space.keys) if number_index().get(key) in of_changes]
+    remover = Remover(fitted, [space.keys[i] for i in sizes])
     costs = np.empty(times.size)
     for begin in range(0, times.size, TIMES_AT_ONCE):
         points = np.tile(x, (min(TIMES_AT_ONCE, times.size - begin), 1))
         points[:, place] = times[begin : begin + TIMES_AT_ONCE]
         left = remover.augmented(residuals(record, space, points))
+        for size in sizes:  # one: an effect has one moment, and what changes at it
+            points[:, size] += SIZE_STEP
+            column = remover.augmented(residuals(record, space, points)) - left
+            points[:, size] -= SIZE_STEP
+            norm = np.maximum(np.einsum("ij,ij->i", column, column), 1e-300)
+            left = left - (np.einsum("ij,ij->i", left, column) / norm)[:, None] * column
         costs[begin : begin + TIMES_AT_ONCE] = np.einsum("ij,ij->i", left, left)
     weight = widths * np.exp(-0.5 * (costs - costs.min()))
     share = np.cumsum(weight) / weight.sum()
