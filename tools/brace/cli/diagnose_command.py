@@ -104,7 +104,7 @@ def _run_one(arguments: argparse.Namespace) -> int:
     else:
         from brace.diagnose.summary import lines
 
-        for line in lines(found):
+        for line in lines(found, given.believed):
             common.emit(line)
         common.say(f"-> {arguments.out / REPORT}, diagnosis.json, limb.toml")
     if arguments.take is not None and not found.took:

@@ -7,13 +7,15 @@ from collections.abc import Iterator
 from brace.diagnose import plain_words as words
 from brace.diagnose.diagnosis import Diagnosis, StiffnessChange
 from brace.diagnose.digits import number, percent, unit
+from brace.diagnose.limb_change import inspections
+from brace.model import LimbModel
 
 MOST_FAULTS = 5
 SURE = 0.9  # confidence from which a name is not called one of several
 
 
-def lines(found: Diagnosis) -> Iterator[str]:
-    """The sentence, then a short table."""
+def lines(found: Diagnosis, believed: LimbModel | None = None) -> Iterator[str]:
+    """The sentence, then a short table. `believed` is the model that the diagnosis was given."""
     yield found.sentence
     for fault in found.data_faults[:MOST_FAULTS]:
         place = fault.field if fault.row is None else f"row {fault.row}, {fault.field}"
@@ -53,6 +55,8 @@ def lines(found: Diagnosis) -> Iterator[str]:
         yield f"  held out   {words.held_out(part, found.gap.unit if found.gap else 'n')}"
     if found.unexplained is not None and found.unexplained.structured:
         yield f"  left       {found.unexplained.description}"
+    for order in inspections(believed, found):
+        yield f"  first      {order[:1].lower()}{order[1:]}"
     if found.next_experiment is not None:
         yield f"  next       {found.next_experiment.action}"
     for note in found.notes:

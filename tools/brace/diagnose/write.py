@@ -16,6 +16,7 @@ from brace.diagnose import plain_words
 from brace.diagnose.already import sentences
 from brace.diagnose.diagnosis import Diagnosis, GapPair, Interval, NamedEffect
 from brace.diagnose.export import export
+from brace.diagnose.limb_change import in_words
 from brace.diagnose.provenance import Provenance, provenance
 from brace.diagnose.stiffness_change import stiffness_change
 from brace.ground import files
@@ -60,7 +61,7 @@ def contents(
     found = replace(
         found,
         model=exported.model,
-        sentence=" ".join([found.sentence, *sentences(believed, found)]),
+        sentence=" ".join([found.sentence, *sentences(believed, found), *in_words(exported.model, found)]),
         notes=(*found.notes, *exported.notes),
         stiffness=None if believed is None else stiffness_change(dataset, believed, exported.model),
     )

@@ -297,11 +297,13 @@ EFFECTS: tuple[Effect, ...] = (
                 ("bending_factor", "at_s"),
                 lambda where: {"link": LINK_INDEX[where]},
                 multiplies={"bending_factor": "bending_mm_per_n"},
+                became=("stiffer in bending", "softer in bending"),
             ),
         ),
         loading_seen=lambda size, where: len(size.run_starts_s) > 1
         and size.believed[f"{where}.bending_mm_per_n"] > 0.0,
         follows_time=True,
+        inspect="a crack or a loose joint",
     ),
     Effect(
         "backlash",
@@ -319,6 +321,8 @@ EFFECTS: tuple[Effect, ...] = (
             ),
         ),
         ways=(Way(("gap_rad",)),),
+        inspect="worn teeth or a loose coupling",
+        wears=True,
         joint_test=InJointTest(
             turns=lambda size: (
                 Turn("gap_rad", 0.1 * size.angle_rad, high=min(MOST_GAP * size.angle_rad, size.swing_rad)),
@@ -421,6 +425,8 @@ EFFECTS: tuple[Effect, ...] = (
         ),
         ways=(Way(("ratio", "time_constant_s")),),
         follows_time=True,
+        inspect="a loose screw or a clamp that slips",
+        wears=True,
         joint_test=InJointTest(
             turns=lambda size: (
                 Turn("ratio", 0.1, high=1.0),

@@ -61,13 +61,15 @@ class Way:
     `stands_for` maps a fitted leaf to another that the record shows only in sum with it, and how much of the other
     makes the same readings. `seen`: whether a record of this size shows more of this way than of those before it.
     `multiplies` maps a leaf to the leaf of the place that changes by it: a fit turns the factor from the change on,
-    over what was believed; limb.toml has what the place is today, and the factor by which it was another one before."""
+    over what was believed; limb.toml has what the place is today, and the factor by which it was another one before.
+    `became`: what the place is called whose number shrank, and whose number grew."""
 
     fitted: tuple[str, ...]
     fixed: Callable[[str], Mapping[str, float]] = lambda where: {}  # leaf to value, by place
     stands_for: Mapping[str, tuple[str, float]] = field(default_factory=dict)
     seen: Callable[[LoadingSize], bool] = lambda size: True
     multiplies: Mapping[str, str] = field(default_factory=dict)
+    became: tuple[str, str] = ("", "")
 
 
 @dataclass(frozen=True)
@@ -124,6 +126,8 @@ class Effect:
     ways          how it may show in a loading record; the first one is the most likely
     loading_seen  whether a loading record of this size can show it
     follows_time  it follows time, temperature or the order of the runs
+    inspect       what to look for at its place, because it is damage or wear ("" where it is neither)
+    wears         sound limbs have it, too: only a limb that has more of it than its model is worn
     joint_test    how it shows in a joint test; None where a joint test cannot show it
     in_tables     a table of K can show it
     """
@@ -138,6 +142,8 @@ class Effect:
     ways: tuple[Way, ...]
     loading_seen: Callable[[LoadingSize, str], bool] = lambda size, where: True
     follows_time: bool = False
+    inspect: str = ""
+    wears: bool = False
     joint_test: InJointTest | None = None
     in_tables: bool = False
 

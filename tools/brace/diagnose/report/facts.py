@@ -12,9 +12,11 @@ from brace.diagnose.already import only_sizes
 from brace.diagnose.diagnosis import Diagnosis, Gap, GapPair, NamedEffect, StiffnessAt
 from brace.diagnose.digits import number, percent, unit
 from brace.diagnose.export import changed
+from brace.diagnose.limb_change import inspections, limb_change
 from brace.diagnose.provenance import Provenance
 from brace.diagnose.report.views import View, view
 from brace.model import LimbModel
+from brace.model.keys import KEY_BY_NAME
 
 MOST_FAULTS, MOST_CANDIDATES = 60, 14
 MOST_SURE = 0.999  # of what a number of played tests says
@@ -168,7 +170,7 @@ def facts(dataset: Dataset, believed: LimbModel | None, found: Diagnosis, origin
         ),
         missing_title=_missing_title(believed, found),
         meanings=_meanings(found),
-        parameters=tuple(line for effect in found.effects for line in _parameters(believed, effect)),
+        parameters=tuple(line for effect in found.effects for line in _parameters(believed, found.model, effect)),
         k_words=k_words,
         k_lines=k_lines,
         steps=_steps(found, given),
@@ -181,7 +183,7 @@ def facts(dataset: Dataset, believed: LimbModel | None, found: Diagnosis, origin
         unexplained=_unexplained(found),
         classes=classes,
         could_be=_could_be(found),
-        next_words=_next(found),
+        next_words=_next(believed, found),
         rig_toml=found.next_experiment.rig_toml if found.next_experiment is not None else "",
         candidates=_candidates([(one.label, one.gain, one.posterior) for one in tried]),
         more_candidates=max(0, len(tried) - MOST_CANDIDATES),
@@ -210,12 +212,16 @@ def _missing(believed: LimbModel | None, found: Diagnosis) -> Answer:
     if found.verdict == "effect" and only_sizes(believed, found):
         question = "What is of another size"
     between = " or " if found.verdict == "ambiguous" else " and "
-    shown = [
-        f"{key} = {words.value_with_unit(key, held.value)}"
-        for effect in found.effects
-        for key, held in effect.parameters.items()
-    ]
-    return Answer(question, between.join(words.named(effect) for effect in found.effects), "; ".join(shown[:2]))
+    shown = []
+    for effect in found.effects:
+        if (change := limb_change(found.model, effect)) is not None:
+            shown.append(change.words)
+            continue
+        shown += [
+            f"{key} = {words.value_with_unit(key, held.value)} ({words.interval(held)})"
+            for key, held in effect.parameters.items()
+        ]
+    return Answer(question, between.join(words.named(effect) for effect in found.effects), "; ".join(shown))
 
 
 def _sure(found: Diagnosis) -> Answer:
@@ -272,7 +278,11 @@ def _to_do(believed: LimbModel | None, found: Diagnosis) -> Answer:
     if found.verdict == "ambiguous" and believed is not None and not changed(believed, found.model):
         return Answer(question, "Measure what tells them apart", measure)
     done = "limb.toml has it: brace params push limb.toml --bus URL"
-    return Answer(question, "Use limb.toml", f"{done}. To be surer: {measure[:1].lower()}{measure[1:]}" if measure else done)
+    surer = f"{done}. To be surer: {measure[:1].lower()}{measure[1:]}" if measure else done
+    inspect = inspections(believed, found)
+    if inspect:
+        return Answer(question, "Inspect the limb", f"{'. '.join(inspect)}. {surer}")
+    return Answer(question, "Use limb.toml", surer)
 
 
 def _misfit(found: Diagnosis, given: str) -> str:
@@ -331,7 +341,7 @@ def _meanings(found: Diagnosis) -> tuple[str, ...]:
     return tuple(f"{_capital(words.effect(name))}: {words.meaning(name)}." for name in names if words.meaning(name))
 
 
-def _parameters(believed: LimbModel | None, effect: NamedEffect) -> list[Parameter]:
+def _parameters(believed: LimbModel | None, model: LimbModel, effect: NamedEffect) -> list[Parameter]:
     heads = (words.named(effect), effect.label, f"{percent(effect.confidence)} sure")
     lines: list[Parameter] = []
     for key, held in effect.parameters.items():
@@ -339,6 +349,9 @@ def _parameters(believed: LimbModel | None, effect: NamedEffect) -> list[Paramet
         was = number(believed.number(key)) if believed is not None and number_of else "–"
         value = words.value_with_unit(key, held.value)
         lines.append(Parameter(*(heads if not lines else ("", "", "")), key, was, value, words.interval(held)))
+    if believed is not None and (change := limb_change(model, effect)) is not None:
+        before, now = (number(one.number(change.key)) for one in (believed, model))
+        lines.append(Parameter("", "", "", change.key, before, f"{now} {words.key_unit(change.key)}", "by the factor"))
     return lines or [Parameter(*heads, "", "", "", "")]
 
 
@@ -391,10 +404,11 @@ def _refitted(believed: LimbModel | None, found: Diagnosis) -> tuple[tuple[str, 
     if believed is None:
         return ()
     named = {key for effect in found.effects for key in effect.parameters}
+    named |= {change.key for effect in found.effects if (change := limb_change(found.model, effect)) is not None}
     return tuple(
         (key, _shown(believed, key), _shown(found.model, key), words.key_unit(key))
         for key in changed(believed, found.model)
-        if key not in named
+        if key not in named and KEY_BY_NAME[key].kind != "text"  # a text is set, not fitted
     )
 
 
@@ -427,11 +441,12 @@ def _could_be(found: Diagnosis) -> str:
     return f"It could also be: {'; '.join(rest)}." if rest else ""
 
 
-def _next(found: Diagnosis) -> tuple[str, ...]:
+def _next(believed: LimbModel | None, found: Diagnosis) -> tuple[str, ...]:
+    said = [f"{one}." for one in inspections(believed, found)]
     after = found.next_experiment
     if after is None:
-        return ()
-    said = [_capital(after.action)]
+        return tuple(said)
+    said.append(f"{_capital(after.action).removesuffix('.')}.")
     if after.separates:
         said.append(
             f"It would tell apart: {'; '.join(words.label(label) for label in after.separates)}. It would succeed with "
