@@ -30,7 +30,7 @@ def test_its_two_sizes_are_said(made: Made, believed_rad: float, word: str) -> N
     dataset, believed, found = made
     has_play = believed.with_values({GAP_KEY: believed_rad})
     written = contents(dataset, has_play, "", found)
-    told = f"The model has backlash at joint.tibia already: the record shows {word} of it, {GAP_KEY} = 0.0061 and not"
+    told = f"The model has backlash (knee joint) already: the record shows {word} of it, {GAP_KEY} = 0.0061 and not"
     assert told in written.diagnosis.sentence and told in written.json_ready["sentence"]
     page = written.files["report.html"].decode()
     assert "What is of another size" in page and "What was missing" not in page

@@ -38,7 +38,7 @@ def sentences(believed: LimbModel | None, found: Diagnosis) -> list[str]:
     if found.verdict not in ("effect", "ambiguous"):
         return []
     return [
-        f"The model has {words.effect(effect.name)} at {effect.where} already: the record shows "
+        f"The model has {words.named(effect)} already: the record shows "
         + ", ".join(
             f"{_compared(held.value, size)} of it, {key} = {number(held.value)} and not "
             f"{words.value_with_unit(key, size)}"

@@ -66,13 +66,20 @@ def label(text: str) -> str:
 
 
 def _one_label(text: str) -> str:
+    """Without its place where there is only one for it: its name has said it."""
     name, _, where = text.partition("@")
-    return f"{effect(name)} ({place(where)})" if where else effect(name)
+    has_one_place = where == "rig" or (name in BY_NAME and len(BY_NAME[name].places) == 1)
+    return f"{effect(name)} ({place(where)})" if where and not has_one_place else effect(name)
 
 
 def named(found: NamedEffect) -> str:
     """An effect of the diagnosis with its place."""
     return _one_label(found.label)
+
+
+def identified(found: NamedEffect) -> str:
+    """The same with the identifier of files and options: `backlash (knee joint) [backlash@joint.tibia]`."""
+    return f"{named(found)} [{found.label}]"
 
 
 def key_unit(key: str) -> str:

@@ -45,6 +45,7 @@ from brace.diagnose.loading.structure import STRUCTURED_P
 from brace.diagnose.loading.within_trust import allowed_sigma, pull_sigma, within_trust
 from brace.diagnose.loading.verdict import NOTHING_STANDS
 from brace.diagnose.loading.wandering_zero import also_seen
+from brace.diagnose.plain_words import identified
 from brace.diagnose.options import Options
 from brace.model import LimbModel
 from brace.model.keys import KEY_BY_NAME
@@ -480,7 +481,7 @@ def _sentence(
         )
         either = f"{', '.join(names[:-1])} and {names[-1]}"
         return f"Something is missing that this record cannot tell between {either}; {held}"
-    names = [f"{_surely(effect)}{effect.name.replace('_', ' ')} at {effect.where}" for effect in effects]
+    names = [f"{_surely(effect)}{identified(effect)}" for effect in effects]
     explains = "they explain" if len(names) > 1 else "it explains"
     if max(effect.confidence for effect in effects) < LIKELIER_THAN_NOT:
         but = (
