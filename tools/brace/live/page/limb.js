@@ -3,6 +3,7 @@ const HISTORY_MS = 60_000;
 const HISTORY_STEP_MS = 100;
 const ELLIPSE_SHARE = 0.3; // of the reach: the longer half axis
 const SCALE_SHARE = 0.1; // of the reach: room for the scale's bar below
+const AVERAGE_MS = 1000; // of force and displacement, which jitter from message to message
 const SMALL_N = 0.05; // no arrow below
 const ROUND = [1, 2, 5];
 const JOINTS = ["coxa", "femur", "tibia"];
@@ -37,6 +38,16 @@ function trust(value, sigma) {
   return value === null || sigma === null ? "" : ` \u00b1 ${number(sigma, 2)}`;
 }
 
+// Of rows of values, the mean of each column and the standard deviation of its readings; null where none has one.
+function averaged(rows) {
+  const columns = (rows[0] ?? []).map((_, i) => rows.map((row) => row[i]).filter((value) => value !== null));
+  const means = columns.map((values) => (values.length ? values.reduce((a, b) => a + b) / values.length : null));
+  const sigmas = columns.map((values, i) => (
+    values.length < 2 ? null : Math.sqrt(values.reduce((a, b) => a + (b - means[i]) ** 2, 0) / (values.length - 1))
+  ));
+  return [means, sigmas];
+}
+
 function degrees(rad) {
   return rad === null ? "-" : `${number((rad * 180) / Math.PI, 4)}\u00b0`;
 }
@@ -67,6 +78,7 @@ export class Limb {
   constructor(element) {
     this.element = element;
     this.history = [];
+    this.loads = [];
     this.find = (selector) => element.querySelector(selector);
     this.rows = new Map();
   }
@@ -122,25 +134,30 @@ export class Limb {
     const unsure = valid && view.relative_sigma === null && view.sigma_k_n_per_mm === null;
     this.row("\u00b1 one sigma", unsure ? "not known: neither sent nor in a model" : null);
     const load = view.load;
-    this.row("force x z", load === null ? view.load_why : numbers(load.force_n, "N"));
-    this.row("moved x z", load === null ? null : numbers(load.moved_mm, "mm"));
-    this.row("without load", load === null ? null : numbers(load.unloaded_k_n_per_mm, "N/mm"));
+    const now = performance.now();
+    this.loads = load === null ? [] : [...this.loads.filter((one) => now - one.at < AVERAGE_MS), { at: now, load }];
+    const second = (name, unit) => `${trusted(...averaged(this.loads.map((one) => one.load[name])), unit)}, last second`;
+    this.row("force x, z", load === null ? view.load_why : second("force_n", "N"));
+    this.row("tip moved x, z", load === null ? null : second("moved_mm", "mm"));
+    this.row("K without load", load === null ? null : numbers(load.unloaded_k_n_per_mm, "N/mm"));
     const factor = load === null ? null : load.buckling_factor;
     this.row("buckling factor", load === null ? null : factor === null ? "none" : number(factor));
     JOINTS.forEach((name, i) => {
       const angle = view.theta_rad[i];
       this.row(`theta${i}, ${name}`, i === 0 && angle === null ? null : degrees(angle));
     });
-    const age = view.age_ms === null ? "over 127" : view.age_ms;
-    const heard = `${age} ms, ${view.rate_hz.toFixed(0)} Hz`;
-    this.row("age, rate", view.silent_s === null ? heard : `over ${view.silent_s.toFixed(0)} s, nothing comes`);
+    const age = view.age_ms === null ? "over 127 ms" : `${view.age_ms} ms`;
+    const silent = view.silent_s === null ? null : `nothing comes for ${view.silent_s.toFixed(0)} s`;
+    this.row("age of K's samples", silent === null ? age : `over ${view.silent_s.toFixed(0)} s`);
+    this.row("K comes", silent ?? `${view.rate_hz.toFixed(0)} times a second`);
   }
 
   // Nobody says any more how old the numbers are.
   lose() {
     this.element.classList.add("silent");
     text(this.find(".mode"), "brace monitor does not answer: what follows is old");
-    this.row("age, rate", "not known");
+    this.row("age of K's samples", "not known");
+    this.row("K comes", "not known");
   }
 
   draw(view) {
