@@ -16,11 +16,21 @@ import pytest
 from handmade import FAULT, by_hand, loading_record
 
 from brace.dataset import Dataset
-from brace.diagnose.diagnosis import Diagnosis, Gap, GapPair, Residuals
+from brace.diagnose.diagnosis import (
+    Candidate,
+    Diagnosis,
+    Gap,
+    GapPair,
+    Interval,
+    NamedEffect,
+    Residuals,
+    StiffnessAt,
+)
+from brace.diagnose.report.facts import _k_sigma, facts
 from brace.diagnose.report.page import page
 from brace.diagnose.provenance import Provenance, provenance
 from brace.diagnose.write import contents
-from brace.model import LimbModel
+from brace.model import LimbModel, load_limb
 
 VOID = {"meta", "br", "link", "img", "hr", "path", "use", "rect", "input", "wbr"}
 BROWSER = shutil.which("chromium") or shutil.which("google-chrome")
@@ -130,7 +140,7 @@ def test_what_it_says_in_order(made: tuple[Dataset, LimbModel, Diagnosis], limb:
         "held out, before",
         "held out, after",
         "What stays unexplained",
-        "What cannot be told apart",
+        "What looks alike",
         "What to measure next",
         "preloaded",
         "Faults of the record",
@@ -206,7 +216,6 @@ def test_large_records_stay_light(limb: Path, tmp_path: Path) -> None:
     rows = "\n".join(f"{a:.3f},{b:.6f},{c:.3f}" for a, b, c in zip(t, angle, 1e5 * angle, strict=True))
     (folder / "data.csv").write_text("t_s,angle_rad,torque_n_mm\n" + rows + "\n")
     from brace.dataset import load_dataset
-    from brace.model import load_limb
 
     dataset = load_dataset(folder)
     before = (0.1 * dataset["torque_n_mm"])[:, None]
@@ -220,3 +229,35 @@ def test_large_records_stay_light(limb: Path, tmp_path: Path) -> None:
     text = page(dataset, None, found, _origin(dataset))
     _read(text)
     assert len(text) < 700_000
+
+
+def test_what_is_far_less_likely_is_not_possible(made: tuple[Dataset, LimbModel, Diagnosis], limb: Path) -> None:
+    """Fifty times less likely may be, and says so on the first screen; a thousand times less likely may not."""
+    dataset, believed, found = made
+    tried = [Candidate("backlash@joint.tibia", 412.0, 0.95), Candidate("contact_play@contact", 390.0, 0.019)]
+    far = Candidate("joint_hardening@joint.tibia", 120.0, 0.95e-6)
+    found = replace(
+        found, candidates=(*tried, far), could_be=tuple(one.label for one in (tried[1], far)),
+        indistinguishable=(("backlash@joint.tibia", far.label),),
+    )
+    said = facts(dataset, believed, found, _origin(dataset))
+    assert "contact" in said.could_be and "50 times less likely" in said.could_be and "harden" not in said.could_be
+    assert "50 times less likely" in said.answers[1].more
+    assert "10^6 times less likely" in said.classes[0][1][0]
+
+
+def test_a_switch_is_said_as_limb_toml_has_it(made: tuple[Dataset, LimbModel, Diagnosis], limb: Path) -> None:
+    dataset, believed, found = made
+    switch = NamedEffect(
+        "moment_transfer", "link.femur", 0.98, {"link.femur.moment_transfer": Interval(1.0, 0.951, 1.0)}, 1.0
+    )
+    (line,) = facts(dataset, believed, replace(found, effects=(switch,)), _origin(dataset)).parameters
+    assert (line.believed, line.found) == ("false", "true")
+
+
+def test_k_has_its_uncertainty_where_limb_toml_has_one(limb: Path) -> None:
+    model = load_limb(limb)
+    at = StiffnessAt(0.74, 1.0, 1.0, 0.0, 1.0)
+    sure = model.with_values({key: 0.0 for key in model.values if key.startswith("uncertainty.")})
+    unsure = sure.with_values({"uncertainty.compliance_rel": 0.05})
+    assert _k_sigma(sure, at) == () and all(sigma > 0.0 for sigma in _k_sigma(unsure, at))

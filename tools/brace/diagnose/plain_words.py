@@ -9,6 +9,7 @@ from brace.diagnose.digits import number, unit
 from brace.effects import BY_NAME
 from brace.effects.rivals import RIVAL_BY_NAME, RIVAL_UNITS
 from brace.model.keys import KEY_BY_NAME
+from brace.model.limb import toml_value
 
 _PLACES = {
     "joint.coxa": "yaw joint",
@@ -87,9 +88,17 @@ def key_unit(key: str) -> str:
     return KEY_BY_NAME[key].unit if key in KEY_BY_NAME else RIVAL_UNITS.get(key, "")
 
 
+def value_alone(key: str, value: float) -> str:
+    """`0.0061`; a switch as limb.toml writes it, true or false."""
+    entry = KEY_BY_NAME.get(key)
+    if entry is not None and entry.kind == "ratio" and value in (0.0, 1.0):
+        return toml_value(entry, value)
+    return number(value)
+
+
 def value_with_unit(key: str, value: float) -> str:
     """`0.0061 rad (21 arcmin)`: small angles also as gear makers print them."""
-    text = f"{number(value)} {key_unit(key)}".strip()
+    text = f"{value_alone(key, value)} {key_unit(key)}".strip()
     if key.endswith(("gap_rad", "offset_rad", "rotation_rad", "tilt_rad")) and math.isfinite(value) and value:
         arcmin = value * _ARCMIN
         return (

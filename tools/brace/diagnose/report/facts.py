@@ -3,6 +3,7 @@ the page only sets it."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -22,7 +23,8 @@ MOST_FAULTS, MOST_CANDIDATES = 60, 14
 MOST_SURE = 0.999  # of what a number of played tests says
 SAME_K = 0.01  # relative, Frobenius: as where the members of a class are said to give one K
 JOINTS = ("joint.coxa", "joint.femur", "joint.tibia")
-MOST_TIMES = 1000.0  # beyond that a candidate is only called far less likely
+MOST_TIMES = 1000.0  # beyond that only the order of magnitude is said
+COULD_BE_TIMES = 100.0  # less likely by more than this is not called possible
 
 
 @dataclass(frozen=True)
@@ -100,6 +102,7 @@ class Facts:
     sentence: str
     answers: tuple[Answer, ...]
     misfit: str
+    unit: str  # of the misfit
     faults: tuple[tuple[str, str, str, str], ...]  # row, field, why, suggestion
     more_faults: int
     view: View | None
@@ -118,6 +121,7 @@ class Facts:
     held_out: tuple[str, ...]
     not_held_out: str
     unexplained: tuple[str, ...]
+    classes_words: str
     classes: tuple[tuple[tuple[str, str], ...], ...]  # words and label of each member
     could_be: str
     next_words: tuple[str, ...]
@@ -133,7 +137,7 @@ def facts(dataset: Dataset, believed: LimbModel | None, found: Diagnosis, origin
     given = "the model as believed" if believed is not None else "a spring alone, fitted"
     k_words, k_lines = _k(found)
     refitted = _refitted(believed, found)
-    classes = tuple(tuple((words.label(one), one) for one in members) for members in found.indistinguishable)
+    classes_words, classes = _alike(found)
     tried = sorted(found.candidates, key=lambda one: (-one.posterior, -one.gain))
     faults = tuple(
         (
@@ -152,6 +156,7 @@ def facts(dataset: Dataset, believed: LimbModel | None, found: Diagnosis, origin
         sentence=found.sentence,
         answers=(_missing(believed, found), _sure(found), _becomes(believed, found), _to_do(believed, found)),
         misfit=_misfit(found, given),
+        unit=_unit(found),
         faults=faults[:MOST_FAULTS],
         more_faults=max(0, len(faults) - MOST_FAULTS),
         view=view(dataset, found, given),
@@ -181,6 +186,7 @@ def facts(dataset: Dataset, believed: LimbModel | None, found: Diagnosis, origin
         if found.gap is not None and found.gap.after.held_out is None
         else "",
         unexplained=_unexplained(found),
+        classes_words=classes_words,
         classes=classes,
         could_be=_could_be(found),
         next_words=_next(believed, found),
@@ -226,12 +232,14 @@ def _missing(believed: LimbModel | None, found: Diagnosis) -> Answer:
 
 def _sure(found: Diagnosis) -> Answer:
     question = "How sure"
+    could_be = _could_be(found).removesuffix(".")
     if found.effects and found.verdict in ("effect", "ambiguous"):
         if len(found.effects) == 1:
-            return Answer(question, percent(found.effects[0].confidence), "probability that this name is the right one")
+            more = "probability that this name is the right one"
+            return Answer(question, percent(found.effects[0].confidence), f"{more}. {could_be}" if could_be else more)
         each = "; ".join(f"{percent(one.confidence)} {words.effect(one.name)}" for one in found.effects)
         kind = "what is left is the others’" if found.verdict == "ambiguous" else "each by itself"
-        return Answer(question, each, f"probability that a name is right; {kind}")
+        return Answer(question, each, f"probability that a name is right; {kind}{f'. {could_be}' if could_be else ''}")
     if found.gap is None:
         return Answer(question, "–", "no misfit was counted")
     times = _end(found.gap.before) / max(found.gap.noise_floor, 1e-12)
@@ -261,8 +269,11 @@ def _becomes(believed: LimbModel | None, found: Diagnosis) -> Answer:
     if size < SAME_K:
         taken_up = "with the play taken up, " if plays else ""
         return Answer(question, "As believed, within 1 %", f"{taken_up}at every posture of the record{play}")
-    shown = f"{', '.join(_entries(before))} → {', '.join(_entries(after))} N/mm"
-    return Answer(question, shown, f"xx, xz, zz {at}, where it changes most ({percent(size)}){play}")
+    sigma = _k_sigma(found.model, after)
+    shown = f"{', '.join(_entries(before))} → {', '.join(_entries(after, sigma))} N/mm"
+    trust = "; ± one sigma, by limb.toml’s [uncertainty]" if sigma else ""
+    most = f"where it changes most: by {percent(size)} of the believed K (Frobenius norm)"
+    return Answer(question, shown, f"xx, xz, zz as believed → as limb.toml has it now, {at}, {most}{trust}{play}")
 
 
 def _to_do(believed: LimbModel | None, found: Diagnosis) -> Answer:
@@ -346,12 +357,12 @@ def _parameters(believed: LimbModel | None, model: LimbModel, effect: NamedEffec
     lines: list[Parameter] = []
     for key, held in effect.parameters.items():
         number_of = believed is not None and isinstance(believed.values.get(key), (int, float))
-        was = number(believed.number(key)) if believed is not None and number_of else "–"
+        was = words.value_alone(key, believed.number(key)) if believed is not None and number_of else "–"
         value = words.value_with_unit(key, held.value)
         lines.append(Parameter(*(heads if not lines else ("", "", "")), key, was, value, words.interval(held)))
     if believed is not None and (change := limb_change(model, effect)) is not None:
-        before, now = (number(one.number(change.key)) for one in (believed, model))
-        lines.append(Parameter("", "", "", change.key, before, f"{now} {words.key_unit(change.key)}", "by the factor"))
+        before, now = (words.value_with_unit(change.key, one.number(change.key)) for one in (believed, model))
+        lines.append(Parameter("", "", "", change.key, before, now, "as the factor"))
     return lines or [Parameter(*heads, "", "", "", "")]
 
 
@@ -432,13 +443,49 @@ def _unexplained(found: Diagnosis) -> tuple[str, ...]:
         if left.structured
         else f"{size} (rms) is left of the model as found, without structure: as far as this record can show, it is noise."
     )
-    return (lead, _capital(left.description))
+    return (lead, f"{_capital(left.description)}.") if left.structured else (lead,)
 
 
 def _could_be(found: Diagnosis) -> str:
     known = {one for members in found.indistinguishable for one in members} | {one.label for one in found.effects}
-    rest = [words.label(label) for label in found.could_be if label not in known]
-    return f"It could also be: {'; '.join(rest)}." if rest else ""
+    times = {label: _times_less(found, label) for label in found.could_be if label not in known}
+    rest = [
+        words.label(label) + ("" if less is None else f" ({_times(1.0, 1.0 / less)} less likely)")
+        for label, less in times.items()
+        if less is None or less <= COULD_BE_TIMES
+    ]
+    return f"It could also be, alone or besides: {'; '.join(rest)}." if rest else ""
+
+
+def _times_less(found: Diagnosis, label: str, instead_of: str = "") -> float | None:
+    """How much less likely the likeliest candidate with a label is than the likeliest of all; `instead_of`: without
+    that one. None: no such candidate was tried. Infinite: far beyond what a number holds."""
+    shares = [
+        one.posterior
+        for one in found.candidates
+        if label in one.label.split(" + ") and instead_of not in one.label.split(" + ")
+    ]
+    first = max((one.posterior for one in found.candidates), default=0.0)
+    if not shares or first <= 0.0:
+        return None
+    return first / max(shares) if max(shares) > 0.0 else math.inf
+
+
+def _alike(found: Diagnosis) -> tuple[str, tuple[tuple[tuple[str, str], ...], ...]]:
+    """What leaves nearly the same trace: a heading, and words and label of each member of each class. Beside a sure
+    name each other member says how much less likely it is."""
+    sure = found.verdict == "effect"
+    classes = []
+    for members in found.indistinguishable:
+        named = [one.label for one in found.effects if one.label in members]
+        shown = []
+        for label in members:
+            less = _times_less(found, label, named[0]) if sure and named and label not in named else None
+            odds = "" if less is None else f" ({_times(1.0, 1.0 / less)} less likely)"
+            shown.append((words.label(label) + odds, label))
+        classes.append(tuple(shown))
+    lead = "In this record these leave nearly the same trace."
+    return lead, tuple(classes)
 
 
 def _next(believed: LimbModel | None, found: Diagnosis) -> tuple[str, ...]:
@@ -450,7 +497,7 @@ def _next(believed: LimbModel | None, found: Diagnosis) -> tuple[str, ...]:
     if after.separates:
         said.append(
             f"It would tell apart: {'; '.join(words.label(label) for label in after.separates)}. It would succeed with "
-            f"a probability of {percent(min(after.power, MOST_SURE))} and takes about {number(after.minutes)} minutes."
+            f"a probability of {percent(min(after.power, MOST_SURE))}."
         )
     return tuple(said)
 
@@ -473,9 +520,10 @@ def _candidates(tried: Sequence[tuple[str, float, float]]) -> tuple[Tried, ...]:
 
 
 def _times(first: float, posterior: float) -> str:
-    if posterior <= 0.0 or first / posterior >= MOST_TIMES:
-        return f"over {MOST_TIMES:.0f} times"
-    return f"{number(first / posterior)} times"
+    if posterior <= 0.0:
+        return "over 10^300 times"
+    times = first / posterior
+    return f"10^{math.floor(math.log10(times))} times" if times >= MOST_TIMES else f"{number(times)} times"
 
 
 def _origin(found: Diagnosis, origin: Provenance) -> tuple[tuple[str, str, str], ...]:
@@ -503,8 +551,27 @@ def _end(pair: GapPair) -> float:
     return pair.fitted if pair.held_out is None else pair.held_out
 
 
-def _entries(k: StiffnessAt) -> tuple[str, str, str]:
-    return number(k.k_xx_n_per_mm), number(k.k_xz_n_per_mm), number(k.k_zz_n_per_mm)
+def _entries(k: StiffnessAt, sigma: Sequence[float] = ()) -> tuple[str, str, str]:
+    """xx, xz, zz, with one sigma of each where it is given."""
+    plus = [f" ± {one:.2g}" for one in sigma] or ["", "", ""]
+    return (
+        number(k.k_xx_n_per_mm) + plus[0],
+        number(k.k_xz_n_per_mm) + plus[1],
+        number(k.k_zz_n_per_mm) + plus[2],
+    )
+
+
+def _k_sigma(model: LimbModel, at: StiffnessAt) -> tuple[float, ...]:
+    """One sigma of xx, xz, zz from the model's [uncertainty] [N/mm]; empty where nothing is uncertain, or K unknown."""
+    import numpy as np
+
+    from brace.stiffness.at_rest import planar_limb
+
+    limb = planar_limb(model)
+    theta1_rad, theta2_rad = limb.true_angles(np.array(at.theta1_rad), np.array(at.theta2_rad))
+    sigma = limb.sigma(float(theta1_rad), float(theta2_rad))
+    found = tuple(sigma.get(f"sigma_k_{axes}_n_per_mm", 0.0) for axes in ("xx", "xz", "zz"))
+    return found if any(found) and all(map(math.isfinite, found)) else ()
 
 
 def _off(before: StiffnessAt, after: StiffnessAt) -> float:

@@ -12,6 +12,7 @@ from brace.diagnose.report.facts import Facts, Parameter, facts
 from brace.diagnose.report.html import text
 from brace.model import LimbModel
 
+SHOWN_CANDIDATES = 5  # the rest is folded
 BAND = "Grey band: two noise floors either side."
 
 
@@ -73,7 +74,7 @@ def _disagreement(said: Facts) -> str:
 
 
 def _missing(said: Facts) -> str:
-    head = ("effect", "key of limb.toml", "believed", "found", "90 % interval")
+    head = ("effect", "key of limb.toml", "believed", "found, with the unit of all three", "90 % interval")
     parts = [html.paragraph(one) for one in said.meanings]
     parts.append(html.table(head, [_parameter(one) for one in said.parameters], numeric=(2, 3, 4)))
     if said.k_lines:
@@ -112,7 +113,9 @@ def _compared(said: Facts) -> str:
 
     held = any(one.held_out for one in said.steps)
     has_pull = any(one.pull for one in said.steps)
-    head = ["model", "fitted", *(["held out"] if held else []), *(["from its calibration"] if has_pull else [])]
+    rms = f" (rms) [{said.unit}]"
+    head = ["model", f"fitted{rms}", *([f"held out{rms}"] if held else [])]
+    head += ["from its calibration"] if has_pull else []
     rows = []
     for one in said.steps:
         kind = "beyond" if one.is_beyond else ""
@@ -149,12 +152,10 @@ def _apart(said: Facts) -> str:
         for members in said.classes
     ]
     if parts:
-        parts.insert(
-            0, html.paragraph("In this record these leave nearly the same trace. How likely each is stands above.")
-        )
+        parts.insert(0, html.paragraph(said.classes_words))
     if said.could_be:
         parts.append(html.paragraph(said.could_be))
-    return html.section("What cannot be told apart", *parts)
+    return html.section("What looks alike" if said.verdict == "effect" else "What cannot be told apart", *parts)
 
 
 def _next(said: Facts) -> str:
@@ -193,9 +194,12 @@ def _candidates(said: Facts) -> str:
         "Each was fitted to the whole sequence; the likeliest first. Gain: twice the log-likelihood won over the "
         "refitted model without it. A larger model is not a better one: how likely it is counts its freedoms, too."
     )
-    rest = html.paragraph(f"and {said.more_candidates} more, in diagnosis.json", "small") if said.more_candidates else ""
     head = ("candidate", "less likely than the first", "", "gain")
-    return html.section("What was tried", html.paragraph(lead), html.table(head, rows, numeric=(1, 3)), rest)
+    parts = [html.paragraph(lead), html.table(head, rows[:SHOWN_CANDIDATES], numeric=(1, 3))]
+    rest = html.paragraph(f"and {said.more_candidates} more, in diagnosis.json", "small") if said.more_candidates else ""
+    if folded := rows[SHOWN_CANDIDATES:]:
+        parts.append(html.details(f"{len(folded)} more", html.table(head, folded, numeric=(1, 3)) + rest))
+    return html.section("What was tried", *parts)
 
 
 def _origin(said: Facts) -> str:

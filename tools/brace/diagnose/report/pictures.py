@@ -131,7 +131,8 @@ def _by_load(axes: Axes, view: View, off: np.ndarray) -> None:
             axes.plot(*_means(load[rows], off[rows]), color=colour, linewidth=1.8, label=words if sign else None)
     axes.locator_params(axis="x", nbins=5)
     axes.set(xlabel=axis, ylabel=f"measured − model [{view.unit}]")
-    axes.set_title("by load" + (" and branch" if view.kind != "stiffness_table" else ""), **TITLE)
+    by = {"joint_test": "by torque and branch", "stiffness_table": "by distance"}
+    axes.set_title(by.get(view.kind, "by displacement and branch"), **TITLE)
     if axes.get_legend_handles_labels()[0]:
         axes.legend(loc="best", fontsize=8)
 
