@@ -210,7 +210,6 @@ def at(t: float) -> dict[str, int]:
     ("stamp", "words", "used"),
     [
         (lambda topic, t: at(t), "/ft: its stamps are used; the log has its 800 messages 250 ms to 250 ms later", True),
-        (lambda topic, t: at(t) if topic == "/ft" else None, "without usable stamps, at the times of the log: /tip", True),
         (lambda topic, t: None, "", False),
         (lambda topic, t: at(0.0), "", False),
         (lambda topic, t: at(START_S), "/ft: the stamps of its messages do not advance (1 different", False),
@@ -231,6 +230,70 @@ def test_a_samples_time_is_the_stamp_of_its_header(
     data = load_dataset(tmp_path / "out")
     loop = float(np.abs(data["fz_n"] - 2.0 * data["dz_mm"]).max())
     assert (loop < 1e-3) if used else (loop > 1.0), loop
+
+
+def without_half(topic: str, t: float) -> object:
+    return at(t) if topic != "/ft" or round((t - START_S) * 100) % 2 else at(0.0)
+
+
+def without_all(topic: str, t: float) -> object:
+    return at(t) if topic == "/ft" else None
+
+
+@pytest.mark.parametrize(
+    ("stamp", "words"),
+    [
+        (without_half, "/ft: 400 of 800 messages have no stamp: left out"),
+        (without_all, "without usable stamps, at the times of the log: /legs, /tip"),
+    ],
+)
+def test_topics_by_two_clocks_are_asked(
+    brace: Brace, tmp_path: Path, stamp: Callable[[str, float], object], words: str
+) -> None:
+    """The one topic was taken at its stamps, the other at the times of the log: a loop of 1.5 N that no limb has."""
+    pytest.importorskip("mcap")
+    log, out, mapping = mcap(tmp_path / "a.mcap", 0.25, stamp), tmp_path / "out", tmp_path / "m.toml"
+    asked = brace("import", log, *SAID, "--out", out)
+    assert asked.code == 2 and not out.exists() and "clock: when were the samples taken? " in asked.err, asked.err
+    assert "1 open question:" in asked.err and "--set clock=stamp" in asked.err and "250 ms later" in asked.err, asked.err
+    for clock, right in (("stamp", True), ("log", False)):
+        done = brace("import", log, *SAID, "--set", f"clock={clock}", "--out", out)
+        assert done.code == 0 and f"as was said (clock = {clock})" in done.err and (words in done.err) == right, done.err
+        data = load_dataset(out)
+        loop = float(np.abs(data["fz_n"] - 2.0 * data["dz_mm"]).max())
+        assert (loop < 1e-3) if right else (loop > 1.0), loop
+    brace("import", log, *SAID, "--draft", mapping)
+    draft = mapping.read_text()
+    for value, code in (("?", 2), ("moon", 3), ("stamp", 0)):
+        mapping.write_text(re.sub(r'(is = "clock"\nvalue = )"\?"', rf'\1"{value}"', draft))
+        assert brace("import", log, "--mapping", mapping, "--out", out).code == code
+    mapping.write_text(draft[: draft.index('[[constant]]\nis = "clock"')] + '[[constant]]\nis = "axis"\nvalue = "z"\n')
+    assert 'is = "axis"' in draft
+    refused = brace("import", log, "--mapping", mapping, "--out", out)
+    assert refused.code == 2 and "the log has messages by two clocks" in refused.err, refused.err
+
+
+@pytest.mark.parametrize(
+    ("late_s", "stamp"),
+    [
+        (0.25, lambda topic, t: None if topic == "/legs" else at(t)),  # a posture stands for long
+        (0.005, without_half), (0.005, without_all),  # as near as synchronised clocks are
+    ],
+)  # fmt: skip
+def test_clocks_that_change_nothing_are_not_asked(
+    brace: Brace, tmp_path: Path, late_s: float, stamp: Callable[[str, float], object]
+) -> None:
+    pytest.importorskip("mcap")
+    done = brace("import", mcap(tmp_path / "a.mcap", late_s, stamp), *SAID, "--out", tmp_path / "out")
+    assert done.code == 0 and "clock:" not in done.err, done.err
+    data = load_dataset(tmp_path / "out")
+    assert float(np.abs(data["fz_n"] - 2.0 * data["dz_mm"]).max()) < 4.0 * math.pi / 2.0 * 0.0051  # its rate times 5 ms
+
+
+def test_a_clock_that_changes_nothing_is_refused(brace: Brace, tmp_path: Path) -> None:
+    log, dbc = written(tmp_path, [START_S + 0.05 * at for at in range(400)])
+    refused = brace("import", log, "--dbc", dbc, *SAID, "--set", "clock=log", "--out", tmp_path / "out")
+    assert refused.code == 2 and "--set clock would change nothing" in refused.err, refused.err
 
 
 def test_a_log_of_one_time_is_refused(brace: Brace, tmp_path: Path) -> None:

@@ -45,7 +45,8 @@ def add(commands: Subcommands) -> None:
     parser.add_argument("--kind", choices=KINDS, help="the kind of record; default: by the columns")
     parser.add_argument(
         "--set", type=_constant, action="append", default=[], metavar="[FILE:]NAME=VALUE",
-        help="what stands in no column: theta1=42deg, theta2=1.4rad, axis=z, dwell=4s (between readings), temp=21degC",
+        help="what stands in no column: theta1=42deg, theta2=1.4rad, axis=z, dwell=4s (between readings), temp=21degC, "
+        "clock=stamp (of a log; or log)",
     )  # fmt: skip
     parser.add_argument(
         "--dbc", type=common.path, action="append", default=[], metavar="FILE.dbc",
@@ -74,15 +75,15 @@ def _separator(text: str) -> str:
 def _constant(text: str) -> Constant:
     import re
 
-    from brace.importing.mapping import CONSTANTS, checked_constant
+    from brace.importing.mapping import CHOICES, CONSTANTS, checked_constant
 
     match = re.fullmatch(
-        r"(?:(?P<file>.+):)?(?P<name>\w+)\s*=\s*(?P<value>[-+\d.eE]+|x|z)\s*(?P<unit>.*)", text.strip()
+        r"(?:(?P<file>.+):)?(?P<name>\w+)\s*=\s*(?P<value>[-+\d.eE]+|x|z|log|stamp)\s*(?P<unit>.*)", text.strip()
     )
     if not match:
         raise refused(
             f"{text!r} is no constant",
-            "it is NAME=VALUE, the value a number with its unit; an axis is x or z",
+            "it is NAME=VALUE, the value a number with its unit; an axis is x or z, a clock log or stamp",
             "OPTION theta1=42deg, or OPTION axis=x",
         )
     name = _SHORT.get(match["name"], match["name"])
@@ -90,7 +91,7 @@ def _constant(text: str) -> Constant:
     if name not in known:
         raise refused(f"{match['name']!r} is no constant", f"known: {', '.join(sorted(known))}", "OPTION theta1=42deg")
     unit = match["unit"] or _own_unit(match["name"])
-    if name != "axis" and not unit:
+    if name not in CHOICES and not unit:
         raise refused(f"{text}: in which unit?", "an angle may be in deg or in rad", f"OPTION {text}deg")
     try:
         return checked_constant(name, match["value"], unit, match["file"] or "")

@@ -93,12 +93,12 @@ def _column(use: ColumnUse, kind: str) -> ColumnUse:
 
 def _constant(each: Constant) -> Constant:
     from brace.ground.units import unit_of
-    from brace.importing.mapping import WORDS, checked_constant
+    from brace.importing.mapping import CHOICES, WORDS, checked_constant
 
     if not each.questions:
         return each
-    if each.target == "axis":
-        return replace(each, value=_choice(each.questions[0], ["x", "z"]))
+    if each.target in CHOICES:
+        return replace(each, value=_choice(each.questions[0], list(CHOICES[each.target])))
     while True:
         text = (
             _line(f"{each.questions[0]} (number and unit): ")

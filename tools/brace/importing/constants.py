@@ -10,7 +10,8 @@ from dataclasses import replace
 from brace.ground.errors import BadFileError, UsageError, did_you_mean
 from brace.ground.units import unit_of
 from brace.importing import names, numerals
-from brace.importing.mapping import CONSTANTS, Constant, MappingTable
+from brace.importing.logs import one_clock
+from brace.importing.mapping import CHOICES, CONSTANTS, Constant, MappingTable
 from brace.importing.meaning import OPEN, OPEN_ANGLES, TARGETS, target_of
 from brace.importing.part import Part
 from brace.importing.questions import PERHAPS_ANGLE
@@ -51,7 +52,7 @@ def constants_of(parts: Sequence[Part], table: MappingTable) -> list[Constant]:
         )
         for target in CONSTANTS[table.kind]:
             given = from_remarks(part, target, table.kind)
-            if target in have or target == "dwell_s":
+            if target in have or target in ("dwell_s", "clock"):
                 continue
             if target == "axis" and not _needs_axis(have):
                 continue
@@ -63,8 +64,10 @@ def constants_of(parts: Sequence[Part], table: MappingTable) -> list[Constant]:
             if given is None and target == "temp_degc":
                 continue
             found.append(
-                given or Constant(target, OPEN, OPEN if target != "axis" else "", part.places[0], _ask(target))
+                given or Constant(target, OPEN, OPEN if target not in CHOICES else "", part.places[0], _ask(target))
             )
+        if why := one_clock.doubt(part, table):
+            found.append(Constant("clock", OPEN, "", part.places[0], why))
         if table.kind != "stiffness_table" and "t_s" not in have:
             found.append(Constant("dwell_s", OPEN, "s", part.places[0], _ask("dwell_s")))
     return _of_all(found, parts)
@@ -191,6 +194,8 @@ def refuse_without_effect(parts: Sequence[Part], table: MappingTable, said: Sequ
         elif not concerned:
             why = f"no file is called {each.file}; the files are {', '.join(known)[:200]}"
             way = f"--set {near}:{each.target}=VALUE" if near else "name one of the files, or none"
+        elif each.target == "clock" and not any(part.log and part.log.by_clock for part in concerned):
+            why, way = "it has no log whose topics are by several clocks", "leave it out"
         elif all(_has(part, table, each.target) for part in concerned):
             why, way = "a column holds it", "leave it out, or ignore the column in the mapping"
         elif each not in table.constants:

@@ -15,10 +15,11 @@ from brace.importing.meaning import IGNORE, OPEN, TARGETS
 
 WHAT = "mapping file"
 CONSTANTS = {
-    "loading": ("theta1_rad", "theta2_rad", "axis", "temp_degc", "dwell_s"),
-    "joint_test": ("temp_degc", "dwell_s"),
+    "loading": ("theta1_rad", "theta2_rad", "axis", "temp_degc", "dwell_s", "clock"),
+    "joint_test": ("temp_degc", "dwell_s", "clock"),
     "stiffness_table": (),
 }
+CHOICES = {"axis": ("x", "z"), "clock": ("log", "stamp")}  # constants that are words
 WORDS = {"dwell_s": "time", "theta1_rad": "angle", "theta2_rad": "angle", "temp_degc": "temperature"}
 PUSHES = ("fx_n", "fz_n", "f_n", "torque_n_mm")
 
@@ -184,7 +185,7 @@ def to_toml(table: MappingTable) -> str:
             [f"file = {_value(each.file)}"] if each.file else []
         )
         lines.append(f"value = {_value(each.value)}" + (f"  # {each.why}" if each.why else ""))
-        if each.target != "axis":
+        if each.target not in CHOICES:
             lines.append(f"unit = {_value(each.unit)}")
     return "\n".join(lines) + "\n"
 
@@ -315,6 +316,12 @@ def checked_constant(target: str, value: str, unit: str = "", file: str = "") ->
     if target == "axis":
         if value not in ("x", "z"):
             raise UsageError(f"axis = {value!r} is no axis", why="x is outwards, z up", next_step="x or z")
+        return Constant(target, value, "", file, "said")
+    if target == "clock":
+        if value not in CHOICES["clock"]:
+            raise UsageError(
+                f"clock = {value!r} is no clock", why="it is the log's own, or the stamps'", next_step="log or stamp"
+            )
         return Constant(target, value, "", file, "said")
     try:
         if not math.isfinite(float(value)):

@@ -25,11 +25,15 @@ NO_RESULTS = (
 )
 FORMULAS_FAILED = 'its formulas failed; is = "ignore" if it was not measured'
 NO_NUMBERS = 'its entries are no numbers ({}): write them as such; is = "ignore" if it was not measured'
-NO_CLOCK = (
+NO_CLOCK = (  # of a whole log: a [[constant]] answers it
     "its entries neither rise nor fall over the file: they are distances from reading to reading (sum them up in your "
     'file), or the rows are out of order (sort them by time); or is = "ignore", and --set dwell=4s if they are even'
 )
 CLOCKS = 'two clocks that do not agree: is = "t_s" for when the sample was taken, is = "ignore" for the other'
+CLOCK = (  # of a whole log: a [[constant]] answers it
+    "when were the samples taken? {}. clock = stamp (--set clock=stamp) takes the stamps, and leaves the messages out that "
+    "have none in a topic that has some; clock = log takes the times of the log for all topics, each late by its own delay"
+)
 TWO_MEANINGS = "{} has two meanings: {}"
 WRAPPED = (
     "its readings lie at 0 to {:g} and at {:g} to {:g}, and none between: those above are negative numbers that were "

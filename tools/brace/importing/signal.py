@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 import numpy as np
+
+from brace.importing.stamps import Choice
 
 
 @dataclass(frozen=True)
@@ -25,3 +28,5 @@ class Log:
     signals: tuple[Signal, ...]
     how: str
     notes: tuple[str, ...] = ()
+    choice: Choice | None = None  # of a log whose messages may have stamps
+    by_clock: Mapping[str, tuple[Signal, ...]] = field(default_factory=dict)  # log, stamp: where it may be asked

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from brace.ground.errors import BadFileError
-from brace.importing.logs import stamps
+from brace.importing import stamps
 from brace.importing.logs.wanted import Wanted
 from brace.importing.signal import Signal
 
@@ -56,22 +56,27 @@ class Collector:
         entry[3].append(value)
         entry[4].append(stamp_s)
 
-    def _chosen(self) -> tuple[frozenset[str], list[str]]:
+    def choice(self) -> stamps.Choice:
+        """Of the clocks."""
         used = {source for source, *_ in self._readings.values()}
         entries = {source: entry for source, entry in self._entries.items() if source in used}
         return stamps.chosen({source: (np.array(t), np.array(s)) for source, (t, s) in entries.items()})
 
-    def signals(self) -> tuple[Signal, ...]:
-        """All, in the order in which they first came, each by rising time."""
+    def signals(self, clock: str = "") -> tuple[Signal, ...]:
+        """All, in the order in which they first came, each by rising time. clock: log or stamp, where one was said;
+        readings without a stamp are then left out, in topics that have some."""
         found = []
-        by_stamp, _ = self._chosen()
+        choice = self.choice()
+        by_stamp = {"log": frozenset[str](), "stamp": choice.by_stamp | set(choice.partly)}.get(clock, choice.by_stamp)
         for name, (source, unit, times, values, own) in self._readings.items():
             t, v = np.array(own if source in by_stamp else times), np.array(values)
             order = np.argsort(t, kind="stable")
-            found.append(Signal(source, name, unit, t[order], v[order]))
+            order = order[~np.isnan(t[order])]
+            if order.size:
+                found.append(Signal(source, name, unit, t[order], v[order]))
         return tuple(found)
 
     def notes(self) -> list[str]:
         """What was mended."""
         late = [f"{self._late} entries stand out of order in the log: sorted by time"] if self._late else []
-        return self._chosen()[1] + late
+        return [*self.choice().told, *late]

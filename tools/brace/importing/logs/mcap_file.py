@@ -15,9 +15,9 @@ from brace.importing.logs.collect import Collector
 from brace.importing.logs.dbc import Databases, decode
 from brace.importing.logs.fields import LIST_MOST, numbers
 from brace.importing.logs.ros_units import unit_of_field
-from brace.importing.logs.stamps import stamp_s
 from brace.importing.logs.wanted import Wanted
 from brace.importing.signal import Log, Signal
+from brace.importing.stamps import stamp_s
 
 if TYPE_CHECKING:
     from mcap.records import Channel, Message, Schema
@@ -87,7 +87,8 @@ class _Reading:
             )
             notes += [f"decoded by {name}, sha256 {digest}" for name, digest in self._databases.sums.items()]
             signals = of_frames.signals()
-        signals += self._collector.signals()
+        of_topics = self._collector.signals()
+        signals += of_topics
         notes += self._wanted.notes()
         for topic, why in self._unread.items():
             notes.append(f"topic {topic} is left out: {why}")
@@ -108,7 +109,13 @@ class _Reading:
                 why=why or "it has no messages with numbers",
                 next_step="record the topics as JSON or in ROS 2's own encoding (rosbag2 with mcap), or export a CSV",
             )
-        return Log(signals, f"MCAP log{by}", tuple(notes + self._collector.notes()))
+        choice = self._collector.choice()
+        frames = signals[: len(signals) - len(of_topics)]
+        clocks = ("log", "stamp") if choice.doubt([*choice.by_stamp, *choice.partly, ""]) else ()
+        return Log(
+            signals, f"MCAP log{by}", tuple(notes + self._collector.notes()), choice,
+            {clock: frames + self._collector.signals(clock) for clock in clocks},
+        )  # fmt: skip
 
     def _messages(self) -> list[str]:
         from mcap.exceptions import RecordLengthLimitExceeded

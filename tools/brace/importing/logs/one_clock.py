@@ -12,10 +12,10 @@ from pathlib import Path
 
 import numpy as np
 
-from brace.ground.errors import BadFileError
+from brace.ground.errors import BadFileError, UsageError
 from brace.importing import names
 from brace.importing.mapping import MappingTable
-from brace.importing.meaning import quantity_of
+from brace.importing.meaning import OPEN, quantity_of
 from brace.importing.part import Part
 from brace.importing.signal import Log, Signal
 
@@ -55,6 +55,13 @@ def settled(part: Part, mapping: MappingTable) -> Part:
             why="it holds readings by time",
             next_step='kind = "loading" or "joint_test"',
         )
+    clock = mapping.constant(part.places, "clock")
+    if clock is not None and clock.value in log.by_clock:
+        log = _at(log, clock.value)
+    elif why := doubt(part, mapping):
+        raise UsageError(
+            "the log has messages by two clocks", where=part.where, why=why, next_step="--set clock=stamp, or clock=log"
+        )
     roles = {}
     for at, signal in enumerate(log.signals, start=2):
         use = mapping.column(part.path.name, signal.name, at)
@@ -69,6 +76,34 @@ def settled(part: Part, mapping: MappingTable) -> Part:
         )
     made = _table(part.path, log, roles)
     return replace(made, notes=(*log.notes, *made.notes))
+
+
+def _at(log: Log, clock: str) -> Log:
+    """The same with its topics placed by the clock that was said."""
+    choice = log.choice
+    assert choice is not None
+    told = [f"all topics are at the times of the log, as was said (clock = {clock})"]
+    if clock == "stamp":
+        told = [f"{', '.join([*choice.by_stamp, *choice.partly])}: the stamps are used, as was said (clock = stamp)"]
+        for topic, (left, count) in choice.partly.items():
+            told.append(f"{topic}: {left} of {count} messages have no stamp: left out")
+        others = {s.source for s in log.signals} - {*choice.by_stamp, *choice.partly}
+        told += [f"without usable stamps, at the times of the log: {', '.join(sorted(others))}"] if others else []
+    kept = [note for note in log.notes if note not in choice.told]
+    return replace(log, signals=log.by_clock[clock], notes=(*kept, *told))
+
+
+def doubt(part: Part, mapping: MappingTable) -> str:
+    """Why a log's clock must be said: the topics that move, or may, would be joined by clocks that disagree."""
+    log = part.log
+    if log is None or log.choice is None or not log.by_clock:
+        return ""
+    moved: list[str] = []
+    for at, signal in enumerate(log.signals, start=2):
+        use = mapping.column(part.path.name, signal.name, at)
+        if use is not None and set(use.targets) & {OPEN, *MOVING.get(mapping.kind, ())}:
+            moved.append(signal.source)
+    return log.choice.doubt(list(dict.fromkeys(moved)))
 
 
 def _table(path: Path, log: Log, roles: Mapping[str, str]) -> Part:
