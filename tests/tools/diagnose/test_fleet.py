@@ -307,6 +307,7 @@ def test_on_a_cluster_the_same_bytes(
     assert _hashes(tmp_path / "out") == _hashes(locally[0])
 
 
+@pytest.mark.minutes
 def test_no_cluster_there_is_told_in_time(fleet: list[Path], tmp_path: Path) -> None:
     pytest.importorskip("distributed")
     with socket.create_server(("127.0.0.1", 0)) as taken:

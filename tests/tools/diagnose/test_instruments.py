@@ -107,6 +107,7 @@ def test_a_sound_limb_with_a_troubled_sensor(tmp_path: Path, limb: Path, spoil: 
     assert any(words in fault.why for fault in found.data_faults)
 
 
+@pytest.mark.minutes
 def test_the_step_of_a_gain_has_its_size_and_its_run(tmp_path: Path, limb: Path) -> None:
     found = spoiled(tmp_path / "record", limb, gain_steps, values={})
     assert found.verdict == "data_fault" and found.effects == (), found.sentence

@@ -175,6 +175,7 @@ def held_by_friction(load_n_mm: np.ndarray, fade_per_n_mm: float) -> np.ndarray:
     return np.asarray(700.0 + 0.4 * load_n_mm * (1.0 + fade_per_n_mm * load_n_mm) ** (-1.0 / 3.0))
 
 
+@pytest.mark.minutes
 @pytest.mark.parametrize("fade_per_n_mm", [pytest.param(0.0, marks=pytest.mark.minutes), 1.0 / 800.0])
 def test_limb_toml_has_a_friction_whose_growth_fades_where_it_does(tmp_path: Path, fade_per_n_mm: float) -> None:
     """Both commands find it, and say so; a share that stays is told as one."""

@@ -80,6 +80,7 @@ def test_a_base_without_a_gauge_may_be_the_rig(yields: Diagnosis, limb: Path) ->
     assert yields.next_experiment is not None and "dial gauge" in yields.next_experiment.action
 
 
+@pytest.mark.minutes
 def test_a_gauge_on_the_base_excludes_the_rig(tmp_path: Path, limb: Path) -> None:
     found = told(tmp_path / "record", limb, YIELDS, GAUGE)
     assert found.verdict == "effect" and [one.label for one in found.effects] == ["base_compliance@base"]
