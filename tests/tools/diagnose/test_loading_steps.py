@@ -448,7 +448,10 @@ def test_what_has_no_name_and_does_better_leaves_the_verdict_open(
     """Forces that follow the posture are no trouble of the instruments, and no effect's, either."""
     data = recorded(tmp_path, believed.with_values({"joint.tibia.gap_rad": 2e-3}), 7)
     record, trust = load_record(data), trust_of(believed, turns=True)
-    better: Any = SimpleNamespace(lead=lead, far_ahead=lead > 4.6, is_named=is_named, meaning="the force at rest differed")
+    better: Any = SimpleNamespace(
+        lead=lead, far_ahead=lead > 4.6, is_named=is_named, meaning="the force at rest differed",
+        cause=SimpleNamespace(in_limb=False),
+    )  # fmt: skip
     monkeypatch.setattr(loading_run, "likeliest", lambda record, sets: better)
     found = search_pass(record, trust, all_variants(setting_of(record, believed)), lambda share, doing: None)
     assert found.decision.verdict == verdict

@@ -520,9 +520,9 @@ def _candidates(tried: Sequence[tuple[str, float, float]]) -> tuple[Tried, ...]:
 
 
 def _times(first: float, posterior: float) -> str:
-    if posterior <= 0.0:
+    times = first / posterior if posterior > 0.0 else math.inf
+    if math.isinf(times):  # a share below the least number that there is, or nearly so
         return "over 10^300 times"
-    times = first / posterior
     return f"10^{math.floor(math.log10(times))} times" if times >= MOST_TIMES else f"{number(times)} times"
 
 
