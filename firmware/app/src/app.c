@@ -11,8 +11,9 @@
  * them in less than 100 ms, however long the ticks are. */
 #define GUARDED_WORDS_PER_MS 8u
 #define GUARDED_WORDS_FEWER 3u
-#define TOLD_MOST 3u /* a tick in which the wires have done more (wire/wire.h) has no room for a job's step */
-#define TOLD_FULL 5u /* nor for a step that has waited for long; where commands flood in, each fifth tick is emptier */
+#define WIRE_WORK_MOST 3u /* a tick in which the wires have done more (wire/wire.h) has no room for a job's step */
+#define WIRE_WORK_FULL \
+    5u /* nor for a step that has waited for long; where commands flood in, each fifth tick is emptier */
 #define STEPS_IN_A_QUIET_TICK 2u
 #define UNWATCHED_MOST 17u /* ticks after one another in which a job works and the sensors' watch waits */
 #define LISTENED_US 20000u /* a tick that comes later has not listened meanwhile, and has not moved the limb either */
@@ -313,7 +314,7 @@ static void take_stiffness(controller_t *controller, brace_snapshot_t *snapshot)
                        &controller->gravity, &controller->softening, &controller->posture, snapshot);
     }
     if (snapshot->k_is_valid) {
-        sigma_tell(controller, snapshot);
+        sigma_report(controller, snapshot);
     }
 }
 
@@ -335,8 +336,8 @@ static void take_place(const controller_t *controller, brace_snapshot_t *snapsho
     snapshot->gravity_lean_rad = controller->gravity.lean_rad;
 }
 
-/* Looks over another slice of what must not change. What has changed is made anew from the store; where down is, as
- * the main computer told it, has to be told again. */
+/* Looks over another slice of what must not change. What has changed is made anew from the store; where down is has
+ * to be sent again by the main computer, if it had sent it. */
 static void step_guard(controller_t *controller, bool has_worked)
 {
     if (controller->parameters.comes_in_force) {
@@ -351,7 +352,7 @@ static void step_guard(controller_t *controller, bool has_worked)
         controller->memory_is_wrong = true;
     }
     if (controller->memory_is_wrong) {
-        controller->gravity.is_told = false;
+        controller->gravity.is_sent = false;
         controller->configure_part = 0;
         parameter_job_reload(&controller->parameters);
     }
@@ -379,7 +380,7 @@ enum {
     PART_STIFFNESS = 2,
     PART_JOBS = 3,
     PART_COMMANDED = 4,
-    PART_TOLD = 5,
+    PART_WIRES = 5,
     PART_WORKED = 6,
     PART_GUARDED = 7,
     PART_HEARD = 8
@@ -399,7 +400,7 @@ static void watch_sensors(controller_t *controller)
                                     .force = &controller->tip_force,
                                     .parameters = &controller->parameters.in_force,
                                     .down = controller->gravity.down,
-                                    .told_rad = controller->drives.told_rad,
+                                    .commanded_offset_rad = controller->drives.commanded_offset_rad,
                                     .limit_n_mm = controller->drives.limit_n_mm};
     frozen_watch(&controller->frozen, &inputs);
 }
@@ -434,13 +435,13 @@ static void hear(brace_app_t *app, uint32_t now_us)
 }
 
 /* The wires answer questions and send what is due. returns how much they have done (wire/wire.h) */
-static uint32_t tell(brace_app_t *app, uint32_t now_us)
+static uint32_t serve_wires(brace_app_t *app, uint32_t now_us)
 {
     controller_t *controller = &app->controller;
     controller->ownership.is_by_wire = true;
-    const uint32_t told = wires_tick(&app->wires, controller->hal, app, &controller->counters, now_us);
+    const uint32_t wire_work = wires_tick(&app->wires, controller->hal, app, &controller->counters, now_us);
     controller->ownership.is_by_wire = false;
-    return told;
+    return wire_work;
 }
 
 /* returns whether there was work to do, as the functions below do */
@@ -488,11 +489,11 @@ static bool work_on_sigma(controller_t *controller)
 
 /* One step of one job: the first that has something to do takes it. After eight steps, questions leave a tick to the
  * jobs behind them. Where the wires had nothing to do, a question has room for two steps.
- *   told: how much the wires have done in this tick
+ *   wire_work: how much the wires have done in this tick
  * returns whether a job has worked */
-static bool work_on_jobs(controller_t *controller, const brace_snapshot_t *now, uint32_t told)
+static bool work_on_jobs(controller_t *controller, const brace_snapshot_t *now, uint32_t wire_work)
 {
-    return work_on_question(controller, told == 0u ? STEPS_IN_A_QUIET_TICK : 1u) || work_on_drift(controller) ||
+    return work_on_question(controller, wire_work == 0u ? STEPS_IN_A_QUIET_TICK : 1u) || work_on_drift(controller) ||
            (!controller->ownership.is_held && work_on_loading(controller, now));
 }
 
@@ -501,7 +502,7 @@ static bool work_on_jobs(controller_t *controller, const brace_snapshot_t *now, 
  * have done more. In the tick that a flood of commands leaves to jobs, another one has its step too. A tick that is
  * full of a burst or of commands has no step at all.
  * returns whether a job has worked, so that the sensors' watch waits */
-static bool work(brace_app_t *app, const brace_snapshot_t *now, uint32_t told)
+static bool work(brace_app_t *app, const brace_snapshot_t *now, uint32_t wire_work)
 {
     controller_t *controller = &app->controller;
     softening_t *softening = &controller->softening;
@@ -511,25 +512,25 @@ static bool work(brace_app_t *app, const brace_snapshot_t *now, uint32_t told)
     if (controller->model.is_spatial && controller->ticks_unwatched >= UNWATCHED_MOST) {
         return false;
     }
-    if (told > TOLD_FULL) {
+    if (wire_work > WIRE_WORK_FULL) {
         return false;
     }
     const bool was_overdue = sigma_job_is_overdue(&controller->sigma) && work_on_sigma(controller);
-    if (told > TOLD_MOST || (was_overdue && !app->wires.leaves_room)) {
+    if (wire_work > WIRE_WORK_MOST || (was_overdue && !app->wires.leaves_room)) {
         return was_overdue;
     }
     if (softening_is_overdue(softening)) {
         work_on_softening(controller);
         return true;
     }
-    if (work_on_jobs(controller, now, was_overdue ? TOLD_MOST : told) || was_overdue) {
+    if (work_on_jobs(controller, now, was_overdue ? WIRE_WORK_MOST : wire_work) || was_overdue) {
         return true;
     }
-    const bool softens = told == 0u && softening_is_due(softening);
+    const bool softens = wire_work == 0u && softening_is_due(softening);
     if (softens) {
         work_on_softening(controller);
     }
-    for (uint32_t i = softens ? 1u : 0u; i < (told == 0u ? STEPS_IN_A_QUIET_TICK : 1u); i++) {
+    for (uint32_t i = softens ? 1u : 0u; i < (wire_work == 0u ? STEPS_IN_A_QUIET_TICK : 1u); i++) {
         (void)work_on_sigma(controller);
     }
     return softens;
@@ -539,9 +540,9 @@ static bool work(brace_app_t *app, const brace_snapshot_t *now, uint32_t told)
  * worked less memory is looked over, too. That delays little, because the proof of a stuck sensor takes a quarter of a
  * second anyway. After UNWATCHED_MOST such ticks in a row none is full, and of a limb in space no job works, which has
  * work in every tick where masters ask. */
-static void step_watches(controller_t *controller, bool has_worked, uint32_t told)
+static void step_watches(controller_t *controller, bool has_worked, uint32_t wire_work)
 {
-    const bool is_full = told > TOLD_FULL && controller->ticks_unwatched < UNWATCHED_MOST;
+    const bool is_full = wire_work > WIRE_WORK_FULL && controller->ticks_unwatched < UNWATCHED_MOST;
     const bool waits = has_worked || is_full;
     controller->ticks_unwatched += waits;
     if (!waits) {
@@ -592,7 +593,7 @@ static void update_mode(controller_t *controller)
 static void command_drives(controller_t *controller)
 {
     drives_test_t test = {.runs = loading_runs(&controller->loading)};
-    /* When parameters come into force, the take-ups begin anew. They do not know what the drives were told before. */
+    /* When parameters come into force, the take-ups begin anew. They do not know what was commanded before. */
     const bool stands = controller->ownership.is_held || controller->parameters.comes_in_force;
     for (int i = 0; i < BRACE_LINK_COUNT && test.runs; i++) {
         test.offset_rad[i] = loading_offset_rad(&controller->loading, i);
@@ -612,7 +613,7 @@ static void publish(controller_t *controller, brace_snapshot_t *snapshot)
     snapshot->parameter_origin = controller->parameters.origin;
     snapshot->parameter_sequence = brace_store_sequence(&controller->parameters.store);
     snapshot->parameter_sequence_wanted = brace_store_wanted_sequence(&controller->parameters.store);
-    if (!mode_tells_k(snapshot->mode)) {
+    if (!mode_reports_k(snapshot->mode)) {
         stiffness_unknown(snapshot, snapshot->stiffness.now.flags | BRACE_FLAG_STALE);
     }
     snapshot->sequence = ++controller->sequence;
@@ -661,11 +662,11 @@ void brace_app_tick(brace_app_t *app, uint32_t now_us)
 
     /* Tell, and work on what takes longer than a tick. */
     publish(controller, snapshot);
-    const uint32_t told = tell(app, now_us);
-    part_is_done(controller, PART_TOLD);
-    const bool has_worked = work(app, snapshot, told);
+    const uint32_t wire_work = serve_wires(app, now_us);
+    part_is_done(controller, PART_WIRES);
+    const bool has_worked = work(app, snapshot, wire_work);
     part_is_done(controller, PART_WORKED);
-    step_watches(controller, has_worked, told);
+    step_watches(controller, has_worked, wire_work);
     part_is_done(controller, PART_GUARDED);
 
     /* A tick that left a part out, or did one twice, feeds no watchdog. */

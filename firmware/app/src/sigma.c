@@ -136,7 +136,7 @@ bool sigma_begin(controller_t *controller)
     return true;
 }
 
-void sigma_tell(const controller_t *controller, brace_snapshot_t *snapshot)
+void sigma_report(const controller_t *controller, brace_snapshot_t *snapshot)
 {
     if (joints_plane_may_have_moved(&controller->joints)) {
         stiffness_unknown_sigma(snapshot);

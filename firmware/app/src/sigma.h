@@ -10,6 +10,6 @@ bool sigma_begin(controller_t *controller);
 
 /* Writes into a snapshot, whose K is there, what is known of K's uncertainty: nothing where a sample is so old that its
  * joint may have moved further meanwhile than K's uncertainty covers. At most 650 instructions. */
-void sigma_tell(const controller_t *controller, brace_snapshot_t *snapshot);
+void sigma_report(const controller_t *controller, brace_snapshot_t *snapshot);
 
 #endif

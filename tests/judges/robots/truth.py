@@ -14,7 +14,7 @@ class Engine:
 
     def __init__(self, robot: Robot) -> None:
         tree = ElementTree.parse(robot.path).getroot()
-        for link in tree.iter("link"):  # meshes are not there, and weights play no part
+        for link in tree.iter("link"):  # no mesh is read, and a weight changes no Jacobian
             for part in link.findall("*"):
                 link.remove(part)
             inertial = ElementTree.SubElement(link, "inertial")

@@ -261,17 +261,17 @@ def test_a_planar_node_over_can_fd_is_complete_with_its_second_frame() -> None:
     assert complete == [False, True]
 
 
-def load_of(tick: int, node: int = 1) -> list[Frame]:
+def load_of(tick: int, node: int = 1, group: str = "load") -> list[Frame]:
     """The frames of a snapshot's load; every value but the factor tells its tick."""
     mark = (tick % 4_000_000) * STEP
     values: dict[str, float | int | None] = {
-        field.name: mark for layout in GROUPS["load"] for field in layout.fields if field.name != "sequence"
+        field.name: mark for layout in GROUPS[group] for field in layout.fields if field.name != "sequence"
     }
     values |= {"sequence": tick * TICKS_A_PERIOD & 0xFF, "flags": 0, "gravity_direction": -1.5, "gravity_lean": 0.25}
     time_s = 1000.0 + tick * PERIOD_S
     return [
         Frame(time_s + 1e-5 * part, layout.identifier + node, layout.encode(values))
-        for part, layout in enumerate(GROUPS["load"])
+        for part, layout in enumerate(GROUPS[group])
     ]
 
 
@@ -296,6 +296,19 @@ def test_a_load_joins_its_k_before_it_or_behind_it() -> None:
         assert_load_of_its_tick(joined[-1])
         entry = joined[-1].as_json()["load"]
         assert isinstance(entry, dict) and entry["is_counted"] and entry["force_x_n"] == entry["moved_z_mm"]
+
+
+def test_a_lost_frame_across_the_plane_is_no_coxa_joint_that_is_gone() -> None:
+    joiner = Joiner()
+    told = {}
+    for tick in range(1, 10):
+        across = [] if tick in (3, 7, 8, 9) else load_of(tick, group="load_across")
+        for frame in (*frames_of(tick)[:2], *across, *load_of(tick)):
+            snapshot = joiner.add(frame)
+            if snapshot is not None and snapshot.load is not None:
+                told[tick] = "force_y_n" in snapshot.load.as_json()
+    # none for the tick whose frames are lost; that nothing comes across any more is believed after two loads
+    assert told == {1: True, 2: True, 4: True, 5: True, 6: True, 9: False}
 
 
 def test_frames_of_two_ticks_never_make_one_load() -> None:

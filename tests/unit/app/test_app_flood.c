@@ -362,7 +362,7 @@ static void watch(void)
                                      snapshot->motor_rad[BRACE_FEMUR] == fake.joint[BRACE_FEMUR].sample.motor_rad &&
                                      snapshot->motor_rad[BRACE_TIBIA] == fake.joint[BRACE_TIBIA].sample.motor_rad;
     const bool is_whole = snapshot->k_is_valid && snapshot->space.is_valid == snapshot->space.is_fitted;
-    TEST_ASSERT_TRUE(mode_tells_k(snapshot->mode));
+    TEST_ASSERT_TRUE(mode_reports_k(snapshot->mode));
     share->ticks++;
     share->with_k += is_whole && is_of_these_samples && !is_old(snapshot) && snapshot->sequence == sequence_before + 1u;
     TEST_ASSERT_LESS_OR_EQUAL(snapshot->space.is_fitted ? SPACE_SIGMA_TICKS : SIGMA_TICKS,

@@ -210,7 +210,7 @@ static void expect_down(const gravity_t *gravity, double direction_rad, double l
 
 static void test_down_is_as_sent_until_it_is_sent_no_more(void)
 {
-    gravity_t gravity = {.is_told = false};
+    gravity_t gravity = {.is_sent = false};
     brace_gravity_t said = {.direction_rad = -1.2f, .lean_rad = 0.3f};
     gravity_configure(&gravity, &said);
     expect_down(&gravity, -1.2, 0.3);
@@ -232,7 +232,7 @@ static void test_down_out_of_range_changes_nothing(void)
 {
     const float direction = BRACE_RANGE_GRAVITY_DIRECTION_RAD_MAX, lean = BRACE_RANGE_GRAVITY_LEAN_RAD_MAX;
     const brace_gravity_t said = {.direction_rad = -1.2f, .lean_rad = 0.3f};
-    gravity_t gravity = {.is_told = false};
+    gravity_t gravity = {.is_sent = false};
     gravity_configure(&gravity, &said);
     for (float sign = -1.0f; sign <= 1.0f; sign += 2.0f) {
         TEST_ASSERT_EQUAL(BRACE_E_RANGE, gravity_set(&gravity, &said, sign * nextafterf(direction, 4.0f), 0.0f));

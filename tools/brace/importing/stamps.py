@@ -39,7 +39,7 @@ def _number(value: object) -> float | None:
 
 @dataclass(frozen=True)
 class Choice:
-    """Which topics' stamps are their readings' times, and what is told of it."""
+    """The topics whose stamps are taken as the times of their readings, and what the user is told about it."""
 
     by_stamp: frozenset[str]
     partly: Mapping[str, tuple[int, int]]  # topics with stamps that fit, but not in all: how many have none, of how many
@@ -96,8 +96,8 @@ def chosen(topics: Mapping[str, tuple[np.ndarray, np.ndarray]]) -> Choice:
     if ahead and len(topics) > 1:
         listed = ", ".join(f"{topic} by {_time(early)}" for topic, early in ahead.items())
         told.append(
-            f"messages are in the log before their stamps ({listed}): those stamps are of a clock that is ahead, by "
-            "nobody knows how much; the times of the log are used for all topics"
+            f"messages are in the log before their stamps ({listed}): the clock of those stamps is ahead by an "
+            "unknown time; the times of the log are used for all topics"
         )
         return Choice(frozenset(), {}, {}, tuple(told))
     for topic, delay in delays.items():

@@ -69,8 +69,9 @@ typedef struct {
     brace_point_t play_shift_mm; /* shift of the tip at zero force by the joints' backlash */
     float force_x_n, force_z_n; /* of the ground on the tip, in the limb's plane; NaN: not known */
     float force_y_n; /* across it, to the left, from the coxa joint's load; NaN: not known */
-    /* Where these forces and the joints' loads lie with 90 %; of a tick at most eight ticks ago. A force that the
-     * motors measure may lie beside its own interval: while joints move, friction takes one side of their torque. */
+    /* Intervals that hold these forces and the joints' loads with 90 %. A load's is of at most six ticks before, a
+     * force's of at most eleven. A force that the motors measure may lie outside its own interval: while joints move,
+     * the friction in their gears acts against the motion alone. */
     brace_interval_t force_x_interval_n, force_y_interval_n, force_z_interval_n; /* NaN: not known */
     brace_interval_t load_interval_n_mm[BRACE_LINK_COUNT]; /* behind the gears; NaN: not known */
     float gravity_direction_rad, gravity_lean_rad; /* where the weight pulls, as the parameters of these names */

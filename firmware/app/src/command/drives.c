@@ -63,21 +63,22 @@ void drives_command(drives_t *drives, const brace_hal_t *hal, const joints_t *jo
             brace_hal_joint_command_t command = command_of(&flank->joint[i], test, i);
             const float asked_rad = command.offset_rad;
             const float way = stands ? 0.0f : way_rad(ceiling, !moves || drives->is_behind[i], tick_us);
-            const bool is_there = limit(ceiling, drives->told_rad[i], way, &command);
+            const bool is_there = limit(ceiling, drives->commanded_offset_rad[i], way, &command);
             if (!moves && is_there) {
                 command.torque_limit_n_mm = __builtin_inff(); /* nothing is added: the drive's own limit holds again */
             }
-            const bool is_told = hal->joint_command(hal->context, i, &command) == BRACE_HAL_OK;
-            if (is_told) {
-                drives->told_rad[i] = command.offset_rad;
+            const bool is_commanded = hal->joint_command(hal->context, i, &command) == BRACE_HAL_OK;
+            if (is_commanded) {
+                drives->commanded_offset_rad[i] = command.offset_rad;
                 drives->limit_n_mm[i] = command.torque_limit_n_mm;
                 is_back = is_back && is_there;
-            } else { /* it holds what it was told before, and goes back by itself when nobody tells it anything */
+            } else { /* it holds the last command, and goes back by itself when no command comes */
                 brace_count(commands_failed);
-                drives->told_rad[i] = moves ? drives->told_rad[i] : 0.0f;
+                drives->commanded_offset_rad[i] = moves ? drives->commanded_offset_rad[i] : 0.0f;
                 refuse = true;
             }
-            drives->is_behind[i] = drives->told_rad[i] != asked_rad && (stands || !is_told || drives->is_behind[i]);
+            drives->is_behind[i] =
+                drives->commanded_offset_rad[i] != asked_rad && (stands || !is_commanded || drives->is_behind[i]);
         }
     }
     drives->is_going_back = !moves && !is_back;

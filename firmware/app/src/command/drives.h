@@ -13,7 +13,7 @@ typedef struct {
     bool is_going_back;  /* nothing is asked for any more, and a drive is still behind: the limb moves */
     bool is_behind[BRACE_LINK_COUNT]; /* stood or refused, and now follows slowly to what is asked for */
     uint32_t refused_us; /* how long a drive has refused every command */
-    float told_rad[BRACE_LINK_COUNT];   /* what each drive was told to add to its set-point; 0: nothing */
+    float commanded_offset_rad[BRACE_LINK_COUNT];   /* what each drive is commanded to add to its set-point */
     float limit_n_mm[BRACE_LINK_COUNT]; /* within which torque; INFINITY: within its own */
 } drives_t;
 
@@ -24,7 +24,7 @@ typedef struct {
     float torque_limit_n_mm[BRACE_LINK_COUNT];
 } drives_test_t;
 
-/* Nothing has been told. */
+/* Nothing has been commanded. */
 void drives_start(drives_t *drives);
 
 /* Commands the drives in every tick in which something moves the limb, and afterwards until the command is taken back:

@@ -13,7 +13,6 @@
 #define STILL_MOST_US 0x40000000u
 
 #define TORQUE_MEAN_US 20000.0f /* as sense/joints.c takes the torque's mean */
-#define SIGMAS 1.6449f /* of a normal distribution that hold 90 % */
 
 enum { PART_X = BRACE_LINK_COUNT, PART_Z, PART_Y, PARTS };
 
@@ -48,8 +47,8 @@ static void follow(interval_turn_t *turn, float angle_rad, float step_rad, uint3
     }
 }
 
-/* One sigma squared of what is normally distributed in a joint's load: the noise of the torque's mean, how far the
- * mean lags behind beyond what noise explains, the torque's bias, and the doubt of the torque by current. */
+/* The variance of the noise in a joint's load. It sums the noise of the torque's mean, the mean's lag beyond what noise
+ * explains, the torque's bias, and the uncertainty of the torque by current. */
 static float variance_n2_mm2(const interval_inputs_t *inputs, int index, float middle_n_mm)
 {
     const brace_drive_t *drive = &inputs->parameters->drive[index];
@@ -86,7 +85,7 @@ static brace_interval_t sensed(const interval_inputs_t *inputs, float force_n)
 {
     const float noise_n = inputs->parameters->sensor.noise_n;
     const float gain_n = inputs->parameters->limb.uncertainty.gain_rel * force_n;
-    const float off_n = SIGMAS * __builtin_sqrtf(noise_n * noise_n + gain_n * gain_n);
+    const float off_n = BRACE_NORMAL_90_SIGMAS * __builtin_sqrtf(noise_n * noise_n + gain_n * gain_n);
     return (brace_interval_t){force_n - off_n, force_n + off_n};
 }
 

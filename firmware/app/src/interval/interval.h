@@ -1,5 +1,6 @@
-/* Where the loads of the joints and the force on the tip lie with 90 %: what rubs in the gears hides a part of each
- * (brace/load_band.h). One part of it is worked out a tick; the whole is at most eight ticks old. */
+/* Intervals that hold the joints' loads and the force on the tip with 90 %. Friction in the gears hides a part of each
+ * (brace/load_band.h). Each tick works out one of six parts: three joints, then x, z and y of the force. So a load is
+ * of at most six ticks before, and the force of loads of at most eleven ticks before. */
 #ifndef BRACE_INTERVAL_INTERVAL_H
 #define BRACE_INTERVAL_INTERVAL_H
 

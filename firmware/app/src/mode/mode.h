@@ -29,7 +29,7 @@ void mode_start(mode_state_t *mode);
 bool mode_update(mode_state_t *mode, const mode_inputs_t *inputs);
 
 /* Is K reported in this mode? */
-static inline bool mode_tells_k(brace_mode_t mode)
+static inline bool mode_reports_k(brace_mode_t mode)
 {
     return mode == BRACE_MODE_MONITOR || mode == BRACE_MODE_TAKING_UP || mode == BRACE_MODE_LOADING_TEST;
 }

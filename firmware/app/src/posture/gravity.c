@@ -15,7 +15,7 @@ static void point(gravity_t *gravity, float direction_rad, float lean_rad)
 
 void gravity_configure(gravity_t *gravity, const brace_gravity_t *parameters)
 {
-    if (!gravity->is_told) {
+    if (!gravity->is_sent) {
         point(gravity, parameters->direction_rad, parameters->lean_rad);
     }
 }
@@ -36,7 +36,7 @@ brace_status_t gravity_set(gravity_t *gravity, const brace_gravity_t *parameters
          !is_within(lean_rad, BRACE_RANGE_GRAVITY_LEAN_RAD_MIN, BRACE_RANGE_GRAVITY_LEAN_RAD_MAX))) {
         return BRACE_E_RANGE;
     }
-    gravity->is_told = has_direction;
+    gravity->is_sent = has_direction;
     if (has_direction) {
         point(gravity, direction_rad, lean_rad);
     } else {

@@ -10,7 +10,7 @@
 #include "brace/vec.h"
 
 typedef struct {
-    bool is_told;                   /* sent by the main computer; else it is the parameters' direction */
+    bool is_sent;                   /* sent by the main computer; else it is the parameters' direction */
     float direction_rad, lean_rad;  /* as the parameters' members of these names */
     brace_vec3_t down;              /* in the limb's plane's frame: x outwards, y to the left, z up */
 } gravity_t;

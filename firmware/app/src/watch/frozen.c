@@ -7,8 +7,8 @@
 #define LOOK_LASTS_US 60000u
 #define SAMPLES_SETTLED 3u /* the torque's mean begins with as many */
 
-#define TOLD_LEAST_RAD 0.005f
-#define TOLD_STEPS 10.0f
+#define COMMANDED_LEAST_RAD 0.005f
+#define COMMANDED_STEPS 10.0f
 #define TORQUE_LEFT_RATIO 0.8f /* of the limit: a drive near it may stand for lack of torque */
 
 #define SWINGS_OF_RANGE 0.25f
@@ -99,7 +99,7 @@ static void watch_one(frozen_joint_t *joint, const frozen_inputs_t *inputs, int 
     const joint_t *seen = &inputs->joints->joint[index];
     const brace_drive_t *drive = &inputs->parameters->drive[index];
     const uint32_t since_us = seen->sample.taken_us - joint->taken_us;
-    const float carries_n_mm = load_n_mm(inputs, index), told_rad = inputs->told_rad[index];
+    const float carries_n_mm = load_n_mm(inputs, index), commanded_offset_rad = inputs->commanded_offset_rad[index];
     float link_rad[BRACE_LINK_COUNT];
     joints_link_angles(inputs->joints, link_rad);
     const float moved_rad = __builtin_fabsf(seen->sample.motor_rad - joint->stood_at_rad);
@@ -110,7 +110,8 @@ static void watch_one(frozen_joint_t *joint, const frozen_inputs_t *inputs, int 
     joint->motor_rad = seen->sample.motor_rad;
     joint->torque_n_mm = seen->sample.torque_n_mm;
     joint->taken_us = seen->sample.taken_us;
-    joint->told_rad = same && has_torque ? with(joint->told_rad, told_rad) : just(told_rad);
+    joint->commanded_offset_rad =
+        same && has_torque ? with(joint->commanded_offset_rad, commanded_offset_rad) : just(commanded_offset_rad);
     joint->same_load_n_mm = same ? with(joint->same_load_n_mm, carries_n_mm) : just(carries_n_mm);
     joint->load_n_mm = stands ? with(joint->load_n_mm, carries_n_mm) : just(carries_n_mm);
     joint->pulls_n_mm = stands ? with(joint->pulls_n_mm, seen->torque_n_mm) : just(seen->torque_n_mm);
@@ -120,8 +121,8 @@ static void watch_one(frozen_joint_t *joint, const frozen_inputs_t *inputs, int 
     joint->is_settled = seen->samples_seen >= SAMPLES_SETTLED;
 
     const float hidden = hidden_n_mm(joint, inputs, index); /* NaN, and no more than it, where the load is not known */
-    const bool was_told =
-        width(joint->told_rad) > TOLD_LEAST_RAD && width(joint->told_rad) > TOLD_STEPS * drive->angle_step_rad;
+    const bool was_told = width(joint->commanded_offset_rad) > COMMANDED_LEAST_RAD &&
+                          width(joint->commanded_offset_rad) > COMMANDED_STEPS * drive->angle_step_rad;
     const bool was_loaded = width(joint->same_load_n_mm) > hidden;
     const bool is_unheld = width(joint->pulls_n_mm) > width(joint->load_n_mm) + hidden;
     const bool is_proven = (same && (was_told || was_loaded)) || (stands && is_unheld);

@@ -40,7 +40,7 @@ typedef struct {
     float stood_at_rad; /* where the angle began to stand */
     uint32_t stood_us; /* how long; counts to a quarter of a second */
     uint32_t proven_us; /* how long one of the first three proofs has lasted */
-    frozen_span_t told_rad; /* what the drive was told, since both stand and it has torque left */
+    frozen_span_t commanded_offset_rad; /* offsets that were commanded since both stand and the drive has torque left */
     frozen_span_t same_load_n_mm; /* what the joint carries by sensor and weight, since both stand */
     frozen_span_t load_n_mm; /* the same, since the angle stands; NaN: it was not known for a while */
     frozen_span_t pulls_n_mm; /* the motor's torque since then, less single wild samples */
@@ -58,7 +58,7 @@ typedef struct {
     const tip_force_t *force;
     const brace_parameters_t *parameters;
     brace_vec3_t down;
-    const float *told_rad; /* of each joint: what is added to its set-point, */
+    const float *commanded_offset_rad; /* of each joint: what is added to its set-point, */
     const float *limit_n_mm; /* and the torque within which it may follow */
 } frozen_inputs_t;
 

@@ -1,4 +1,4 @@
-/* Where a load lies that is only known by the torque of a motor before a gear, and sums of such loads.
+/* An interval for a load where only the torque of the motor before its gear is measured, and for a sum of two.
  *
  * Friction in motor and gear stands between the motor's torque T and the load L behind the gear:
  *     |T - L| <= c + |a T + b L|.
@@ -7,35 +7,37 @@
  * M. Duclusaud, G. Passault, V. Padois, O. Ly, Extended friction models for the physics simulation of servo actuators,
  * ICRA 2025, arXiv 2410.08650; with a = b it is their M4, with a = b = 0 dry friction alone.
  *
- * A load anywhere in a band is no normal distribution: 0.9 of a band holds 90 % of it, and of the sum of two bands the
- * trapezoid's quantile does. Noise, which is normal, is added as a root of squares, which is a little too wide where
- * both are of one size.
+ * A load that may lie anywhere in a band is not normally distributed: 0.9 of the band holds 90 % of the loads. The sum
+ * of two bands has a trapezoid's density, and its quantile is taken. Noise is normally distributed. It is added as a
+ * root of squares; where noise and band are of one size, the interval is then a little too wide.
  *
- * Thread rule: pure functions of their arguments; any thread or interrupt that may use the FPU. Nothing is checked:
- * NaN in gives NaN out.
+ * Thread rule: pure functions of their arguments; any thread or interrupt that may use the FPU. The numbers of a gear
+ * are those of a checked parameter set. A torque, a band's middle or a sum's middle of NaN gives an interval of NaN.
  */
 #ifndef BRACE_LOAD_BAND_H
 #define BRACE_LOAD_BAND_H
 
 #include <stdbool.h>
 
+#define BRACE_NORMAL_90_SIGMAS 1.6449f /* a normal distribution has 90 % within so many sigmas of its middle */
+
 /* Friction between a motor's torque and the load, in [N mm] and ratios [0, 0.9]. */
 typedef struct {
-    float friction_n_mm;             /* c */
-    float per_torque_ratio;          /* a */
-    float per_load_ratio;            /* b */
-    float tolerance_ratio;           /* all of it may be off by so much of itself [0, 1] */
-    float sliding_ratio;             /* the least share that is left while the joint moves [0, 1] */
-    float joint_n_mm;                /* dry friction behind the gear, in the joint itself */
-    float joint_per_load_ratio;      /* its share of the load */
+    float friction_n_mm;        /* c */
+    float per_torque_ratio;     /* a */
+    float per_load_ratio;       /* b */
+    float tolerance_ratio;      /* the friction may be larger or smaller by this share of itself [0, 1] */
+    float sliding_ratio;        /* the least share of the friction that is left while the joint moves [0, 1] */
+    float joint_n_mm;           /* dry friction behind the gear, in the joint itself */
+    float joint_per_load_ratio; /* what is added to it, as a share of the load */
 } brace_gear_t;
 
-/* A load: anywhere from middle - half to middle + half with the same chance, and noise on top. */
+/* A load: anywhere from middle - half to middle + half with the same probability, and noise added. */
 typedef struct {
     float middle_n_mm, half_n_mm; /* half >= 0 */
-    float noise_n_mm;             /* one sigma of what is normally distributed */
-    float near_end; /* the end at which the load stood when the joint moved last: +1 the high one, -1 the
-                                     low one; 0: not known */
+    float noise_n_mm;             /* one sigma of the noise */
+    float near_end; /* at which end the load stood when the joint moved last: +1 the high one, -1 the low one; 0: not
+                     * known */
 } brace_load_band_t;
 
 /* An interval that holds 90 %. */
@@ -57,9 +59,8 @@ void brace_load_band(const brace_gear_t *gear, float torque_n_mm, float way, boo
  * Cost: at most 40 instructions. */
 brace_interval_t brace_load_band_alone(const brace_load_band_t *band);
 
-/* 90 % of one_ratio times one load and two_ratio times another, which know nothing of one another, added to a known
- * number.
- *   middle: the sum for both loads in the middle of their bands
+/* Where the sum of one_ratio times one load and two_ratio times another lies with 90 %. The loads are independent.
+ *   middle: the sum for both loads in the middle of their bands; it may have a constant added
  * Cost: at most 80 instructions. */
 brace_interval_t brace_load_band_sum(const brace_load_band_t *one, float one_ratio, const brace_load_band_t *two,
                                      float two_ratio, float middle);

@@ -2,8 +2,7 @@
 
 #include <math.h>
 
-#define SIGMAS 1.6449f         /* of a normal distribution that hold 90 % */
-#define LOCKED_RATIO 0.05f     /* a gear that no load turns back: its band has an end all the same */
+#define LOCKED_RATIO 0.05f /* of a gear that no load turns back: its band has an end all the same */
 
 /* The load at one end of what friction of this share lets it be; way: against which the friction stands, +1 or -1.
  * torque >= 0. A small torque leaves a load of the other sign, whose share grows the other way. */
@@ -60,7 +59,7 @@ static float inside(float wide, float narrow, float share)
 /* The middle, with noise added to the distances of both ends. */
 static brace_interval_t around(float middle, float below, float above, float variance)
 {
-    const float noise = SIGMAS * SIGMAS * variance;
+    const float noise = BRACE_NORMAL_90_SIGMAS * BRACE_NORMAL_90_SIGMAS * variance;
     return (brace_interval_t){middle - sqrtf(below * below + noise), middle + sqrtf(above * above + noise)};
 }
 

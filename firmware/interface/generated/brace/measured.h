@@ -324,8 +324,8 @@ typedef struct {
     /* the number that the sign of life carries back with which the motion that was asked for begins; all ones
      * where none waits */
     uint32_t begin_number;
-    /* the low end of the interval in which force_x lies with 90 %: by the joints' torques and what rubs in their
-     * gears, or by the sensor at the tip; of at most eight ticks before; not known where force_x is not */
+    /* the low end of the interval in which force_x lies with 90 %: by the joints' torques and the friction in
+     * their gears, or by the sensor at the tip; of at most eleven ticks before; not known where force_x is not */
     float force_x_low_n;
     /* the high end of the interval in which force_x lies with 90 % */
     float force_x_high_n;
@@ -339,7 +339,7 @@ typedef struct {
     /* the high end of the interval in which the force across the limb's plane lies with 90 % */
     float force_y_high_n;
     /* the low end of the interval in which the load behind the coxa joint's gear lies with 90 %, by its motor's
-     * torque and what rubs in its gear; of at most eight ticks before */
+     * torque and the friction in its gear; of at most six ticks before */
     float load_coxa_low_n_mm;
     /* the high end of the interval in which the load behind the coxa joint's gear lies with 90 % */
     float load_coxa_high_n_mm;

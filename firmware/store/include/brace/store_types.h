@@ -71,7 +71,7 @@ typedef struct {
     bool rolling_back, reloading, memory_fault;
     uint32_t position; /* within the stage [bytes] */
     uint32_t sequence; /* of the set on its way */
-    uint32_t block_crc; /* of what is being read */
+    uint32_t block_crc; /* CRC of the block that is being read, as far as it has been read */
     uint32_t identity; /* brace_parameters_crc, as far as it has been read */
     bool is_named; /* only a set with this brace_parameters_crc is stored */
     uint32_t named_crc;

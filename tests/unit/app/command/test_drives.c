@@ -61,7 +61,7 @@ static void test_nothing_is_commanded_until_something_moves_and_all_is_taken_bac
     TEST_ASSERT_EQUAL(1, calls[BRACE_TIBIA]);
     TEST_ASSERT_EQUAL(0, calls[BRACE_COXA]); /* not fitted */
     TEST_ASSERT_EQUAL_FLOAT(0.01f, commanded[BRACE_FEMUR].offset_rad);
-    TEST_ASSERT_EQUAL_FLOAT(0.01f, drives.told_rad[BRACE_FEMUR]);
+    TEST_ASSERT_EQUAL_FLOAT(0.01f, drives.commanded_offset_rad[BRACE_FEMUR]);
     TEST_ASSERT_TRUE(isinf(commanded[BRACE_FEMUR].torque_limit_n_mm) && isinf(drives.limit_n_mm[BRACE_FEMUR]));
     flank.joint[BRACE_FEMUR].out.command_rad = 0.0f;
     tick(true);
@@ -109,7 +109,7 @@ static void test_a_drive_that_refuses_was_not_commanded(void)
     answer = BRACE_HAL_E_DEVICE;
     flank.joint[BRACE_TIBIA].out.command_rad = 0.002f;
     tick(true);
-    TEST_ASSERT_EQUAL_FLOAT(0.01f, drives.told_rad[BRACE_TIBIA]);
+    TEST_ASSERT_EQUAL_FLOAT(0.01f, drives.commanded_offset_rad[BRACE_TIBIA]);
     answer = BRACE_HAL_OK; /* it is back, and does not jump to what has been asked for meanwhile */
     tick(true);
     TEST_ASSERT_EQUAL_FLOAT(0.0099f, commanded[BRACE_TIBIA].offset_rad);
@@ -117,7 +117,7 @@ static void test_a_drive_that_refuses_was_not_commanded(void)
     flank.joint[BRACE_TIBIA].out.command_rad = 0.0f;
     tick(false); /* nobody commands it any more: it goes back by itself */
     TEST_ASSERT_FALSE(drives.is_going_back);
-    TEST_ASSERT_EQUAL_FLOAT(0.0f, drives.told_rad[BRACE_TIBIA]);
+    TEST_ASSERT_EQUAL_FLOAT(0.0f, drives.commanded_offset_rad[BRACE_TIBIA]);
 }
 
 static void test_a_take_up_and_a_test_add_up_within_the_smaller_torque(void)

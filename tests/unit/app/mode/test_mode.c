@@ -108,12 +108,12 @@ static void test_configuration_ends_by_hand(void)
 
 static void test_in_which_modes_k_is_reported(void)
 {
-    TEST_ASSERT_TRUE(mode_tells_k(BRACE_MODE_MONITOR));
-    TEST_ASSERT_TRUE(mode_tells_k(BRACE_MODE_TAKING_UP));
-    TEST_ASSERT_TRUE(mode_tells_k(BRACE_MODE_LOADING_TEST));
-    TEST_ASSERT_FALSE(mode_tells_k(BRACE_MODE_START));
-    TEST_ASSERT_FALSE(mode_tells_k(BRACE_MODE_CONFIGURATION));
-    TEST_ASSERT_FALSE(mode_tells_k(BRACE_MODE_FAULT));
+    TEST_ASSERT_TRUE(mode_reports_k(BRACE_MODE_MONITOR));
+    TEST_ASSERT_TRUE(mode_reports_k(BRACE_MODE_TAKING_UP));
+    TEST_ASSERT_TRUE(mode_reports_k(BRACE_MODE_LOADING_TEST));
+    TEST_ASSERT_FALSE(mode_reports_k(BRACE_MODE_START));
+    TEST_ASSERT_FALSE(mode_reports_k(BRACE_MODE_CONFIGURATION));
+    TEST_ASSERT_FALSE(mode_reports_k(BRACE_MODE_FAULT));
 }
 
 /* --- how long a fault lasts ----------------------------------------------------------------------------------- */

@@ -13,7 +13,7 @@ static joints_t joints;
 static posture_t posture;
 static tip_force_t force;
 static brace_parameters_t parameters;
-static float told_rad[BRACE_LINK_COUNT], limit_n_mm[BRACE_LINK_COUNT];
+static float commanded_offset_rad[BRACE_LINK_COUNT], limit_n_mm[BRACE_LINK_COUNT];
 static uint32_t now_us;
 
 void setUp(void)
@@ -32,7 +32,7 @@ void setUp(void)
                                               .motor_friction_n_mm = 40.0f,
                                               .angle_step_rad = 0.001f};
         parameters.limb.joint[i] = (brace_joint_t){.compliance_rad_per_n_mm = 1e-5f, .gap_rad = 0.02f};
-        told_rad[i] = 0.0f, limit_n_mm[i] = INFINITY;
+        commanded_offset_rad[i] = 0.0f, limit_n_mm[i] = INFINITY;
     }
     frozen_start(&frozen);
 }
@@ -47,7 +47,7 @@ static bool look(uint32_t after_us)
                                     .force = &force,
                                     .parameters = &parameters,
                                     .down = {0.0f, 0.0f, -1.0f},
-                                    .told_rad = told_rad,
+                                    .commanded_offset_rad = commanded_offset_rad,
                                     .limit_n_mm = limit_n_mm};
     now_us += after_us;
     for (int i = 0; i < BRACE_LINK_COUNT; i++) {
@@ -76,7 +76,7 @@ static bool others_move(int joint, int count, float each_rad)
         for (int j = 0; j < BRACE_LINK_COUNT; j++) {
             joints.joint[j].sample.motor_rad += j == joint ? 0.0f : 0.01f;
         }
-        told_rad[joint] += each_rad;
+        commanded_offset_rad[joint] += each_rad;
         is_frozen = look(LOOK_US);
     }
     return is_frozen;
@@ -94,9 +94,9 @@ static void test_commanded_to_move(void)
     for (int joint = 0; joint < BRACE_LINK_COUNT; joint++) {
         setUp();
         TEST_ASSERT_FALSE(others_move(joint, 3, 0.0f));
-        told_rad[joint] = 0.0099f; /* ten steps are 10 mrad */
+        commanded_offset_rad[joint] = 0.0099f; /* ten steps are 10 mrad */
         TEST_ASSERT_FALSE(others_move(joint, 20, 0.0f));
-        told_rad[joint] = 0.0101f;
+        commanded_offset_rad[joint] = 0.0101f;
         TEST_ASSERT_FALSE(others_move(joint, 4, 0.0f));
         TEST_ASSERT_TRUE(others_move(joint, 1, 0.0f));
         joints.joint[joint].sample.torque_n_mm += 0.001f; /* the drive measures a change */
@@ -104,9 +104,9 @@ static void test_commanded_to_move(void)
         setUp();
         parameters.drive[joint].angle_step_rad = 1e-5f;
         TEST_ASSERT_FALSE(others_move(joint, 3, 0.0f));
-        told_rad[joint] = 0.0049f;
+        commanded_offset_rad[joint] = 0.0049f;
         TEST_ASSERT_FALSE(others_move(joint, 20, 0.0f));
-        told_rad[joint] = -0.0052f; /* from there to here, and from 0 */
+        commanded_offset_rad[joint] = -0.0052f; /* from there to here, and from 0 */
         TEST_ASSERT_FALSE(others_move(joint, 4, 0.0f));
         TEST_ASSERT_TRUE(others_move(joint, 1, 0.0f));
         setUp();
@@ -122,7 +122,7 @@ static void test_commanded_to_move(void)
 static void test_a_look_counts_for_a_while(void)
 {
     looks(3);
-    told_rad[BRACE_TIBIA] = 0.02f;
+    commanded_offset_rad[BRACE_TIBIA] = 0.02f;
     for (int i = 0; i < 4; i++) {
         TEST_ASSERT_FALSE(look(1000000u));
     }
@@ -289,12 +289,12 @@ static void test_a_mean_that_begins_does_not_swing(void)
 static void test_all_is_forgotten(void)
 {
     looks(3);
-    told_rad[BRACE_COXA] = 0.02f;
+    commanded_offset_rad[BRACE_COXA] = 0.02f;
     TEST_ASSERT_TRUE(looks(6));
     frozen_start(&frozen);
     TEST_ASSERT_FALSE(frozen_any(&frozen));
     TEST_ASSERT_FALSE(looks(20)); /* this was commanded already */
-    told_rad[BRACE_COXA] = 0.04f;
+    commanded_offset_rad[BRACE_COXA] = 0.04f;
     TEST_ASSERT_TRUE(looks(6));
     joints.joint[BRACE_COXA].sound = false; /* a joint without samples is not called frozen */
     TEST_ASSERT_FALSE(looks(1));
