@@ -1,6 +1,6 @@
 /* The interval in the snapshot, as whoever asks sees it: what rubs in the gears and how the joints turned last make it;
  * a sensor at the tip makes it narrow; what is not known is none. How often it holds: tests/judges/currents. */
-#include "app_bench.h"
+#include "modbus_master.h"
 
 #define SAME_N_MM 0.5f
 
@@ -157,6 +157,67 @@ static void test_an_encoders_flicker_is_no_motion(void)
     expect_load(BRACE_FEMUR, 910.0f, 1090.0f);
 }
 
+/* The part of `details` on CAN with this number. */
+static brace_can_frame_t details_part(uint32_t part)
+{
+    brace_can_frame_t frame = {.id = 0};
+    for (int i = 0; i < 200; i++) {
+        ticks(1);
+        while (brace_fake_frame_take(&fake, &frame)) {
+            if (frame.id == 0x205 && brace_can_details_part(frame.data) == part) {
+                return frame;
+            }
+        }
+    }
+    TEST_FAIL_MESSAGE("no such part");
+    return frame;
+}
+
+/* The two ends of an interval in a part: bits 16 to 39 and 40 to 63, 0x800000 where not known (docs/protocol.md). */
+static void expect_ends_on_can(uint32_t part, bool is_known)
+{
+    const brace_can_frame_t frame = details_part(part);
+    for (int end = 0; end < 2; end++) {
+        const uint8_t *code = &frame.data[2 + 3 * end];
+        TEST_ASSERT_EQUAL(!is_known, code[0] == 0x00 && code[1] == 0x00 && code[2] == 0x80);
+    }
+}
+
+/* Its registers on Modbus: NaN where not known. */
+static void expect_ends_on_modbus(uint32_t address, bool is_known)
+{
+    const reply_t reply = read_asks(4, address, 4);
+    TEST_ASSERT_EQUAL(!is_known, isnan(float_at(&reply, 0)));
+    TEST_ASSERT_EQUAL(!is_known, isnan(float_at(&reply, 1)));
+}
+
+static void expect_force_on_the_wires(bool is_known)
+{
+    TEST_ASSERT_EQUAL(!is_known, isnan(now()->force_x_interval_n.low) && isnan(now()->force_x_interval_n.high));
+    TEST_ASSERT_EQUAL(!is_known, isnan(now()->force_z_interval_n.low) && isnan(now()->force_z_interval_n.high));
+    for (uint32_t axis = 0; axis < 2u; axis++) {
+        expect_ends_on_can(96u + axis, is_known);
+        expect_ends_on_modbus(294u + 4u * axis, is_known);
+        expect_ends_on_can(98u + axis, true); /* what each joint carries is known all the same */
+        expect_ends_on_modbus(310u + 4u * axis, true);
+    }
+}
+
+/* A limb that is nearly straight, or is straight: along it any force goes with the same loads. */
+static void test_the_force_on_a_stretched_limb_is_not_known_on_any_wire(void)
+{
+    static const float knee_rad[] = {1.4f, 0.05f, 0.0f};
+    parameters.controller.modbus_address = UNIT;
+    parameters.controller.load_hz = 100.0f;
+    for (int i = 0; i < 3; i++) {
+        start(false);
+        fake.joint[BRACE_TIBIA].sample.motor_rad = knee_rad[i];
+        carry(1000.0f, -500.0f);
+        ticks(500);
+        expect_force_on_the_wires(i == 0);
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -168,5 +229,6 @@ int main(void)
     RUN_TEST(test_a_sensor_at_the_tip_knows_better);
     RUN_TEST(test_what_is_not_known_has_no_interval);
     RUN_TEST(test_an_encoders_flicker_is_no_motion);
+    RUN_TEST(test_the_force_on_a_stretched_limb_is_not_known_on_any_wire);
     return UNITY_END();
 }
