@@ -7,6 +7,7 @@
 
 #include "base/fma.h"
 #include "base/inline.h"
+#include "brace/loaded_space_types.h"
 #include "brace/vec.h"
 
 /* A matrix on its way to diagonal form, and its axes so far. */
@@ -38,14 +39,20 @@ INLINE void brace_jacobi_turn(float *pp, float *pq, float *qq, float *rp, float 
     brace_jacobi_pair(&p->z, &q->z, c, s);
 }
 
-/* Jacobi's method: three rounds of three turns. m: only its six entries are read. Then its diagonal is the eigenvalues,
- * in no order, each within 3e-7 of the largest one's size, and its axes are the eigenvectors. The first turn leaves
- * nothing off the diagonal where only xz is off it. */
-INLINE void brace_jacobi(brace_jacobi_t *m)
+/* Jacobi's method: three rounds of three turns. Writes m: its diagonal is the eigenvalues of k, in no order, each
+ * within 3e-7 of the largest one's size, and its axes are the eigenvectors. The first turn leaves nothing off the
+ * diagonal where only xz is off it. */
+INLINE void brace_jacobi(const brace_k3_t *k, brace_jacobi_t *m)
 {
-    m->x = (brace_vec3_t){1.0f, 0.0f, 0.0f};
-    m->y = (brace_vec3_t){0.0f, 1.0f, 0.0f};
-    m->z = (brace_vec3_t){0.0f, 0.0f, 1.0f};
+    *m = (brace_jacobi_t){.xx = k->xx_n_per_mm,
+                          .xy = k->xy_n_per_mm,
+                          .xz = k->xz_n_per_mm,
+                          .yy = k->yy_n_per_mm,
+                          .yz = k->yz_n_per_mm,
+                          .zz = k->zz_n_per_mm,
+                          .x = {1.0f, 0.0f, 0.0f},
+                          .y = {0.0f, 1.0f, 0.0f},
+                          .z = {0.0f, 0.0f, 1.0f}};
     for (int i = 0; i < 3; i++) {
         brace_jacobi_turn(&m->xx, &m->xz, &m->zz, &m->xy, &m->yz, &m->x, &m->z);
         brace_jacobi_turn(&m->xx, &m->xy, &m->yy, &m->xz, &m->yz, &m->x, &m->y);

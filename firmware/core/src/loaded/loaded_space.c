@@ -521,13 +521,8 @@ brace_status_t brace_loaded_space_turn(float theta0_rad, const brace_k3_t *k, br
     if (status != BRACE_OK) {
         return status;
     }
-    brace_jacobi_t m = {.xx = k->xx_n_per_mm,
-                        .xy = k->xy_n_per_mm,
-                        .xz = k->xz_n_per_mm,
-                        .yy = k->yy_n_per_mm,
-                        .yz = k->yz_n_per_mm,
-                        .zz = k->zz_n_per_mm};
-    brace_jacobi(&m);
+    brace_jacobi_t m;
+    brace_jacobi(k, &m);
     const bool x_is_less = m.xx < m.yy;
     const float low = x_is_less ? m.xx : m.yy, high = x_is_less ? m.yy : m.xx;
     if (!(low > 0.0f && m.zz > 0.0f && high <= FLT_MAX && m.zz <= FLT_MAX)) {

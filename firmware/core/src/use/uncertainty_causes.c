@@ -191,13 +191,8 @@ static void swap_if_above(float *low, float *high, brace_vec3_t *axis_low, brace
 static void find_axes(brace_k_base_t *base)
 {
     const brace_k3_t *k = &base->space;
-    brace_jacobi_t m = {.xx = k->xx_n_per_mm,
-                        .xy = k->xy_n_per_mm,
-                        .xz = k->xz_n_per_mm,
-                        .yy = k->yy_n_per_mm,
-                        .yz = k->yz_n_per_mm,
-                        .zz = k->zz_n_per_mm};
-    brace_jacobi(&m);
+    brace_jacobi_t m;
+    brace_jacobi(k, &m);
     swap_if_above(&m.xx, &m.yy, &m.x, &m.y);
     swap_if_above(&m.yy, &m.zz, &m.y, &m.z);
     swap_if_above(&m.xx, &m.yy, &m.x, &m.y);
