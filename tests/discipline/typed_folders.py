@@ -19,6 +19,7 @@ TYPED = {
     "tests/judges/exported": "tools:tests/judges/exported",
     "tests/judges/foreign": "tools:tests/judges/foreign:tests/judges/blind:tests/judges/engine",
     "tests/judges/robots": "tools:tests/judges/robots",
+    "tests/judges/stance": "tools:tests/judges/stance",
     "tests/property": "tools:tests/property",
     "tests/tools": "tools:tests/tools:tests/tools/diagnose:tests/tools/importing:tests/tools/new:tests/judges/bench",
     " ".join(f"tests/{name}" for name in SMALL): ":".join(["tools", *(f"tests/{name}" for name in SMALL)]),
