@@ -206,7 +206,7 @@ def test_feet_that_stick_bear_what_an_engine_says(solver: Siconos, number: int) 
 def test_brace_k_is_the_limbs_k(number: int, tmp_path: Path) -> None:
     """At no load and under one, in the limb's frame: files that are written say what the world has."""
     drawn = world.draw(7, number, world.Hidden.none())
-    world.write(drawn, drawn.world.payload_n, tmp_path)
+    world.write(drawn, tmp_path)
     force = np.random.default_rng(number).normal(0, 3, 3)
     for i in (0, 1):
         limbs = drawn.nominal.take([i])

@@ -123,7 +123,7 @@ def _limb_toml(limbs: Limbs, i: int, hidden: Hidden) -> str:
     return "\n".join(lines) + "\n"
 
 
-def write(stance: Stance, payload_n: Array, folder: Path) -> Path:
+def write(stance: Stance, folder: Path) -> Path:
     """stance.toml and its limbs' files; returns the stance's path."""
     folder.mkdir(parents=True, exist_ok=True)
     world = stance.world
@@ -137,14 +137,13 @@ def write(stance: Stance, payload_n: Array, folder: Path) -> Path:
                   f"mount_rpy_rad = {_list(stance.rpy_rad[i])}", f"theta_rad = {_list(stance.nominal.theta_rad[i])}",
                   "[limb.foothold]", f"normal = {_list(world.normal[i])}", f"friction = {float(stance.friction[i])!r}",
                   f"grip_n = {float(world.grip_n[i])!r}", f"offset_sd_mm = {stance.hidden.offset_mm!r}"]
-    lines += ["[payload]", f"force_n = {_list(payload_n)}", f"at_mm = {_list(world.payload_at_mm)}"]
+    lines += ["[payload]", f"force_n = {_list(world.payload_n)}", f"at_mm = {_list(world.payload_at_mm)}"]
     path = folder / "stance.toml"
     path.write_text("\n".join(lines) + "\n")
     return path
 
 
-def write_measured(stance: Stance, force_n: Array, path: Path) -> None:
-    """The tips' sensors before the payload: forces (n, 3) in the body's frame, noise added here."""
-    rows = [f"{name}," + ",".join(repr(float(value)) for value in force)
-            for name, force in zip(stance.names(), force_n + stance.noise_n)]
+def write_measured(stance: Stance, read_n: Array, path: Path) -> None:
+    """What the tips' sensors read before the payload (n, 3), in the body's frame."""
+    rows = [f"{name}," + ",".join(repr(float(value)) for value in read) for name, read in zip(stance.names(), read_n)]
     path.write_text("limb,fx_n,fy_n,fz_n\n" + "\n".join(rows) + "\n")

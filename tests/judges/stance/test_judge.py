@@ -1,0 +1,96 @@
+"""What the judge counts: a right answer and no wrong one; the others' laws against answers known without them."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+pytest.importorskip("daqp", reason="daqp is not installed: pip install -e 'tools[stance]'")
+
+import baselines
+import judge
+import world
+from truth import Siconos
+
+BRACE = Path(sys.executable).parent / "brace"
+EXACT = judge.Asked(3, world.Hidden.none(), False, True, [str(BRACE)])
+
+
+@pytest.fixture(scope="module")
+def solver() -> Iterator[Siconos]:
+    try:
+        siconos = Siconos()
+    except OSError as error:
+        pytest.skip(str(error))
+    yield siconos
+    siconos.close()
+
+
+def _cases(asked: judge.Asked, solver: Siconos, count: int) -> list[judge.Case]:
+    found: list[judge.Case] = []
+    number = 0
+    while len(found) < count:
+        one = judge.case(asked, number, solver)
+        found += [one] if one else []
+        number += 1
+    return found
+
+
+def test_a_row_counts_right_and_wrong() -> None:
+    change = [[0.0, 0.0, 1.0], [0.0, 0.0, 2.0], [0.0, 0.0, 3.0]]
+    truth = judge.Case(0, "floor", 1, 1.2, 0.2, 10.0, change, change, 0.0)
+    right = judge.Said(1, 1.21, [[0.0, 0.0, 1.4], [0.0, 0.0, 2.0], [0.0, 0.0, 3.6]], (1.1, 1.3), change, change)
+    wrong = judge.Said(0, 1.5, None)
+    laws = ("brace", "convex", "rigid")
+    row = judge.table([replace(truth, said=dict.fromkeys(laws, right)),
+                       replace(truth, spare=0.01, said=dict.fromkeys(laws, wrong))]).splitlines()
+    cells = [cell.split(" (")[0].strip() for cell in row[2].split("|")[2:-1]]
+    assert cells == ["100.0 %", "50.0 %", "50.0 %", "33.3 %", "-"]
+    assert "forces hold in 100.0 %" in row[6] and "of the factor in 100.0 %" in row[6]
+
+
+def test_a_command_that_fails_is_named(solver: Siconos) -> None:
+    fails = [sys.executable, "-c", "raise SystemExit('no such verb')"]
+    one = _cases(replace(EXACT, brace=fails), solver, 1)[0]
+    assert one.said["brace"].failed == "exit 1: no such verb" and "no such verb" in judge.table([one])
+
+
+def test_the_convex_law_is_right_until_a_foot_slips(solver: Siconos) -> None:
+    """In a world of small displacements, nothing hidden; its cones have 24 faces, within the round ones by 0.9 %."""
+    for one in _cases(EXACT, solver, 3):
+        said = one.said["convex"]
+        assert said.factor is not None and 0.95 * one.factor < said.factor < one.factor
+        assert one.spare < 0.02 or said.foot == one.foot
+        off = np.abs(np.array(said.change_n) - np.array(one.change_n)).max()
+        assert one.factor < 1 or off < 0.01 * one.payload_n
+        assert one.said["rigid"].factor is not None and one.said["rigid"].factor > 0.98 * one.factor
+
+
+def test_the_rigid_body_bears_what_any_forces_bear() -> None:
+    """Three feet, a pull along the ground at its height: friction times weight, less what 24 faces take away."""
+    stance = world.draw(3, 0, world.Hidden.none(), finite=False)
+    feet = np.array([[100.0, 0, 0], [-50, 87, 0], [-50, -87, 0]])
+    flat = replace(stance.world, commanded_mm=feet, normal=np.array([[0, 0, 1.0]] * 3), grip_n=np.zeros(3),
+                   weight_n=np.array([0, 0, -30.0]), com_mm=np.zeros(3), payload_n=np.array([10.0, 0, 0]),
+                   payload_at_mm=np.zeros(3))
+    law = baselines.rigid(replace(stance, world=flat, friction=np.full(3, 0.5)))
+    assert law.factor == pytest.approx(1.5 * np.cos(np.pi / 24), rel=1e-6)
+
+
+def test_the_command_names_the_foot(solver: Siconos) -> None:
+    """A few stances with nothing hidden: each foot's change and the payload at which one slips."""
+    if subprocess.run([BRACE, "stance", "load", "--help"], capture_output=True).returncode:
+        pytest.skip("brace has no 'stance load' yet")
+    for one in _cases(replace(EXACT, finite=True, seed=4), solver, 3):
+        said = one.said["brace"]
+        assert not said.failed
+        assert one.spare < judge.NEAR or said.foot == one.foot, (one.number, one.kind)
+        assert said.factor is not None and abs(said.factor / one.factor - 1) < 0.05, (one.number, one.kind)
