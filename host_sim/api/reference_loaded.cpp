@@ -1,4 +1,3 @@
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -80,9 +79,9 @@ bool gravity_is_sound(const brace_loaded_space_case_t &given)
 
 void write(const brace_loaded_case_t &, const Result &from, brace_loaded_result_t &to)
 {
-    const Eigen::Matrix2d k = from.k_n_per_mm;
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> spectrum(k);
-    double axis_rad = std::atan2(spectrum.eigenvectors()(1, 1), spectrum.eigenvectors()(0, 1));
+    const Eigen::Matrix3d &k = from.k_n_per_mm;
+    const brace::reference::Spectrum spectrum = brace::reference::spectrum(k, 2);
+    double axis_rad = std::atan2(spectrum.vectors(1, 1), spectrum.vectors(0, 1));
     if (axis_rad > kQuarterTurn) {
         axis_rad -= 2.0 * kQuarterTurn;
     } else if (axis_rad <= -kQuarterTurn) {
@@ -95,8 +94,8 @@ void write(const brace_loaded_case_t &, const Result &from, brace_loaded_result_
     to.k_xx = k(0, 0);
     to.k_xz = 0.5 * (k(0, 1) + k(1, 0));
     to.k_zz = k(1, 1);
-    to.lambda_min = spectrum.eigenvalues()[0];
-    to.lambda_max = spectrum.eigenvalues()[1];
+    to.lambda_min = spectrum.values[0];
+    to.lambda_max = spectrum.values[1];
     to.axis_rad = axis_rad;
     to.buckling_factor = from.buckling_factor;
     to.femur_rad = from.joint_rad[1];
@@ -113,7 +112,7 @@ void write(const brace_loaded_space_case_t &given, const Result &from, brace_loa
     const Eigen::Matrix3d from_plane = yaw(given.theta0_rad);
     const Vector3d displacement_mm = from_plane * from.displacement_mm;
     const Vector3d force_n = from_plane * from.force_n;
-    const Eigen::Matrix3d k = from_plane * Eigen::Matrix3d(from.k_n_per_mm) * from_plane.transpose();
+    const Eigen::Matrix3d k = from_plane * from.k_n_per_mm * from_plane.transpose();
     to.dx_mm = displacement_mm.x();
     to.dy_mm = displacement_mm.y();
     to.dz_mm = displacement_mm.z();

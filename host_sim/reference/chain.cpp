@@ -2,16 +2,14 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <numeric>
 
 namespace brace::reference {
 namespace {
-
-using Eigen::Index;
-using Eigen::VectorXd;
 
 constexpr double kAtRest = 1e-10;       // largest last Newton step [mm at the tip, rad or mm at a spring]
 constexpr double kRounding = 1e-13;     // of all terms of an energy: smaller differences are rounding
@@ -23,80 +21,134 @@ constexpr double kFactorRounding = 1e-10; // relative, of the buckling factor
 constexpr double kEnclosed = 1.02;        // ratio of the bounds between which inverse iteration seeks the factor
 constexpr int kInverseSteps = 4;
 
-Index count(const Chain &chain)
+Scalars stiffnesses(const Chain &chain)
 {
-    return static_cast<Index>(chain.springs.size());
+    Scalars k(chain.springs.size());
+    std::transform(chain.springs.begin(), chain.springs.end(), k.begin(),
+                   [](const Spring &each) { return each.stiffness; });
+    return k;
 }
 
-VectorXd stiffnesses(const Chain &chain)
+double dot(const Scalars &a, const Scalars &b)
 {
-    VectorXd k(count(chain));
-    for (Index i = 0; i < k.size(); ++i) {
-        k[i] = chain.springs[static_cast<std::size_t>(i)].stiffness;
+    return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+}
+
+Scalars product(Scalars a, const Scalars &b) // of each pair
+{
+    std::transform(a.begin(), a.end(), b.begin(), a.begin(), std::multiplies<>());
+    return a;
+}
+
+Scalars added(Scalars a, double scale, const Scalars &b) // a + scale b
+{
+    std::transform(a.begin(), a.end(), b.begin(), a.begin(), [scale](double x, double y) { return x + scale * y; });
+    return a;
+}
+
+double largest(const Scalars &a) // magnitude; not a number where one of them is none
+{
+    double found = 0.0;
+    for (const double each : a) {
+        if (std::fabs(each) > found || std::isnan(each)) {
+            found = std::fabs(each);
+        }
     }
-    return k;
+    return found;
+}
+
+Scalars along(const Vectors &vectors, const Vector3d &direction) // vectors' direction
+{
+    Scalars products(vectors.size());
+    std::transform(vectors.begin(), vectors.end(), products.begin(),
+                   [&direction](const Vector3d &each) { return each.dot(direction); });
+    return products;
+}
+
+Vector3d combined(const Vectors &vectors, const Scalars &by) // vectors by
+{
+    Vector3d total = Vector3d::Zero();
+    for (std::size_t i = 0; i < by.size(); ++i) {
+        total += vectors[i] * by[i];
+    }
+    return total;
 }
 
 // H = scale diag(k) - G as L diag(delta) L' with L_ij = c_i . w_j below its diagonal of ones.
 class Factor {
 public:
-    Factor(const VectorXd &k, double scale, const Loaded &loaded) : c_(&loaded.c), w_(3, k.size()), delta_(k.size())
+    Factor(const Scalars &k, double scale, const Loaded &loaded) : c_(&loaded.c), w_(k.size()), delta_(k.size())
     {
         Matrix3d sum = Matrix3d::Zero(); // of delta_j w_j w_j'
-        for (Index j = 0; j < k.size(); ++j) {
-            const Vector3d c = c_->col(j);
+        for (std::size_t j = 0; j < k.size(); ++j) {
+            const Vector3d &c = (*c_)[j];
             const Vector3d carried = sum * c;
-            delta_[j] = scale * k[j] - loaded.z.col(j).dot(c) - c.dot(carried);
-            w_.col(j) = -(loaded.z.col(j) + carried) / delta_[j];
-            sum += delta_[j] * w_.col(j) * w_.col(j).transpose();
+            delta_[j] = scale * k[j] - loaded.z[j].dot(c) - c.dot(carried);
+            w_[j] = -(loaded.z[j] + carried) / delta_[j];
+            sum += delta_[j] * w_[j] * w_[j].transpose();
         }
     }
 
     // How many eigenvalues of H are negative (Sylvester).
-    int negatives() const { return static_cast<int>((delta_.array() <= 0.0).count()); }
+    int negatives() const
+    {
+        return static_cast<int>(std::count_if(delta_.begin(), delta_.end(), [](double each) { return each <= 0.0; }));
+    }
 
-    bool sound() const { return delta_.allFinite() && w_.allFinite(); }
+    bool sound() const
+    {
+        return std::all_of(delta_.begin(), delta_.end(), [](double each) { return std::isfinite(each); })
+               && std::all_of(w_.begin(), w_.end(), [](const Vector3d &each) { return each.allFinite(); });
+    }
 
-    VectorXd forward(VectorXd b) const // L^-1 b
+    Scalars forward(Scalars b) const // L^-1 b
     {
         Vector3d sum = Vector3d::Zero();
-        for (Index i = 0; i < b.size(); ++i) {
-            b[i] -= c_->col(i).dot(sum);
-            sum += w_.col(i) * b[i];
+        for (std::size_t i = 0; i < b.size(); ++i) {
+            b[i] -= (*c_)[i].dot(sum);
+            sum += w_[i] * b[i];
         }
         return b;
     }
 
-    VectorXd solve(const VectorXd &b) const
+    Scalars solve(const Scalars &b) const
     {
-        VectorXd x = forward(b).cwiseQuotient(delta_);
+        Scalars x = forward(b);
         Vector3d sum = Vector3d::Zero();
-        for (Index i = x.size() - 1; i >= 0; --i) {
-            x[i] -= w_.col(i).dot(sum);
-            sum += c_->col(i) * x[i];
+        for (std::size_t i = x.size(); i-- > 0;) {
+            x[i] = x[i] / delta_[i] - w_[i].dot(sum);
+            sum += (*c_)[i] * x[i];
         }
         return x;
     }
 
     // D' J H^-1 J' D
-    Small compliance(const Eigen::Matrix3Xd &tip_by_q, const Directions &directions) const
+    Matrix3d compliance(const Vectors &tip_by_q, const Directions &directions) const
     {
-        Eigen::MatrixXd rows(delta_.size(), directions.cols());
-        for (Index a = 0; a < directions.cols(); ++a) {
-            rows.col(a) = forward(tip_by_q.transpose() * directions.col(a));
+        Scalars rows[3];
+        for (int a = 0; a < directions.count; ++a) {
+            rows[a] = forward(along(tip_by_q, directions.axes.col(a)));
         }
-        return rows.transpose() * delta_.cwiseInverse().asDiagonal() * rows;
+        Matrix3d c = Matrix3d::Zero();
+        for (std::size_t i = 0; i < delta_.size(); ++i) {
+            for (int a = 0; a < directions.count; ++a) {
+                for (int b = 0; b < directions.count; ++b) {
+                    c(a, b) += rows[a][i] * rows[b][i] / delta_[i];
+                }
+            }
+        }
+        return c;
     }
 
 private:
-    const Eigen::Matrix3Xd *c_;
-    Eigen::Matrix3Xd w_;
-    VectorXd delta_;
+    const Vectors *c_;
+    Vectors w_;
+    Scalars delta_;
 };
 
 // The smallest positive s for which diag(k) - s G is singular: 1/s is the largest eigenvalue mu of G x = mu diag(k) x.
 // mu diag(k) - G has negative eigenvalues exactly for mu below it; that encloses it, and inverse iteration finds it.
-double buckling_factor(const VectorXd &k, const Loaded &loaded)
+double buckling_factor(const Scalars &k, const Loaded &loaded)
 {
     const auto buckles = [&](double mu) { return Factor(k, mu, loaded).negatives() > 0; };
     double below = 1.0 / kNoBuckling;
@@ -118,13 +170,17 @@ double buckling_factor(const VectorXd &k, const Loaded &loaded)
         }
     };
     halve_until(kEnclosed);
-    VectorXd x = VectorXd::LinSpaced(k.size(), 1.0, 2.0);
+    Scalars x(k.size());
+    for (std::size_t i = 0; i < x.size(); ++i) { // no mode is likely to be across this
+        x[i] = 1.0 + static_cast<double>(i) / static_cast<double>(x.size());
+    }
     double mu = above;
     for (int step = 0; step < kInverseSteps; ++step) {
-        const VectorXd weighed = k.cwiseProduct(x);
-        const VectorXd next = Factor(k, mu, loaded).solve(weighed);
-        mu -= next.dot(weighed) / next.dot(k.cwiseProduct(next)); // Rayleigh's quotient
-        x = next / next.lpNorm<Eigen::Infinity>();
+        const Scalars weighed = product(k, x);
+        const Scalars next = Factor(k, mu, loaded).solve(weighed);
+        mu -= dot(next, weighed) / dot(next, product(k, next)); // Rayleigh's quotient
+        const double scale = largest(next);
+        std::transform(next.begin(), next.end(), x.begin(), [scale](double each) { return each / scale; });
         if (!(mu > below && mu < above)) {
             mu = step == 0 ? above : std::numeric_limits<double>::quiet_NaN();
         }
@@ -136,21 +192,21 @@ double buckling_factor(const VectorXd &k, const Loaded &loaded)
     return 2.0 / (above + below);
 }
 
-void finish(const Directions &directions, const VectorXd &k, RestState &rest)
+void finish(const Directions &directions, const Scalars &k, RestState &rest)
 {
     rest.compliance = Factor(k, 1.0, rest.loaded).compliance(rest.loaded.tip_by_q, directions);
     rest.buckling_factor = buckling_factor(k, rest.loaded);
 }
 
-int negatives(const Small &matrix)
+int positives(const Matrix3d &matrix, const Directions &directions)
 {
-    return static_cast<int>((eigenvalues(matrix, 1.0).array() < 0.0).count());
+    return static_cast<int>((spectrum(matrix, directions.count).values.head(directions.count).array() > 0.0).count());
 }
 
 // A descent from the undeflected chain to the next minimum of the energy.
-bool descend(const Chain &chain, const VectorXd &k, const Vector3d &force_n, RestState &rest)
+bool descend(const Chain &chain, const Scalars &k, const Vector3d &force_n, RestState &rest)
 {
-    rest.q = VectorXd::Zero(k.size());
+    rest.q.assign(k.size(), 0.0);
     rest.force_n = force_n;
     rest.placed = place(chain, rest.q);
     rest.loaded = load(chain, rest.placed, force_n);
@@ -167,23 +223,23 @@ bool descend(const Chain &chain, const VectorXd &k, const Vector3d &force_n, Res
             scale *= 2.0;
             factor = Factor(k, scale, rest.loaded);
         }
-        const VectorXd uphill = k.cwiseProduct(rest.q) - rest.loaded.load;
-        const VectorXd change = factor.solve(-uphill);
-        const double slope = uphill.dot(change);
-        const double size = std::max(change.lpNorm<Eigen::Infinity>(), (rest.loaded.tip_by_q * change).norm());
+        const Scalars downhill = added(rest.loaded.load, -1.0, product(k, rest.q));
+        const Scalars change = factor.solve(downhill);
+        const double slope = -dot(downhill, change);
+        const double size = std::max(largest(change), combined(rest.loaded.tip_by_q, change).norm());
         // Places are known to their last bit only, however little they move.
-        const double rounding_n_mm = kRounding * (forces_n_mm + k.dot(rest.q.cwiseAbs2()));
+        const double rounding_n_mm = kRounding * (forces_n_mm + dot(k, product(rest.q, rest.q)));
         double turned = 0.0; // by all hinges together
-        for (Index i = 0; i < k.size(); ++i) {
-            turned += chain.springs[static_cast<std::size_t>(i)].hinge ? std::fabs(change[i]) : 0.0;
+        for (std::size_t i = 0; i < k.size(); ++i) {
+            turned += chain.springs[i].hinge ? std::fabs(change[i]) : 0.0;
         }
         double part = turned > kMostTurned_rad ? kMostTurned_rad / turned : 1.0;
         for (;; part *= 0.5) {
-            const VectorXd q = rest.q + part * change;
+            Scalars q = added(rest.q, part, change);
             Placed placed = place(chain, q);
             const double tried = energy_n_mm(chain, placed, q, force_n);
             if (tried <= energy + 1e-4 * part * slope + rounding_n_mm) {
-                rest.q = q;
+                rest.q = std::move(q);
                 rest.placed = std::move(placed);
                 energy = tried;
                 break;
@@ -202,7 +258,7 @@ bool descend(const Chain &chain, const VectorXd &k, const Vector3d &force_n, Res
 
 // Newton's method for k q = load(q, force), tip(q) = wanted, from a state nearby. False: it does not converge there, or
 // to something that is no minimum among the states with the tip there.
-bool settle_held(const Chain &chain, const Directions &directions, const VectorXd &k, const Vector3d &wanted_mm,
+bool settle_held(const Chain &chain, const Directions &directions, const Scalars &k, const Vector3d &wanted_mm,
                  RestState &rest)
 {
     double last = std::numeric_limits<double>::infinity();
@@ -211,25 +267,26 @@ bool settle_held(const Chain &chain, const Directions &directions, const VectorX
         if (!factor.sound()) {
             return false;
         }
-        const Eigen::MatrixXd by_force = rest.loaded.tip_by_q.transpose() * directions; // J' D
-        const Small compliance = factor.compliance(rest.loaded.tip_by_q, directions);
-        const VectorXd alone = factor.solve(rest.loaded.load - k.cwiseProduct(rest.q));
-        const VectorXd missing = directions.transpose() * (wanted_mm - rest.placed.tip - rest.loaded.tip_by_q * alone);
-        const VectorXd more_force = compliance.fullPivLu().solve(missing);
-        const VectorXd change = alone + factor.solve(by_force * more_force);
-        const double size = std::max(change.lpNorm<Eigen::Infinity>(), (rest.loaded.tip_by_q * change).norm());
+        const Matrix3d compliance = factor.compliance(rest.loaded.tip_by_q, directions);
+        const Scalars alone = factor.solve(added(rest.loaded.load, -1.0, product(k, rest.q)));
+        const Vector3d missing_mm = wanted_mm - rest.placed.tip - combined(rest.loaded.tip_by_q, alone);
+        const Vector3d more_force_n =
+            directions.axes * (inverse(compliance, directions.count) * (directions.axes.transpose() * missing_mm));
+        const Scalars change = added(alone, 1.0, factor.solve(along(rest.loaded.tip_by_q, more_force_n)));
+        const double size = std::max(largest(change), combined(rest.loaded.tip_by_q, change).norm());
         if (!(size < std::numeric_limits<double>::max()) || (step > 3 && size > last)) {
             // What is left is rounding, or it runs away.
-            return last <= 100.0 * kAtRest && factor.negatives() + negatives(-compliance) == directions.cols();
+            return last <= 100.0 * kAtRest
+                   && factor.negatives() + positives(compliance, directions) == directions.count;
         }
-        rest.q += change;
-        rest.force_n += directions * more_force;
+        rest.q = added(rest.q, 1.0, change);
+        rest.force_n += more_force_n;
         rest.placed = place(chain, rest.q);
         rest.loaded = load(chain, rest.placed, rest.force_n);
         last = size;
         if (size <= kAtRest) {
             // Minimum with the tip held: the bordered matrix has as many negative eigenvalues as held directions.
-            return factor.negatives() + negatives(-compliance) == directions.cols();
+            return factor.negatives() + positives(compliance, directions) == directions.count;
         }
     }
     return false;
@@ -237,14 +294,26 @@ bool settle_held(const Chain &chain, const Directions &directions, const VectorX
 
 } // namespace
 
-Vector3d eigenvalues(const Small &matrix, double padding)
+Spectrum spectrum(const Matrix3d &matrix, int count)
 {
-    Matrix3d padded = padding * Matrix3d::Identity();
-    padded.topLeftCorner(matrix.rows(), matrix.cols()) = matrix;
-    return Eigen::SelfAdjointEigenSolver<Matrix3d>(padded, Eigen::EigenvaluesOnly).eigenvalues();
+    // What is added is larger than any eigenvalue, so that it comes last.
+    Matrix3d padded = 2.0 * matrix.norm() * Matrix3d::Identity();
+    padded.topLeftCorner(count, count) = matrix.topLeftCorner(count, count);
+    const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(padded);
+    return {solver.eigenvalues(), solver.eigenvectors()};
 }
 
-Placed place(const Chain &chain, const VectorXd &q)
+Matrix3d inverse(const Matrix3d &matrix, int count)
+{
+    const Spectrum found = spectrum(matrix, count);
+    Matrix3d inverse = Matrix3d::Zero();
+    for (int i = 0; i < count; ++i) {
+        inverse += found.vectors.col(i) * found.vectors.col(i).transpose() / found.values[i];
+    }
+    return inverse;
+}
+
+Placed place(const Chain &chain, const Scalars &q)
 {
     Placed placed;
     placed.axis.reserve(chain.springs.size());
@@ -262,7 +331,7 @@ Placed place(const Chain &chain, const VectorXd &q)
             break;
         }
         const Spring &spring = chain.springs[i];
-        const double moved = q[static_cast<Index>(i)];
+        const double moved = q[i];
         placed.axis.push_back(turn * spring.axis);
         placed.point.push_back(turn * spring.point + shift);
         if (spring.hinge) {
@@ -276,17 +345,20 @@ Placed place(const Chain &chain, const VectorXd &q)
     return placed;
 }
 
-Small unloaded_compliance(const Chain &chain, const Directions &directions)
+Matrix3d unloaded_compliance(const Chain &chain, const Directions &directions)
 {
-    const Placed placed = place(chain, VectorXd::Zero(count(chain)));
-    const Eigen::Matrix3Xd tip_by_q = load(chain, placed, Vector3d::Zero()).tip_by_q;
-    const Eigen::Matrix3d c = tip_by_q * stiffnesses(chain).cwiseInverse().asDiagonal() * tip_by_q.transpose();
-    return directions.transpose() * c * directions;
+    const Placed placed = place(chain, Scalars(chain.springs.size(), 0.0));
+    const Vectors tip_by_q = load(chain, placed, Vector3d::Zero()).tip_by_q;
+    Matrix3d c = Matrix3d::Zero();
+    for (std::size_t i = 0; i < tip_by_q.size(); ++i) {
+        c += tip_by_q[i] * tip_by_q[i].transpose() / chain.springs[i].stiffness;
+    }
+    return directions.axes.transpose() * c * directions.axes;
 }
 
-double energy_n_mm(const Chain &chain, const Placed &placed, const VectorXd &q, const Vector3d &force_n)
+double energy_n_mm(const Chain &chain, const Placed &placed, const Scalars &q, const Vector3d &force_n)
 {
-    double energy = 0.5 * stiffnesses(chain).dot(q.cwiseAbs2()) - force_n.dot(placed.tip - chain.tip);
+    double energy = 0.5 * dot(stiffnesses(chain), product(q, q)) - force_n.dot(placed.tip - chain.tip);
     for (std::size_t m = 0; m < chain.weights.size(); ++m) {
         energy -= chain.weights[m].force_n.dot(placed.weight[m] - chain.weights[m].point);
     }
@@ -295,52 +367,52 @@ double energy_n_mm(const Chain &chain, const Placed &placed, const VectorXd &q, 
 
 Loaded load(const Chain &chain, const Placed &placed, const Vector3d &force_n)
 {
-    const Index n = count(chain);
-    Loaded loaded{VectorXd(n), Eigen::Matrix3Xd(3, n), Eigen::Matrix3Xd(3, n), Eigen::Matrix3Xd(3, n)};
+    const std::size_t n = chain.springs.size();
+    Loaded loaded{Scalars(n), Vectors(n), Vectors(n), Vectors(n)};
     // Sums over the loads beyond a spring, places taken from the tip so that nothing large cancels.
     Vector3d force = force_n;
     Matrix3d place_force = Matrix3d::Zero(); // sum (x_m - tip) f_m'
     auto weight = chain.weights.size();
-    for (Index j = n - 1; j >= 0; --j) {
-        const auto at = static_cast<std::size_t>(j);
-        for (; weight > 0 && chain.weights[weight - 1].after > at; --weight) {
+    for (std::size_t j = n; j-- > 0;) {
+        for (; weight > 0 && chain.weights[weight - 1].after > j; --weight) {
             const Vector3d &more = chain.weights[weight - 1].force_n;
             force += more;
             place_force += (placed.weight[weight - 1] - placed.tip) * more.transpose();
         }
-        const Vector3d &axis = placed.axis[at];
-        if (!chain.springs[at].hinge) {
+        const Vector3d &axis = placed.axis[j];
+        if (!chain.springs[j].hinge) {
             loaded.load[j] = axis.dot(force);
-            loaded.tip_by_q.col(j) = axis;
-            loaded.z.col(j).setZero();
-            loaded.c.col(j) = axis.cross(force);
+            loaded.tip_by_q[j] = axis;
+            loaded.z[j].setZero();
+            loaded.c[j] = axis.cross(force);
             continue;
         }
-        const Vector3d arm = placed.tip - placed.point[at];
+        const Vector3d arm = placed.tip - placed.point[j];
         const Matrix3d lever_force = place_force + arm * force.transpose(); // sum r f'
         const Vector3d moment(lever_force(1, 2) - lever_force(2, 1), lever_force(2, 0) - lever_force(0, 2),
                               lever_force(0, 1) - lever_force(1, 0)); // sum r x f
         loaded.load[j] = axis.dot(moment);
-        loaded.tip_by_q.col(j) = axis.cross(arm);
-        loaded.z.col(j) = axis;
-        loaded.c.col(j) = lever_force * axis - lever_force.trace() * axis; // sum (z x r) x f
+        loaded.tip_by_q[j] = axis.cross(arm);
+        loaded.z[j] = axis;
+        loaded.c[j] = lever_force * axis - lever_force.trace() * axis; // sum (z x r) x f
     }
     return loaded;
 }
 
 bool rest_under_force(const Chain &chain, const Directions &directions, const Vector3d &force_n, RestState &rest)
 {
-    const VectorXd k = stiffnesses(chain);
+    const Scalars k = stiffnesses(chain);
     if (!descend(chain, k, force_n, rest)) {
         return false;
     }
     finish(directions, k, rest);
     return true;
 }
+
 bool rest_under_displacement(const Chain &chain, const Directions &directions, const Vector3d &displacement_mm,
                              RestState &rest)
 {
-    const VectorXd k = stiffnesses(chain);
+    const Scalars k = stiffnesses(chain);
     if (!descend(chain, k, Vector3d::Zero(), rest)) {
         return false;
     }

@@ -41,42 +41,60 @@ struct Chain {
     Vector3d tip; // at no deflection [mm]
 };
 
-// Columns span the directions in which the tip yields: x and z in the plane, all three in space.
-using Directions = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3>;
-using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3>;
+// The directions in which the tip yields: the first `count` columns; the others are zero. A matrix over them (C, K) has
+// its first `count` rows and columns; the rest is zero.
+struct Directions {
+    Matrix3d axes;
+    int count;
+};
 
-// Of a symmetric matrix, ascending; what it lacks to three rows counts as `padding`.
-Vector3d eigenvalues(const Small &matrix, double padding);
+inline const Directions kInPlane = {(Matrix3d() << 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0).finished(), 2}; // x, z
+inline const Directions kInSpace = {Matrix3d::Identity(), 3};
+
+// Of the first `count` rows and columns of a symmetric matrix; the first `count` are valid.
+struct Spectrum {
+    Vector3d values; // ascending
+    Matrix3d vectors;
+};
+
+Spectrum spectrum(const Matrix3d &matrix, int count);
+
+// Inverse of the first `count` rows and columns of a symmetric matrix; the rest is zero.
+Matrix3d inverse(const Matrix3d &matrix, int count);
+
+// One number, or one vector, for each spring. Eigen's matrices of sizes known at run time take minutes to compile.
+using Scalars = std::vector<double>;
+using Vectors = std::vector<Vector3d>;
 
 // The chain at some deflections.
 struct Placed {
-    std::vector<Vector3d> axis, point; // of each spring, now
-    std::vector<Vector3d> weight; // places of the weights, now
+    Vectors axis, point; // of each spring, now
+    Vectors weight; // places of the weights, now
     Vector3d tip;
 };
 
-Placed place(const Chain &chain, const Eigen::VectorXd &q);
+Placed place(const Chain &chain, const Scalars &q);
 
 // C without any load.
-Small unloaded_compliance(const Chain &chain, const Directions &directions);
+Matrix3d unloaded_compliance(const Chain &chain, const Directions &directions);
 
-double energy_n_mm(const Chain &chain, const Placed &placed, const Eigen::VectorXd &q, const Vector3d &force_n);
+double energy_n_mm(const Chain &chain, const Placed &placed, const Scalars &q, const Vector3d &force_n);
 
 // What spring forces, tip force and weights do at every spring, and the two factors of G.
 struct Loaded {
-    Eigen::VectorXd load; // sum_m dx_m/dq . f_m: moment about a hinge, force along a slide
-    Eigen::Matrix3Xd tip_by_q; // J
-    Eigen::Matrix3Xd z, c; // G_ij = z_i . c_j for i <= j
+    Scalars load; // sum_m dx_m/dq . f_m: moment about a hinge, force along a slide
+    Vectors tip_by_q; // J
+    Vectors z, c; // G_ij = z_i . c_j for i <= j
 };
 
 Loaded load(const Chain &chain, const Placed &placed, const Vector3d &force_n);
 
 struct RestState {
-    Eigen::VectorXd q;
+    Scalars q;
     Placed placed;
     Loaded loaded;
     Vector3d force_n; // of the ground on the tip
-    Small compliance; // in the given directions
+    Matrix3d compliance; // over the given directions
     double buckling_factor; // infinity: none
 };
 

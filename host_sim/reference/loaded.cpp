@@ -1,7 +1,6 @@
 #include "reference/loaded.h"
 
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -143,7 +142,7 @@ private:
 
 double deflection(const RestState &rest, std::size_t spring)
 {
-    return spring == LimbChain::npos ? 0.0 : rest.q[static_cast<Eigen::Index>(spring)];
+    return spring == LimbChain::npos ? 0.0 : rest.q[spring];
 }
 
 // The moment of all loads beyond a joint about its axis; a rigid joint bears it too.
@@ -161,35 +160,28 @@ double moment_n_mm(const LimbChain &limb, const RestState &rest, std::size_t mar
     return axis.dot(moment);
 }
 
-Directions directions(bool with_coxa)
+const Directions &directions(bool with_coxa)
 {
-    Directions directions(3, with_coxa ? 3 : 2);
-    if (with_coxa) {
-        directions.setIdentity();
-    } else {
-        directions << 1.0, 0.0, 0.0, 0.0, 0.0, 1.0;
-    }
-    return directions;
+    return with_coxa ? kInSpace : kInPlane;
 }
 
-bool yields(const Small &compliance)
+bool yields(const Matrix3d &compliance, int count)
 {
-    const double mean = compliance.trace() / static_cast<double>(compliance.rows());
-    const Vector3d values = eigenvalues(compliance, mean);
-    return values[0] > kRigid * values[2];
+    const Vector3d values = spectrum(compliance, count).values;
+    return values[0] > kRigid * values[count - 1];
 }
 
 // One chain's numbers: all that the extrapolation takes together.
 struct Numbers {
     Result result;
-    Small compliance;
+    Matrix3d compliance;
     double buckling; // 1 / the factor
 };
 
 template <typename Solve>
 Outcome solve_one(const LimbChain &limb, const Directions &along_which, Solve solve, Numbers &numbers)
 {
-    if (!yields(unloaded_compliance(limb.chain, along_which))) {
+    if (!yields(unloaded_compliance(limb.chain, along_which), along_which.count)) {
         return Outcome::rigid;
     }
     RestState rest;
@@ -199,7 +191,7 @@ Outcome solve_one(const LimbChain &limb, const Directions &along_which, Solve so
     Result &result = numbers.result;
     result.displacement_mm = rest.placed.tip - limb.chain.tip;
     result.force_n = rest.force_n;
-    result.k_n_per_mm = rest.compliance.inverse();
+    result.k_n_per_mm = inverse(rest.compliance, along_which.count);
     for (int joint = 0; joint < 3; ++joint) {
         result.joint_rad[joint] = deflection(rest, limb.joint[joint]);
         result.joint_n_mm[joint] = moment_n_mm(limb, rest, limb.mark[joint]);
@@ -218,7 +210,7 @@ template <typename Number> void extrapolate(const Number &coarse, Number &fine)
     fine += (fine - coarse) / 3.0;
 }
 
-void extrapolate(const Numbers &coarse, bool force_given, Numbers &fine)
+void extrapolate(const Numbers &coarse, bool force_given, int count, Numbers &fine)
 {
     extrapolate(coarse.result.displacement_mm, fine.result.displacement_mm);
     extrapolate(coarse.result.force_n, fine.result.force_n);
@@ -230,7 +222,7 @@ void extrapolate(const Numbers &coarse, bool force_given, Numbers &fine)
     // What is given has no error: C is then the derivative of the extrapolated displacement, or K of the force.
     if (force_given) {
         extrapolate(coarse.compliance, fine.compliance);
-        fine.result.k_n_per_mm = fine.compliance.inverse();
+        fine.result.k_n_per_mm = inverse(fine.compliance, count);
     } else {
         extrapolate(coarse.result.k_n_per_mm, fine.result.k_n_per_mm);
     }
@@ -243,7 +235,7 @@ template <typename Solve>
 Outcome solve_limb(const Limb &limb, const Posture &posture, const Weights &weights, bool with_coxa, int parts,
                    bool force_given, Solve solve, Result &result)
 {
-    const Directions along_which = directions(with_coxa);
+    const Directions &along_which = directions(with_coxa);
     const auto with_parts = [&](int so_many, Numbers &numbers) {
         return solve_one(chain_of(limb, posture, weights, with_coxa, so_many), along_which, solve, numbers);
     };
@@ -258,7 +250,7 @@ Outcome solve_limb(const Limb &limb, const Posture &posture, const Weights &weig
         if (outcome != Outcome::found) {
             return outcome;
         }
-        extrapolate(coarse, force_given, fine);
+        extrapolate(coarse, force_given, along_which.count, fine);
     }
     result = fine.result;
     result.buckling_factor =

@@ -35,7 +35,7 @@ struct Weights {
 struct Result {
     Vector3d displacement_mm; // of the tip, from its place on the limb without weight and force
     Vector3d force_n; // of the ground on the tip
-    Small k_n_per_mm; // 2x2 over x, z in the plane; 3x3 in space
+    Matrix3d k_n_per_mm; // its first 2x2 over x, z in the plane; 3x3 in space
     double buckling_factor; // infinity: none
     Vector3d joint_rad; // deflection of coxa, femur, tibia joint; counter-clockwise, an open knee positive
     Vector3d joint_n_mm; // the moment that turns them so
