@@ -39,6 +39,7 @@ C_PARTS = {  # changed folder: folder of its tests
     "hal": "tests/unit/hal",
     "host_sim": "tests/host_sim",
     "tools/client": "tests/client",
+    "tools/stance": "tests/stance",
 }
 INTERFACE = ("firmware/interface", "tools/interface")  # the dictionary, and what writes all that follows from it
 

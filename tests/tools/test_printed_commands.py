@@ -100,7 +100,7 @@ def test_the_page_of_the_bus_runs(
 
 
 RUN = {  # page: how the commands begin that run here, in the page's order
-    "README.md": (("k",), ("map",), ("plan",), ("simulate",), ("diagnose",)),
+    "README.md": (("k",), ("map",), ("plan",), ("stance",), ("simulate",), ("diagnose",)),
     "your-limb.md": (("new", "--out", "limb.toml", "--femur"), ("export",)),
 }
 ONLY_PARSED = {  # page, and how the commands begin: why
@@ -115,6 +115,7 @@ ONLY_PARSED = {  # page, and how the commands begin: why
     ("joints.md", "sim"): "test_pages_commands.py; the one with servos on /dev/ttyUSB0 needs them: tests/servo",
     ("plan.md", "plan"): "test_pages_commands.py",
     ("porting.md", ""): "needs a board; test_doctor.py and test_flash.py",
+    ("stance.md", "stance"): "the README's",
     ("your-limb.md", "new --out limb.toml --urdf"): "test_pages_commands.py",
     ("bus.md", ""): "below",
 }
@@ -139,7 +140,8 @@ def test_a_page_runs_in_its_order(
 ) -> None:
     """With the lines of sed between them, in a folder that has the project's limb where the page says."""
     monkeypatch.chdir(tmp_path)
-    Path("tools").symlink_to(PROJECT / "tools")
+    for folder in ("tools", "examples"):
+        Path(folder).symlink_to(PROJECT / folder)
     page = next(page for page in PAGES if page.name == name)
     ran = set()
     for line in lines_of_code(page):
@@ -187,6 +189,7 @@ OTHER_PROGRAMS = {  # how a command begins, without .venv/bin/: where it runs, o
     "cantools monitor": "tests/socketcan/test_readme_lines.py",
     "cmake -S firmware/core": "test_cmake_packages.py",
     "cmake -S tools/client": "tests/client/test_package.py",
+    "cmake -S tools/stance": "tests/tools/stance/test_stance_alone.py",
     "cmake --build build/client": "tests/client/test_package.py",
     "cmake --install build/client": "tests/client/test_package.py",
     "build/client/print_k": "tests/client",

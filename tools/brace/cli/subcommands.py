@@ -16,6 +16,7 @@ SUBCOMMANDS = {
     "identify": "a limb's parameters from measurements, with intervals",
     "diagnose": "where model and data disagree, what is missing, the model with it added",
     "plan": "a posture and a pressing force for a wanted stiffness, contact and payload",
+    "stance": "a body on several limbs: what each foot bears, which lets go first",
     "params": "a limb model as the controller's parameter block, and back",
     "demo": "the paper's table and a simulated limb, end to end",
     "sim": "the controller's own code over simulated limbs, on loopback ports",

@@ -39,6 +39,7 @@ FIRMWARE_HEADERS = (
     "parameters.h",
     "play_parameters.h",
     "status_text.h",
+    "stance.h",
 )
 HOST_HEADER = "brace_host.h"
 NODE_HEADER = "brace_node.h"  # the controller and its limb in one process
@@ -51,6 +52,7 @@ _HEADER_FOLDERS = (
     "firmware/app/include",
     "hal/include",
     "host_sim/api",
+    "tools/stance/include",
 )
 
 

@@ -146,7 +146,7 @@ def load_rig(path: Path) -> Rig:
 
 def _axes(values: Mapping[str, toml.Value]) -> set[str]:
     axes = values["rig.axes"]
-    return set(axes) if isinstance(axes, list) else set()
+    return {str(axis) for axis in axes} if isinstance(axes, list) else set()
 
 
 def _pose(document: toml.Document, index: int, pose: Mapping[str, object]) -> Mapping[str, toml.Value]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from brace.model import LimbModel
@@ -98,6 +100,25 @@ class LoadedLimbInSpace:
         load.tip_n.x, load.tip_n.y, load.tip_n.z = (float(part) for part in force_n[0])
         return sigma_in_space(self._native, self._limb, self._weights, self._true(theta_rad)[0].tolist(), load)
 
+    def spring(self, theta_rad: np.ndarray, force_n: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
+        """At one posture and force as `stiffness` has them: K's entries (xx, xy, xz, yy, yz, zz) and the tip's
+        displacement, both in the limb's plane's frame; None where it has no rest. A third of `stiffness`'s time:
+        nothing else is worked out. Raises PostureError."""
+        if any(spring.hardens for spring in self._springs):
+            if np.isnan(self.stiffness(theta_rad[None, :], force_n[None, :])[SPATIAL_K[0]][0]):
+                return None
+        else:
+            true_rad = (theta_rad + self._offset_rad).tolist()
+            true_rad[2] = math.remainder(true_rad[2], 2.0 * math.pi)
+            status = self._settle(true_rad, force_n.tolist())
+            if status == E_SINGULAR:
+                return None
+            if status:
+                raise PostureError(0, status, status_text(self._native, status))
+        k, moved = self._found.k, self._found.displacement_mm
+        entries = (k.xx_n_per_mm, k.xy_n_per_mm, k.xz_n_per_mm, k.yy_n_per_mm, k.yz_n_per_mm, k.zz_n_per_mm)
+        return np.array(entries), np.array((moved.x, moved.y, moved.z))
+
     def refusal(self, index: int) -> PostureError:
         """Why a row without a rest has no K."""
         return PostureError(index, E_SINGULAR, NO_REST)
@@ -110,15 +131,20 @@ class LoadedLimbInSpace:
         result["flags"] = lib.BRACE_FLAG_NEAR_SINGULAR | lib.BRACE_FLAG_SOFTENED
         return result
 
-    def _one(self, theta_rad: list[float], force_n: list[float]) -> np.ndarray:
-        """One posture; where it is refused, a status."""
-        lib, load, rest, found, turned = self._native.lib, self._load, self._rest, self._found, self._turned
+    def _settle(self, theta_rad: list[float], force_n: list[float]) -> int:
+        """Writes self._found; returns a status."""
+        lib, load, rest = self._native.lib, self._load, self._rest
         load.tip_n.x, load.tip_n.y, load.tip_n.z = force_n
-        result = np.zeros(1, _RESULT)
         status = lib.brace_loaded_space_settle(self._loaded, theta_rad[1], theta_rad[2], load, rest)
         if status in (0, E_SINGULAR):  # nobody waits: on to what is rounded away, or to a rest that four steps miss
             status = lib.brace_loaded_space_settle_on(self._loaded, rest)
-        status = status or lib.brace_loaded_space_stiffness(self._loaded, rest, found)
+        return int(status or lib.brace_loaded_space_stiffness(self._loaded, rest, self._found))
+
+    def _one(self, theta_rad: list[float], force_n: list[float]) -> np.ndarray:
+        """One posture; where it is refused, a status."""
+        lib, rest, found, turned = self._native.lib, self._rest, self._found, self._turned
+        result = np.zeros(1, _RESULT)
+        status = self._settle(theta_rad, force_n)
         status = status or lib.brace_loaded_space_turn(theta_rad[0], self._native.ffi.addressof(found.k), turned)
         result["status"] = status
         if status == 0:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from brace.ground.errors import BadFileError, did_you_mean
 from brace.toml.document import Document
 from brace.toml.likely_unit import likely
 
-Value = float | str | bool | int | list[str]
+Value = float | str | bool | int | list[str] | list[float]
 
 
 @dataclass(frozen=True)
@@ -18,14 +18,15 @@ class Key:
     """A key that a file may have. Numbers are `low <= value <= high` (`low < value` when `open_low`)."""
 
     name: str  # dotted: "link.femur.bending_mm_per_n"
-    default: Value | list[str] | None  # None: must be given
+    default: Value | None  # None: must be given
     meaning: str
     unit: str = ""
     low: float = -math.inf
     high: float = math.inf
     open_low: bool = False
     infinite: bool = False  # may inf be written?
-    kind: str = "number"  # number, integer, text, flag, ratio (a number in [0, 1] or true/false), list
+    # number, integer, text, flag, ratio (a number in [0, 1] or true/false), list, vector (three numbers)
+    kind: str = "number"
     choices: tuple[str, ...] = ()
     numbers: tuple[int, ...] = ()  # an integer must be one of these
 
@@ -48,7 +49,7 @@ class Key:
         left = "(" if self.open_low or self.low == -math.inf else "["
         if self.low == self.high:
             return f"{self.low:g}{unit}"
-        noun = "a whole number" if self.kind == "integer" else "a number"
+        noun = {"integer": "a whole number", "vector": "[x, y, z], each"}.get(self.kind, "a number")
         also = ", or true/false" if self.kind == "ratio" else ""
         return f"{noun} in {left}{self.low:g}, {right}{unit}{also}"
 
@@ -106,7 +107,7 @@ def _flatten(content: Mapping[str, object], prefix: str = "") -> Iterable[tuple[
 
 
 _LIKE_ELSEWHERE = 0.8  # a key of another table is meant only where the whole name is so like it
-_KINDS = {"geometry": "limb model", "configuration": "rig file", "kind": "dataset's meta.toml"}
+_KINDS = {"geometry": "limb model", "configuration": "rig file", "kind": "dataset's meta.toml", "body": "stance file"}
 """What a file is that has such a key."""
 
 
@@ -214,6 +215,11 @@ def _checked(document: Document, name: str, key: Key, value: object) -> Value:
         if not isinstance(value, list) or not value or any(item not in key.choices for item in value):
             raise refuse("it must be a list of " + ", ".join(key.choices))
         return list(value)
+    if key.kind == "vector":
+        if not isinstance(value, list) or len(value) != 3:
+            raise refuse("it must be three numbers in brackets")
+        one = replace(key, kind="number")
+        return [float(str(_checked(document, name, one, item))) for item in value]
     if key.kind == "ratio" and isinstance(value, bool):
         return 1.0 if value else 0.0
     if isinstance(value, bool) or not isinstance(value, (int, float)):

@@ -1,0 +1,244 @@
+"""`brace stance`: the file, the answers, what is refused."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from brace.ground.errors import BadFileError
+from brace.stance.limb_law import LimbLaw
+from brace.stance.stance_file import load_stance, turn_of
+
+from tests.tools.conftest import Outcome
+
+LIMB = """format = 1
+[geometry]
+coxa_mm = 55.0
+femur_mm = 110.0
+tibia_mm = 130.0
+[link.coxa]
+bending_mm_per_n = 0.01
+lateral_mm_per_n = 0.01
+[link.femur]
+bending_mm_per_n = 0.05
+lateral_mm_per_n = 0.05
+torsion_rad_per_n_mm = 1e-6
+[link.tibia]
+bending_mm_per_n = 0.1
+lateral_mm_per_n = 0.1
+[joint.coxa]
+compliance_rad_per_n_mm = 1e-5
+[joint.femur]
+compliance_rad_per_n_mm = 1e-5
+[joint.tibia]
+compliance_rad_per_n_mm = 1e-5
+[gravity]
+femur_n = 0.5
+knee_n = 0.8
+tibia_n = 0.4
+[uncertainty]
+length_mm = 0.2
+angle_rad = 0.003
+compliance_rel = 0.1
+"""
+CORNERS = {  # x, y and yaw in quarters of pi
+    "front left": (120, 90, 1),
+    "front right": (120, -90, -1),
+    "rear left": (-120, 90, 3),
+    "rear right": (-120, -90, -3),
+}
+WEIGHT_N, LIMBS_N = 30.0, 4 * 1.7
+PAYLOAD = "[payload]\nforce_n = [4.0, 0.0, -2.0]\nat_mm = [20.0, 0.0, 30.0]\n"
+
+
+def write(
+    folder: Path, payload: str = PAYLOAD, friction: float = 0.9, corners: dict[str, tuple[int, int, int]] = CORNERS
+) -> Path:
+    (folder / "limb.toml").write_text(LIMB)
+    text = f'format = 1\nname = "four"\n[body]\nweight_n = {WEIGHT_N}\n{payload}'
+    for name, (x, y, quarter) in corners.items():
+        text += f'[[limb]]\nname = "{name}"\nmodel = "limb.toml"\nmount_mm = [{x}.0, {y}.0, 0.0]\n'
+        text += f"mount_rpy_rad = [0.0, 0.0, {quarter * math.pi / 4}]\ntheta_rad = [0.0, 0.4, 1.6]\n"
+        text += f"[limb.foothold]\nfriction = {friction}\n"
+    path = folder / "stance.toml"
+    path.write_text(text)
+    return path
+
+
+@pytest.fixture
+def stance(tmp_path: Path) -> Path:
+    return write(tmp_path)
+
+
+def forces(answer: dict[str, list[dict[str, list[float]]]]) -> np.ndarray:
+    return np.array([limb["force_n"] for limb in answer["limbs"]])
+
+
+def test_the_feet_bear_weight_limbs_and_payload(brace: Callable[..., Outcome], stance: Path) -> None:
+    found = json.loads(brace("stance", "load", stance, "--draws", 20, "--json").out)
+    assert list(found) == ["limbs", "body", "change", "first_slip", "flags"]
+    borne = forces(found).sum(axis=0)
+    assert borne == pytest.approx([-4.0, 0.0, WEIGHT_N + LIMBS_N + 2.0], abs=1e-6)
+    assert forces(found["change"]).sum(axis=0) == pytest.approx([-4.0, 0.0, 2.0], abs=1e-6)
+    for limb in found["limbs"]:
+        low, force, high = (np.array(limb[key]) for key in ("force_low_n", "force_n", "force_high_n"))
+        assert np.all(low < force) and np.all(force < high) and limb["state"] == "sticks"
+    first = found["first_slip"]
+    assert first["limb"] in CORNERS and first["low"] <= first["payload_factor"] <= first["high"]
+    assert forces(found)[0][0] == pytest.approx(forces(found)[1][0]) and found["body"]["displacement_mm"][2] < 0.0
+
+
+def test_a_payload_at_its_factor_makes_the_first_foot_slide(brace: Callable[..., Outcome], tmp_path: Path) -> None:
+    first = json.loads(brace("stance", "load", write(tmp_path), "--draws", 20, "--json").out)["first_slip"]
+    for more, slides in ((0.98, False), (1.03, True)):
+        factor = more * first["payload_factor"]
+        path = write(
+            tmp_path, f"[payload]\nforce_n = [{4.0 * factor}, 0.0, {-2.0 * factor}]\nat_mm = [20.0, 0.0, 30.0]\n"
+        )
+        found = json.loads(brace("stance", "load", path, "--draws", 20, "--json").out)
+        states = {limb["name"]: limb["state"] for limb in found["limbs"]}
+        assert (states[first["limb"]] == "slides") == slides, states
+
+
+def test_measured_forces_make_the_answer_narrow(brace: Callable[..., Outcome], stance: Path, tmp_path: Path) -> None:
+    measured = tmp_path / "m.csv"
+    rows = [(-4.0, -4.0, 9.2), (-4.5, 4.2, 9.5), (4.2, -4.0, 9.0), (4.1, 3.9, 9.1)]
+    lines = [f"{name},{x},{y},{z}" for name, (x, y, z) in zip(CORNERS, rows)]
+    measured.write_text("\n".join(["limb,fx_n,fy_n,fz_n", *reversed(lines)]) + "\n")
+    free = json.loads(brace("stance", "load", stance, "--json").out)
+    known = json.loads(brace("stance", "load", stance, "--measured", measured, "--json").out)
+    for a, b in zip(free["limbs"], known["limbs"]):
+        wide, narrow = (np.subtract(limb["force_high_n"], limb["force_low_n"]) for limb in (a, b))
+        assert np.all(narrow < 0.5 * wide)
+    before = forces(known) - forces(known["change"])
+    assert before == pytest.approx(np.array(rows), abs=0.5) and known["flags"] == []
+
+
+def test_forces_that_do_not_carry_the_weight_are_flagged(
+    brace: Callable[..., Outcome], stance: Path, tmp_path: Path
+) -> None:
+    measured = tmp_path / "m.csv"
+    measured.write_text("limb,fx_n,fy_n,fz_n\n" + "".join(f"{name},0,0,4\n" for name in CORNERS))
+    found = json.loads(brace("stance", "load", stance, "--measured", measured, "--draws", 20, "--json").out)
+    assert any(
+        flag.startswith("measured_unbalanced: forces and weight leave 0.00 0.00 -20.80 N") for flag in found["flags"]
+    )
+
+
+def test_torques_are_the_forces_they_come_from(brace: Callable[..., Outcome], stance: Path, tmp_path: Path) -> None:
+    drawn = load_stance(stance)
+    rows = np.array([(-2.0, -2.0, 9.2), (-2.0, 2.0, 9.2), (2.0, -2.0, 9.2), (2.0, 2.0, 9.2)])
+    by_force, by_torque = tmp_path / "f.csv", tmp_path / "t.csv"
+    by_force.write_text("limb,fx_n,fy_n,fz_n\n" + "".join(f"{n},{x},{y},{z}\n" for n, (x, y, z) in zip(CORNERS, rows)))
+    torques = [LimbLaw(limb, drawn.down).torques_n_mm(force) for limb, force in zip(drawn.limbs, rows)]
+    by_torque.write_text(
+        "limb,tau0_n_mm,tau1_n_mm,tau2_n_mm\n" + "".join(f"{n},{a},{b},{c}\n" for n, (a, b, c) in zip(CORNERS, torques))
+    )
+    first, second = (
+        json.loads(brace("stance", "load", stance, "--measured", path, "--draws", 20, "--json").out)
+        for path in (by_force, by_torque)
+    )
+    # gears hide up to 200 N mm a joint, some 2 N of a force: the middle is the same, the interval is wider
+    assert forces(first) == pytest.approx(forces(second), abs=0.1)
+    width = [np.ptp([answer["limbs"][0][f"force_{end}_n"][2] for end in ("low", "high")]) for answer in (first, second)]
+    assert width[1] > width[0]
+
+
+def test_torques_are_the_moments_of_force_and_weights(stance: Path) -> None:
+    """About each joint's axis, by cross products of places found by turning the limb a little."""
+    drawn = load_stance(stance)
+    limb = drawn.limbs[2]
+    law, force, small = LimbLaw(limb, drawn.down), np.array([1.5, -2.0, 9.0]), 1e-6
+    work = []
+    for joint in range(3):
+        theta = limb.theta_rad.copy()
+        theta[joint] += small
+        other = LimbLaw(type(limb)(**{**vars(limb), "theta_rad": theta}), drawn.down)
+        by_weights = sum(n * drawn.down @ (b - a) for (n, a), (_, b) in zip(law.weights(), other.weights()))
+        work.append((force @ (other.tip_mm - law.tip_mm) + by_weights) / small)
+    assert law.torques_n_mm(force) == pytest.approx(work, rel=1e-4)
+
+
+def test_without_a_stance_the_nearest_load_is_said(brace: Callable[..., Outcome], tmp_path: Path) -> None:
+    path = write(tmp_path, "[payload]\nforce_n = [80.0, 0.0, 0.0]\n")
+    done = brace("stance", "load", path, "--draws", 20, "--json")
+    assert done.code == 5
+    found = json.loads(done.out)
+    assert "slide" in found["reason"] and 0.1 < found["nearest_load"]["payload_factor"] < 0.5
+    done = brace("stance", "load", path, "--draws", 20)
+    assert done.code == 5 and "% of the payload is borne" in done.err and done.out == ""
+    two = {name: CORNERS[name] for name in ("front left", "rear right")}
+    done = brace("stance", "load", write(tmp_path, corners=two), "--json")
+    assert done.code == 5 and "do not hold the body" in json.loads(done.out)["reason"]
+
+
+def test_several_stances_are_lines(brace: Callable[..., Outcome], stance: Path) -> None:
+    lines = brace("stance", "load", stance, stance, "--draws", 20, "--json").out.splitlines()
+    assert len(lines) == 2 and lines[0] == lines[1] and json.loads(lines[0])["limbs"][0]["name"] == "front left"
+
+
+def test_show_and_lift_say_it_in_words(brace: Callable[..., Outcome], stance: Path) -> None:
+    shown = brace("stance", "show", stance)
+    assert shown.code == 0 and "rear right" in shown.out and "the body gives way by" in shown.out
+    found = json.loads(brace("stance", "show", stance, "--json").out)
+    assert found["limbs"][0]["foot_mm"][:2] == pytest.approx([263.8, 233.8], abs=0.1)
+    lifted = json.loads(brace("stance", "lift", stance, "--json").out)["lifted"]
+    assert [one["name"] for one in lifted] == list(CORNERS)
+    for one in lifted:
+        if one["stands"]:
+            assert forces(one).sum(axis=0)[2] == pytest.approx(WEIGHT_N + LIMBS_N + 2.0, abs=1e-6)
+            assert len(one["limbs"]) == 3
+    assert brace("stance", "lift", stance, "--limb", "front").code == 2
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "says"),
+    [
+        ("weight_n = 30.0", "weight_n = -1.0", "body.weight_n = -1.0 is not allowed"),
+        ("weight_n = 30.0", "wieght_n = 30.0", "unknown key body.wieght_n"),
+        ("mount_mm = [120.0, 90.0, 0.0]", "mount_mm = [120.0, 90.0]", "limb.0.mount_mm"),
+        ('name = "front right"', 'name = "front left"', "two limbs are named 'front left'"),
+        ("friction = 0.9", "friction = 0.9\nnormal = [0, 0, 0]", "limb.0.foothold.normal has no direction"),
+        ('model = "limb.toml"', 'model = "none.toml"', "none.toml"),
+        ("theta_rad = [0.0, 0.4, 1.6]", "", "limb.0.theta_rad is missing"),
+    ],
+)
+def test_a_stance_file_that_is_wrong_is_refused_by_its_line(stance: Path, old: str, new: str, says: str) -> None:
+    stance.write_text(stance.read_text().replace(old, new, 1))
+    with pytest.raises(BadFileError) as refused:
+        load_stance(stance)
+    assert says in f"{refused.value.where} {refused.value.what}"
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ("limb,fx,fy,fz\n", "no forces of limbs"),
+        ("limb,fx_n,fy_n,fz_n\nfront,1,2,3\n", "limb 'front' is none of this stance"),
+        ("limb,fx_n,fy_n,fz_n\nfront left,1,2,x\n", "fz_n = 'x' is no number"),
+        ("limb,fx_n,fy_n,fz_n\nfront left,1,2,nan\n", "fz_n = 'nan' is no number"),
+        ("limb,fx_n,fy_n,fz_n\nfront left,1,2,3\n", "no row for front right"),
+        ("", "no forces of limbs"),
+    ],
+)
+def test_a_table_that_is_wrong_is_refused(
+    brace: Callable[..., Outcome], stance: Path, tmp_path: Path, text: str, says: str
+) -> None:
+    table = tmp_path / "m.csv"
+    table.write_text(text)
+    done = brace("stance", "load", stance, "--measured", table)
+    assert done.code == 3 and says in done.err
+
+
+def test_a_mount_turns_as_urdf_says() -> None:
+    """Roll about the fixed x first, then pitch about the fixed y, then yaw about the fixed z."""
+    quarter = math.pi / 2
+    assert turn_of(quarter, 0.0, 0.0) @ [0, 1, 0] == pytest.approx([0, 0, 1])
+    assert turn_of(0.0, quarter, 0.0) @ [0, 0, 1] == pytest.approx([1, 0, 0])
+    assert turn_of(0.0, 0.0, quarter) @ [1, 0, 0] == pytest.approx([0, 1, 0])
+    assert turn_of(quarter, 0.0, quarter) @ [0, 1, 0] == pytest.approx([0, 0, 1])
+    assert turn_of(0.0, quarter, quarter) @ [1, 0, 0] == pytest.approx([0, 0, -1])

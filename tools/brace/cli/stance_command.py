@@ -1,0 +1,209 @@
+"""`brace stance`: a body on several limbs: who carries what, which foot lets go first."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from brace.cli import common
+from brace.cli.options import Subcommands
+from brace.cli.subcommands import SUBCOMMANDS
+from brace.ground.errors import EXIT_DEVICE_FAULT, EXIT_OK, EXIT_USAGE, UsageError
+
+if TYPE_CHECKING:
+    from brace.stance.stance_file import Stance
+    from brace.stance.world import Measured, NoStanceError
+
+SENSOR_SD_N = 0.3
+
+
+def add(commands: Subcommands) -> None:
+    """Declares the subcommand and its actions."""
+    parser = commands.add_parser(
+        "stance",
+        help=SUBCOMMANDS["stance"],
+        description="A body that is braced by several limbs is statically indeterminate: the limbs' stiffness decides "
+        "who carries what. stance.toml says where the limbs are mounted, their models and angles, the ground under "
+        "each foot, the weight and the payload (docs/stance.md). Forces are the ground's on the feet, in the body's "
+        "frame: x forward, y left, z up.",
+        epilog="Exit codes: 0 done, 2 usage, 3 bad file, 5 no such stance: the body would slide, fall or turn.",
+    )
+    actions = parser.add_subparsers(metavar="ACTION", dest="action")
+    _add_show(actions)
+    _add_load(actions)
+    _add_lift(actions)
+    parser.set_defaults(run=lambda _arguments: _help(parser))
+
+
+def _help(parser: argparse.ArgumentParser) -> int:
+    parser.print_help(sys.stderr)
+    return EXIT_USAGE
+
+
+def _add_show(actions: Subcommands) -> None:
+    parser = actions.add_parser(
+        "show",
+        help="the feet, each limb's K, how stiffly the body stands",
+        description="Each foot's place and K [N/mm] in the body's frame, and how far the body gives way to a newton in "
+        "x, y and z, and to a newton metre about them, while every foot sticks.",
+    )
+    parser.add_argument("stance", type=common.path, metavar="STANCE.toml", help="the stance")
+    common.add_json(parser)
+    parser.set_defaults(run=_show)
+
+
+def _add_load(actions: Subcommands) -> None:
+    parser = actions.add_parser(
+        "load",
+        help="what each foot bears under the payload, and which lets go first",
+        description="The ground's force on each foot under weight and payload, what the payload changes, how the body "
+        "moves, the payload at which the first foot slides or lets go. Intervals hold the truth with 90 %: they "
+        "follow from what stance.toml and [uncertainty] of limb.toml say of footholds, zeros, lengths, compliances "
+        "and friction. Absolute forces hang on the last millimetre of the footholds; --measured forces before the "
+        "payload make them good, and K says what the payload changes.",
+    )
+    parser.add_argument(
+        "stances",
+        type=common.path,
+        nargs="+",
+        metavar="STANCE.toml",
+        help="the stance; of several one line of JSON each",
+    )
+    parser.add_argument(
+        "--measured",
+        type=common.path,
+        nargs="+",
+        metavar="CSV",
+        help="forces before the payload: limb,fx_n,fy_n,fz_n in the body's frame, or the joints' torques "
+        "limb,tau0_n_mm,tau1_n_mm,tau2_n_mm; as many files as stances",
+    )
+    parser.add_argument(
+        "--measured-sd",
+        type=common.positive,
+        default=SENSOR_SD_N,
+        metavar="N",
+        help=f"one sigma of a measured force's components; default {SENSOR_SD_N:g}",
+    )
+    parser.add_argument(
+        "--draws", type=common.count(20, 10_000), default=100, metavar="N",
+        help="of what is not known, for the intervals; default 100",
+    )  # fmt: skip
+    common.add_json(parser)
+    parser.set_defaults(run=_load)
+
+
+def _add_lift(actions: Subcommands) -> None:
+    parser = actions.add_parser(
+        "lift",
+        help="what is left when a foot lets go, for each foot",
+        description="Takes each foot in turn, or the named one, off the ground under weight and payload: what the "
+        "others bear then, and whether the body still stands.",
+    )
+    parser.add_argument("stance", type=common.path, metavar="STANCE.toml", help="the stance")
+    parser.add_argument("--limb", metavar="NAME", help="this one alone")
+    common.add_json(parser)
+    parser.set_defaults(run=_lift)
+
+
+def _show(arguments: argparse.Namespace) -> int:
+    from brace.stance.text import shown
+    from brace.stance.view import view
+
+    def ask(stance: Stance) -> dict[str, object] | str:
+        found = view(stance)
+        return found.as_json() if arguments.json else shown(found)
+
+    return _answer_or_reason(arguments, ask, arguments.stance)
+
+
+def _load(arguments: argparse.Namespace) -> int:
+    from brace.stance.answer import answer
+    from brace.stance.text import loaded
+
+    files: list[Path | None] = [None] * len(arguments.stances)
+    if arguments.measured:
+        if len(arguments.measured) != len(arguments.stances):
+            raise UsageError(
+                f"{len(arguments.measured)} tables for {len(arguments.stances)} stances",
+                why="each stance has its own measured forces",
+                next_step="as many --measured files as stances, in the same order",
+            )
+        files = list(arguments.measured)
+    worst = EXIT_OK
+    for path, measured in zip(arguments.stances, files, strict=True):
+
+        def ask(stance: Stance, measured: Path | None = measured) -> dict[str, object] | str:
+            found = answer(stance, _measured(arguments, stance, measured), arguments.draws)
+            return found.as_json() if arguments.json else loaded(found)
+
+        worst = max(worst, _answer_or_reason(arguments, ask, path, is_one=len(files) == 1))
+    return worst
+
+
+def _measured(arguments: argparse.Namespace, stance: Stance, path: Path | None) -> Measured | None:
+    if path is None:
+        return None
+    from brace.stance.measured import load_measured
+    from brace.stance.world import believed
+
+    return load_measured(path, stance, believed(stance), arguments.measured_sd)
+
+
+def _lift(arguments: argparse.Namespace) -> int:
+    from brace.stance.lift import lift
+    from brace.stance.text import lifted
+
+    def ask(stance: Stance) -> dict[str, object] | str:
+        names = [limb.name for limb in stance.limbs]
+        if arguments.limb is not None and arguments.limb not in names:
+            raise UsageError(
+                f"no limb {arguments.limb!r}",
+                why=f"the stance has {', '.join(names)}",
+                next_step="name one of them, or leave --limb out for all",
+            )
+        found = lift(stance, arguments.limb)
+        return {"lifted": [one.as_json() for one in found]} if arguments.json else lifted(found)
+
+    return _answer_or_reason(arguments, ask, arguments.stance)
+
+
+def _answer_or_reason(
+    arguments: argparse.Namespace,
+    ask: Callable[[Stance], dict[str, object] | str],
+    path: Path,
+    is_one: bool = True,
+) -> int:
+    """Prints what is asked, or why there is no such stance."""
+    from brace.stance.stance_file import load_stance
+    from brace.stance.world import NoStanceError
+
+    try:
+        found = ask(load_stance(path))
+    except NoStanceError as error:
+        return _no_stance(arguments, path, error, is_one)
+    if isinstance(found, str):
+        common.emit(found)
+    else:
+        _print(found, is_one)
+    return EXIT_OK
+
+
+def _no_stance(arguments: argparse.Namespace, path: Path, error: NoStanceError, is_one: bool) -> int:
+    from brace.stance.text import reason
+
+    if arguments.json:
+        _print(error.as_json(), is_one)
+    else:
+        common.say(reason(str(path), error))
+    return EXIT_DEVICE_FAULT
+
+
+def _print(found: dict[str, object], is_one: bool) -> None:
+    if is_one:
+        common.print_json(found)
+    else:
+        common.emit(json.dumps(common.json_ready(found)))

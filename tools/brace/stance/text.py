@@ -1,0 +1,97 @@
+"""The answers of `brace stance` as lines of text."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from brace.stance.answer import FACTOR_MOST, Answer, FirstSlip
+from brace.stance.lift import Lifted
+from brace.stance.view import N_MM_PER_N_M, View
+from brace.stance.world import NoStanceError
+
+
+def _two(value: float) -> str:
+    """Two decimals; what is rounded to nothing has no sign."""
+    return f"{round(float(value), 2) + 0.0:.2f}"
+
+
+def loaded(answer: Answer) -> str:
+    """`brace stance load`."""
+    width = max(len(limb.name) for limb in answer.stance.limbs)
+    lines = [f"{answer.stance.name}: the ground's force on each foot [N], with 90 % between"]
+    for i, limb in enumerate(answer.stance.limbs):
+        parts = [
+            f"{axis} {_two(answer.force_n[i][j]):>8} "
+            f"({_two(answer.force_low_n[i][j])} to {_two(answer.force_high_n[i][j])})"
+            for j, axis in enumerate("xyz")
+        ]
+        held = f"{answer.state[i]}, margin {_two(answer.margin_n[i])} N"
+        lines.append(f"  {limb.name:{width}}  {'  '.join(parts)}  {held}")
+    lines.append("what the payload changes [N], with 90 % between")
+    for i, limb in enumerate(answer.stance.limbs):
+        parts = [
+            f"{axis} {_two(answer.change_n[i][j]):>8} "
+            f"({_two(answer.change_low_n[i][j])} to {_two(answer.change_high_n[i][j])})"
+            for j, axis in enumerate("xyz")
+        ]
+        lines.append(f"  {limb.name:{width}}  {'  '.join(parts)}")
+    moved = " ".join(_two(part) for part in answer.displacement_mm)
+    turned = " ".join(_two(part * 1000.0) for part in answer.rotation_rad)
+    lines.append(f"the payload moves the body by {moved} mm and turns it by {turned} mrad (x, y, z)")
+    lines.append(_slip(answer.first_slip))
+    return "\n".join([*lines, *(f"note: {flag}" for flag in answer.flags)])
+
+
+def _slip(slip: FirstSlip) -> str:
+    if slip.limb is None or slip.payload_factor is None or slip.low is None or slip.high is None:
+        return f"no foot slides or lets go up to {FACTOR_MOST:g} times the payload"
+    surely = f", first in {100.0 * slip.surely:.0f} % of what may be" if slip.surely is not None else ""
+    high = f"{slip.high:.2f}" if slip.high < FACTOR_MOST else "more"
+    return (
+        f"first to slide or let go: {slip.limb}, at {slip.payload_factor:.2f} times the payload "
+        f"({slip.low:.2f} to {high}{surely})"
+    )
+
+
+def shown(view: View) -> str:
+    """`brace stance show`."""
+    width = max(len(limb.name) for limb in view.stance.limbs)
+    lines = [f"{view.stance.name}: feet [mm], K's eigenvalues [N/mm], the ground's force under the weight [N]"]
+    for i, limb in enumerate(view.stance.limbs):
+        foot = " ".join(f"{part:7.1f}" for part in view.foot_mm[i])
+        stiffness = " ".join(f"{part:7.3f}" for part in np.linalg.eigvalsh(view.k_n_per_mm[i]))
+        force = " ".join(f"{part:7.2f}" for part in view.force_n[i])
+        lines.append(f"  {limb.name:{width}}  {foot}   {stiffness}   {force}")
+    give = np.diag(view.give)
+    moved = " ".join(f"{part:.3f}" for part in give[:3])
+    turned = " ".join(f"{part * N_MM_PER_N_M * 1000.0:.2f}" for part in give[3:])
+    lines.append(
+        f"the body gives way by {moved} mm for each newton in x, y, z, and by {turned} mrad for each N m about them"
+    )
+    return "\n".join(lines)
+
+
+def lifted(found: Sequence[Lifted]) -> str:
+    """`brace stance lift`."""
+    lines = []
+    for one in found:
+        if one.reason:
+            lines.append(f"without {one.name}: the body does not stand: {one.reason}")
+            continue
+        names = [limb.name for limb in one.stance.limbs]
+        least = min((m, name) for m, name in zip(one.margin_n, names, strict=True) if name != one.name)
+        moved = " ".join(_two(part) for part in one.moved_mm)
+        slid = f"; {', '.join(one.slides)} slides" if one.slides else ""
+        lines.append(
+            f"without {one.name}: stands; the body moves by {moved} mm; "
+            f"least margin {_two(least[0])} N at {least[1]}{slid}"
+        )
+    return "\n".join(lines)
+
+
+def reason(path: str, error: NoStanceError) -> str:
+    """Why there is no such stance."""
+    of = "payload" if error.is_payload else "weight"
+    return f"{path}: {error.why}; {100.0 * error.share:.1f} % of the {of} is borne"
