@@ -9,11 +9,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from command_bench import Outcome
+
 from brace.ground.errors import BadFileError
 from brace.stance.limb_law import LimbLaw
 from brace.stance.stance_file import load_stance, turn_of
-
-from tests.tools.conftest import Outcome
+from brace.stance.world import believed
 
 LIMB = """format = 1
 [geometry]
@@ -242,3 +243,42 @@ def test_a_mount_turns_as_urdf_says() -> None:
     assert turn_of(0.0, 0.0, quarter) @ [1, 0, 0] == pytest.approx([0, 1, 0])
     assert turn_of(quarter, 0.0, quarter) @ [0, 1, 0] == pytest.approx([0, 0, 1])
     assert turn_of(0.0, quarter, quarter) @ [1, 0, 0] == pytest.approx([0, 0, -1])
+
+
+# ------------------------------------------------------------------------------------------------ set-points
+
+
+def test_set_points_raise_the_smallest_margin(brace: Callable[..., Outcome], stance: Path) -> None:
+    """More than any of many ways that are tried at random, each judged by the whole law."""
+    found = json.loads(brace("stance", "set", stance, "--travel", 2, "--json").out)
+    best = min(limb["margin_n"] for limb in found["limbs"])
+    assert best > min(limb["margin_before_n"] for limb in found["limbs"]) + 1.0
+    assert all(abs(part) <= 2.0 + 1e-9 for limb in found["limbs"] for part in limb["tip_moves_mm"])
+    world = believed(load_stance(stance))
+    _, state = world.load(world.stand(), [world.payload])
+    statics = world.statics_at(state.force_n)
+    force, stiffness = statics.linear(state, [*world.weight, world.payload])
+    chance = np.random.default_rng(3)
+    for _ in range(2000):
+        tried = (force - stiffness @ chance.uniform(-2.0, 2.0, force.size)).reshape(-1, 3)
+        assert min(statics.margin_n(i, one) for i, one in enumerate(tried)) <= best / 0.95
+
+
+def test_set_points_make_wanted_forces(brace: Callable[..., Outcome], stance: Path, tmp_path: Path) -> None:
+    before = json.loads(brace("stance", "set", stance, "--for", "sag", "--json").out)
+    wanted = np.array([limb["force_n"] for limb in before["limbs"]])
+    wanted += 0.5 * np.array([(1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1)])  # of no resultant but a little moment
+    table = tmp_path / "w.csv"
+    lines = [f"{name},{x},{y},{z}" for name, (x, y, z) in zip(CORNERS, wanted)]
+    table.write_text("\n".join(["limb,fx_n,fy_n,fz_n", *lines]) + "\n")
+    found = json.loads(brace("stance", "set", stance, "--for", "forces", "--wanted", table, "--json").out)
+    assert forces(found) == pytest.approx(wanted, abs=0.05 * WEIGHT_N / 4)
+    assert brace("stance", "set", stance, "--for", "forces").code == 2
+
+
+def test_set_points_take_the_sag_away(brace: Callable[..., Outcome], stance: Path) -> None:
+    found = json.loads(brace("stance", "set", stance, "--for", "sag", "--json").out)
+    assert found["body"]["displacement_mm"] == pytest.approx([0.0, 0.0, 0.0], abs=0.03)
+    for limb in found["limbs"]:
+        assert limb["force_n"] == pytest.approx(limb["force_before_n"], abs=0.05)
+        assert limb["tip_moves_mm"][2] < -0.5

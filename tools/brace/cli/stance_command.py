@@ -36,6 +36,7 @@ def add(commands: Subcommands) -> None:
     _add_show(actions)
     _add_load(actions)
     _add_lift(actions)
+    _add_set(actions)
     parser.set_defaults(run=lambda _arguments: _help(parser))
 
 
@@ -109,6 +110,32 @@ def _add_lift(actions: Subcommands) -> None:
     parser.set_defaults(run=_lift)
 
 
+def _add_set(actions: Subcommands) -> None:
+    parser = actions.add_parser(
+        "set",
+        help="how to move the tips' set-points: for the largest margin, wanted forces, or no sag",
+        description="A position-controlled limb cannot choose its force, but its set-point does. Prints how far to "
+        "move each tip's set-point under weight and payload, the angles to command for it, and the forces then. Forces "
+        "that are --measured before the payload make the answer good, as for load.",
+    )
+    parser.add_argument("stance", type=common.path, metavar="STANCE.toml", help="the stance")
+    parser.add_argument(
+        "--for",
+        dest="aim",
+        choices=("margin", "forces", "sag"),
+        default="margin",
+        help="the largest smallest margin (default), the forces of --wanted, or the body where it is without load",
+    )
+    parser.add_argument("--wanted", type=common.path, metavar="CSV", help="with --for forces: limb,fx_n,fy_n,fz_n")
+    parser.add_argument(
+        "--travel", type=common.positive, default=5.0, metavar="MM", help="most way in x, y and z; default 5"
+    )
+    parser.add_argument("--measured", type=common.path, metavar="CSV", help="as for load")
+    parser.add_argument("--measured-sd", type=common.positive, default=SENSOR_SD_N, metavar="N", help="as for load")
+    common.add_json(parser)
+    parser.set_defaults(run=_set)
+
+
 def _show(arguments: argparse.Namespace) -> int:
     from brace.stance.text import shown
     from brace.stance.view import view
@@ -167,6 +194,32 @@ def _lift(arguments: argparse.Namespace) -> int:
             )
         found = lift(stance, arguments.limb)
         return {"lifted": [one.as_json() for one in found]} if arguments.json else lifted(found)
+
+    return _answer_or_reason(arguments, ask, arguments.stance)
+
+
+def _set(arguments: argparse.Namespace) -> int:
+    from brace.stance import setpoints
+    from brace.stance.text import set_points
+
+    if (arguments.aim == "forces") != (arguments.wanted is not None):
+        raise UsageError(
+            "--for forces and --wanted CSV belong together",
+            why="the table says which forces are wanted",
+            next_step="give both, or neither",
+        )
+
+    def ask(stance: Stance) -> dict[str, object] | str:
+        measured = _measured(arguments, stance, arguments.measured)
+        if arguments.aim == "forces":
+            wanted = _measured(arguments, stance, arguments.wanted)
+            assert wanted is not None
+            found = setpoints.wanted_forces(stance, wanted.force_n, arguments.travel, measured)
+        elif arguments.aim == "sag":
+            found = setpoints.least_sag(stance, measured)
+        else:
+            found = setpoints.largest_margin(stance, arguments.travel, measured)
+        return found.as_json() if arguments.json else set_points(found)
 
     return _answer_or_reason(arguments, ask, arguments.stance)
 

@@ -63,7 +63,7 @@ class LimbLaw:
     def torques_n_mm(self, force_n: np.ndarray) -> np.ndarray:
         """What a force of the ground on the tip and the limb's own weight ask of coxa, femur and tibia, in the sense of
         their angles."""
-        return np.asarray(self._turns @ (self._from_plane.T @ force_n)) + self._weight_torques_n_mm()
+        return np.asarray(self._turns @ (self._from_plane.T @ force_n) + self._weight_torques_n_mm())
 
     def force_of_torques_n(self, torque_n_mm: np.ndarray) -> np.ndarray:
         """The force of the ground on the tip that goes with the joints' torques, in the body's frame."""

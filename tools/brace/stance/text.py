@@ -8,6 +8,7 @@ import numpy as np
 
 from brace.stance.answer import FACTOR_MOST, Answer, FirstSlip
 from brace.stance.lift import Lifted
+from brace.stance.setpoints import SetPoints
 from brace.stance.view import N_MM_PER_N_M, View
 from brace.stance.world import NoStanceError
 
@@ -89,6 +90,21 @@ def lifted(found: Sequence[Lifted]) -> str:
             f"least margin {_two(least[0])} N at {least[1]}{slid}"
         )
     return "\n".join(lines)
+
+
+def set_points(found: SetPoints) -> str:
+    """`brace stance set`."""
+    width = max(len(limb.name) for limb in found.stance.limbs)
+    lines = ["move the tips' set-points [mm, body's frame]; angles to command [rad]; the ground's force then [N]"]
+    for i, limb in enumerate(found.stance.limbs):
+        way = " ".join(f"{_two(part):>6}" for part in found.way_mm[i])
+        theta = " ".join(f"{part:8.5f}" for part in found.theta_rad[i])
+        force = " ".join(f"{_two(part):>7}" for part in found.after_n[i])
+        margin = f"margin {_two(found.margin_before_n[i])} -> {_two(found.margin_after_n[i])} N"
+        lines.append(f"  {limb.name:{width}}  {way}   {theta}   {force}   {margin}")
+    moved = " ".join(_two(part) for part in found.displacement_mm)
+    lines.append(f"the body is then {moved} mm from where it is without load")
+    return "\n".join([*lines, *(f"note: {joint} leaves its travel" for joint in found.beyond)])
 
 
 def reason(path: str, error: NoStanceError) -> str:

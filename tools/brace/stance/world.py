@@ -98,6 +98,12 @@ class World:
                 break
         return statics, state
 
+    def statics_at(self, forces_n: np.ndarray) -> Statics:
+        """The springs those at these forces, a row a limb."""
+        statics = self._statics()
+        self._set(statics, forces_n)
+        return statics
+
     def _set(self, statics: Statics, forces_n: np.ndarray) -> None:
         statics.set_springs([law.spring(force) for law, force in zip(self.laws, forces_n, strict=True)], forces_n)
 

@@ -1,0 +1,205 @@
+"""What `brace stance set` says: how to move the tips' set-points so that the feet hold better, bear wanted forces, or
+the body comes back to where it is without load."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.optimize import linprog, lsq_linear
+
+from brace.model.travel import travel_rad
+from brace.stance.limb_law import JOINTS, LimbLaw
+from brace.stance.stance_file import Limb, Stance
+from brace.stance.statics import LET_GO, OPEN, State
+from brace.stance.world import Measured, NoStanceError, World, believed
+
+_CUTS_MOST = 40
+_CUT_N = 1e-4  # a cone's side is met so closely
+_KEPT_RATIO = 0.995  # of the best smallest margin: the rest buys shorter ways
+_LEAST_GAIN_N_PER_MM = 0.02  # a way that gains less is not worth it: moved together, tips change no force
+_ROUNDS = 6
+
+
+@dataclass(frozen=True)
+class SetPoints:
+    """Arrays have a row a limb. way_mm: of the tip's set-point in the body's frame. before and after: forces and
+    margins under weight and payload. beyond: joints that leave their travel."""
+
+    stance: Stance
+    theta_rad: np.ndarray
+    way_mm: np.ndarray
+    before_n: np.ndarray
+    after_n: np.ndarray
+    margin_before_n: list[float]
+    margin_after_n: list[float]
+    displacement_mm: np.ndarray
+    beyond: list[str]
+
+    def as_json(self) -> dict[str, object]:
+        """For scripts."""
+        return {
+            "limbs": [
+                {
+                    "name": limb.name,
+                    "theta_rad": self.theta_rad[i],
+                    "tip_moves_mm": self.way_mm[i],
+                    "force_before_n": self.before_n[i],
+                    "force_n": self.after_n[i],
+                    "margin_before_n": self.margin_before_n[i],
+                    "margin_n": self.margin_after_n[i],
+                }
+                for i, limb in enumerate(self.stance.limbs)
+            ],
+            "body": {"displacement_mm": self.displacement_mm},
+            "flags": [f"beyond_travel: {joint}" for joint in self.beyond],
+        }
+
+
+def largest_margin(stance: Stance, travel_mm: float, measured: Measured | None = None) -> SetPoints:
+    """The largest smallest margin of all feet that bear, each component of a way within travel_mm; of such ways the
+    shortest. Raises NoStanceError."""
+    world, state = _under_load(stance, measured)
+    force, stiffness = _linear(world, state)
+    return _executed(stance, world, state, _widest(stance, state, force, stiffness, travel_mm))
+
+
+def wanted_forces(
+    stance: Stance, wanted_n: np.ndarray, travel_mm: float, measured: Measured | None = None
+) -> SetPoints:
+    """Forces as near to the wanted ones as weight and payload allow (a row a limb). Raises NoStanceError."""
+    world, state = _under_load(stance, measured)
+    force, stiffness = _linear(world, state)
+    lack = force - wanted_n.ravel()
+    rows = np.vstack([stiffness, _LEAST_GAIN_N_PER_MM * np.eye(lack.size)])
+    found = lsq_linear(rows, np.concatenate([lack, np.zeros(lack.size)]), (-travel_mm, travel_mm))
+    return _executed(stance, world, state, found.x.reshape(-1, 3))
+
+
+def least_sag(stance: Stance, measured: Measured | None = None) -> SetPoints:
+    """The body back to where it is without load: all tips move as the body has sagged, which changes no force. Raises
+    NoStanceError."""
+    world, state = _under_load(stance, measured)
+    way = np.array(
+        [state.displacement_mm + np.cross(state.rotation_rad, law.tip_mm) for law in world.laws]
+    )
+    return _executed(stance, world, state, way)
+
+
+def _under_load(stance: Stance, measured: Measured | None) -> tuple[World, State]:
+    world = believed(stance)
+    _, state = world.load(world.stand(measured), [world.payload])
+    return world, state
+
+
+def _linear(world: World, state: State) -> tuple[np.ndarray, np.ndarray]:
+    """Forces (3 n) and how they change with the feet's places; a set-point that moves is a place that moves back."""
+    statics = world.statics_at(state.force_n)
+    return statics.linear(state, [*world.weight, world.payload])
+
+
+def _widest(
+    stance: Stance, state: State, force_n: np.ndarray, stiffness: np.ndarray, travel_mm: float
+) -> np.ndarray:
+    """A linear programme in ways and the smallest margin; a cone is cut by planes where the solution leaves it."""
+    size = force_n.size
+    bearing = [i for i, contact in enumerate(state.contact) if contact not in (OPEN, LET_GO)]
+    planes: list[tuple[int, np.ndarray]] = []
+    for i in bearing:
+        along = _along(stance.limbs[i], force_n[3 * i : 3 * i + 3])
+        aside = np.cross(stance.limbs[i].normal, along)
+        planes += [(i, np.cos(a) * along + np.sin(a) * aside) for a in np.arange(8) * np.pi / 4.0]
+    bounds = [(-travel_mm, travel_mm)] * size + [(None, None)]
+    way = np.zeros(size)
+    for _ in range(_CUTS_MOST):
+        rows, limits = _planes(stance, planes, force_n, stiffness)
+        best = linprog(np.append(np.zeros(size), -1.0), rows, limits, bounds=bounds).x
+        way = _shortest(rows, limits, best[-1], size, travel_mm)
+        new = []
+        for i in bearing:
+            force = (force_n - stiffness @ way)[3 * i : 3 * i + 3]
+            along = _along(stance.limbs[i], force)
+            if float(along @ force) > max(float(d @ force) for limb, d in planes if limb == i) + _CUT_N:
+                new.append((i, along))
+        if not new:
+            break
+        planes += new
+    return way.reshape(-1, 3)
+
+
+def _planes(
+    stance: Stance, planes: list[tuple[int, np.ndarray]], force_n: np.ndarray, stiffness: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Rows and limits of: margin <= friction (normal force + grip) - force along a direction."""
+    rows, limits = [], []
+    for i, direction in planes:
+        limb, block = stance.limbs[i], slice(3 * i, 3 * i + 3)
+        side = direction - limb.friction_ratio * limb.normal
+        rows.append(np.append(-side @ stiffness[block], 1.0))
+        limits.append(limb.friction_ratio * limb.grip_n - float(side @ force_n[block]))
+    return np.array(rows), np.array(limits)
+
+
+def _shortest(rows: np.ndarray, limits: np.ndarray, margin_n: float, size: int, travel_mm: float) -> np.ndarray:
+    """The ways of the least sum that keep nearly this margin."""
+    kept = _KEPT_RATIO * margin_n if margin_n > 0.0 else margin_n - _CUT_N
+    ways = np.hstack([rows[:, :-1], -rows[:, :-1]])
+    found = linprog(np.ones(2 * size), ways, limits - kept, bounds=[(0.0, travel_mm)] * (2 * size)).x
+    return np.asarray(found[:size] - found[size:])
+
+
+def _along(limb: Limb, force_n: np.ndarray) -> np.ndarray:
+    """The unit vector along the ground that a force has."""
+    along = force_n - float(limb.normal @ force_n) * limb.normal
+    length = float(np.linalg.norm(along))
+    if length > 1e-9:
+        return np.asarray(along / length)
+    aside = np.cross(limb.normal, np.eye(3)[int(np.argmin(np.abs(limb.normal)))])
+    return np.asarray(aside / np.linalg.norm(aside))
+
+
+def _executed(stance: Stance, world: World, state: State, way_mm: np.ndarray) -> SetPoints:
+    """What the whole law says of the moved set-points: tips where they then are, feet where they stand."""
+    limbs = tuple(_moved(limb, law, way) for limb, law, way in zip(stance.limbs, world.laws, way_mm, strict=True))
+    after = believed(replace(stance, limbs=limbs))
+    shift = np.array([new.tip_mm - old.tip_mm for new, old in zip(after.laws, world.laws, strict=True)])
+    after = replace(after, offset_mm=state.place_mm - shift, weight=(*after.weight, after.payload))
+    standing = after.stand(near_n=state.force_n)
+    before, found = world.statics_at(state.force_n), standing.state
+    return SetPoints(
+        stance,
+        np.array([limb.theta_rad for limb in limbs]),
+        way_mm,
+        state.force_n,
+        found.force_n,
+        [before.margin_n(i, force) for i, force in enumerate(state.force_n)],
+        [standing.statics.margin_n(i, force) for i, force in enumerate(found.force_n)],
+        found.displacement_mm,
+        [f"{limb.name}, {joint}" for limb in limbs for joint in _beyond(limb)],
+    )
+
+
+def _moved(limb: Limb, law: LimbLaw, way_mm: np.ndarray) -> Limb:
+    """The limb with its tip's set-point moved."""
+    wanted, down = law.tip_mm + way_mm, np.array([0.0, 0.0, -1.0])
+    for _ in range(_ROUNDS):
+        left = wanted - law.tip_mm
+        if float(np.linalg.norm(left)) < 1e-6:
+            break
+        try:
+            turn = np.linalg.solve(law.turns_in_body().T, left)
+        except np.linalg.LinAlgError:
+            raise NoStanceError(f"limb {limb.name!r} is stretched: its tip cannot move so", 1.0, True) from None
+        limb = replace(limb, theta_rad=limb.theta_rad + turn)
+        law = LimbLaw(limb, down)
+    return limb
+
+
+def _beyond(limb: Limb) -> list[str]:
+    """The joints that leave their travel."""
+    return [
+        joint
+        for joint, angle in zip(JOINTS, limb.theta_rad, strict=True)
+        for low, high in [travel_rad(limb.model, joint)]
+        if not low <= angle <= high
+    ]
