@@ -20,8 +20,8 @@ struct Rest {
     std::array<int32_t, limbs_most> contact;
 };
 
-// The equilibrium under a load, each sliding foot moved in one implicit step from where it was: its friction is opposite
-// to the whole step. returns OK, E_LOOSE, E_NO_REST.
+// The equilibrium under a load, each sliding foot moved in one implicit step from where it was: its friction is
+// opposite to the whole step. returns OK, E_LOOSE, E_NO_REST.
 int32_t step(const brace_stance_t &stance, const Load &load, const brace_stance_state_t &from, Rest &rest);
 
 } // namespace brace::stance

@@ -59,7 +59,7 @@ typedef struct {
     double force_n[3];
     double moment_n_mm[3]; /* about the body's origin */
     double
-        turning_n_mm[9]; /* how the moment changes with the body's rotation, by each radian; rows one after the other */
+        turning_n_mm[9]; /* how the moment changes by each radian of rotation; rows one after the other */
 } brace_stance_load_t;
 
 typedef struct {
@@ -92,8 +92,8 @@ void brace_stance_load_add(brace_stance_load_t *load, const double force_n[3], c
 int32_t brace_stance_place(const brace_stance_t *stance, const double *offset_mm, brace_stance_state_t *state);
 
 /* Moves the body from the state's load to another one in a straight line. Feet that slide do so in steps.
- * slide_steps: 1 to 1000, steps in which the rest of the way is taken once a foot slides: 1 is an implicit step, 8 follow
- *              the turning of a sliding foot's path to about 1 % of its way.
+ * slide_steps: 1 to 1000, steps in which the rest of the way is taken once a foot slides: 1 is an implicit step, 8
+ *              follow the turning of a sliding foot's path to about 1 % of its way.
  * state (in, out): after OK under `load`; after E_NO_REST at the share of the way that is borne; else untouched.
  * share: of the way that was gone, 0 to 1; null: not wanted.
  * Cost on an x86 core for six limbs: some 3 microseconds where all feet stick; a step with sliding feet some 6. */
