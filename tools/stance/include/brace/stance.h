@@ -58,8 +58,7 @@ typedef struct {
 typedef struct {
     double force_n[3];
     double moment_n_mm[3]; /* about the body's origin */
-    double
-        turning_n_mm[9]; /* how the moment changes by each radian of rotation; rows one after the other */
+    double turning_n_mm[9]; /* how the moment changes by each radian of rotation; rows one after the other */
 } brace_stance_load_t;
 
 typedef struct {
