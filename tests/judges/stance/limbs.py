@@ -16,9 +16,9 @@ Array = NDArray[np.float64]
 
 UP = np.array([0.0, 0.0, 1.0])
 HINGES = [0, 1, 5]  # yaw, femur, knee among the coordinates; the rest slide: end of the femur 2-4, of the tibia 6-8
-# The torque that closes a play. An open play carries none; this little keeps the compliance finite, and 5 N mm are
-# 0.03 N at a tip 150 mm away, a tenth of the sensors' noise.
-CLOSING_N_MM = 5.0
+# The torque that closes a play. A play without any friction of its own has no rest under a leg that presses: it snaps
+# from one flank to the other. 30 N mm are 0.2 N at a tip 150 mm away: less than the sensors' noise or a gear's friction
+CLOSING_N_MM = 30.0
 
 
 @dataclass(frozen=True)

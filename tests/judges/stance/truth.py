@@ -160,7 +160,8 @@ def step(world: World, solver: Siconos, before: State, progress: float, factor: 
     loads = [(progress * world.weight_n, world.com_mm), (factor * world.payload_n, world.payload_at_mm)]
     along = frames(world.normal)
     scale = np.array([1, 1, 1, LEVER_MM, LEVER_MM, LEVER_MM])
-    state, n = before, len(world.friction)
+    state = held_at = before
+    n = len(world.friction)
     held = np.where(before.gone, 0.0, world.grip_n)
     lift = held[:, None] * world.normal
     smallest, since, secant = np.inf, 0, False
@@ -168,7 +169,12 @@ def step(world: World, solver: Siconos, before: State, progress: float, factor: 
         try:
             place, compliance, levers, coordinates, turned = _places(world, limbs, state, secant)
         except ArithmeticError as error:
-            raise NoStance(str(error)) from error
+            if iteration >= ITERATIONS - 1 or not iteration:
+                raise NoStance(str(error)) from error
+            force, secant = (state.force_n + held_at.force_n) / 2, True
+            state = replace(held_at, force_n=force)
+            continue
+        held_at = state
         wrench = sum(np.concatenate([force, np.cross(turned @ at, force)]) for force, at in loads)
         balance = wrench + np.einsum("nab,na->b", levers, state.force_n)
         away = place - foothold
@@ -216,11 +222,23 @@ def step(world: World, solver: Siconos, before: State, progress: float, factor: 
     raise NoStance(f"no equilibrium within {BALANCE_N} N (best {smallest:.1e} N)")
 
 
+def _advance(world: World, solver: Siconos, state: State, start: Array, end: Array, halvings: int = 5) -> State:
+    """From (progress, factor) `start` to `end` in one step, or in halves where the iteration loses its way."""
+    try:
+        return step(world, solver, state, *end)
+    except NoStance:
+        if not halvings:
+            raise
+    middle = (start + end) / 2
+    state = _advance(world, solver, state, start, middle, halvings - 1)
+    return _advance(world, solver, state, middle, end, halvings - 1)
+
+
 def stand(world: World, solver: Siconos, steps: int = 8) -> State:
     """The feet down, then the weight in steps: the state before the payload."""
     state = begin(world)
-    for k in range(1, steps + 1):
-        state = step(world, solver, state, k / steps, 0.0)
+    for k in range(steps):
+        state = _advance(world, solver, state, np.array([k / steps, 0.0]), np.array([(k + 1) / steps, 0.0]))
     return state
 
 
@@ -239,11 +257,15 @@ def first_slip(world: World, solver: Siconos, state: State, most: float, precisi
     NoStance of a step is a slip, too: the foot is then the one with the smallest margin before.
     """
     low, size, high, after = 0.0, most / 16, np.inf, state
-    while high - low > precision * max(low, most / 100):
+    least = precision * most / 100
+    while high - low > max(least, precision * low):
         factor = (low + high) / 2 if np.isfinite(high) else min(most, low + size)
         try:
             next_state = step(world, solver, state, 1.0, factor)
         except NoStance:
+            if np.isinf(high) and size > least:  # the step may be too long for the iteration
+                size /= 4
+                continue
             next_state = None
         if next_state is not None and not next_state.slipped.any():
             low, state, size = factor, next_state, size * 1.5
@@ -259,6 +281,7 @@ def first_slip(world: World, solver: Siconos, state: State, most: float, precisi
 
 def payload(world: World, solver: Siconos, state: State, low: float, high: float, steps: int) -> State:
     """The payload from the factor `low` to `high`, in steps, from a state at `low`."""
-    for factor in np.linspace(low, high, steps + 1)[1:]:
-        state = step(world, solver, state, 1.0, float(factor))
+    factors = np.linspace(low, high, steps + 1)
+    for start, end in zip(factors, factors[1:]):
+        state = _advance(world, solver, state, np.array([1.0, start]), np.array([1.0, end]))
     return state

@@ -28,6 +28,7 @@ class Hidden:
     compliance_rel: float = COMPLIANCE_REL
     sensor_n: float = SENSOR_N
     friction_rel: float = 0.0
+    tells_play: bool = False  # limb.toml says how wide the play is; where in it a joint lies stays hidden
 
     @staticmethod
     def none() -> Hidden:
@@ -118,6 +119,7 @@ def _limb_toml(limbs: Limbs, i: int, hidden: Hidden) -> str:
                   f"bending_mm_per_n = {float(within)!r}"]
     for name, value in zip(("coxa", "femur", "tibia"), joint):
         lines += [f"[joint.{name}]", f"compliance_rad_per_n_mm = {float(value)!r}"]
+        lines += [f"gap_rad = {float(hidden.play_rad)!r}"] * hidden.tells_play
     lines += ["[uncertainty]", f"angle_rad = {max(hidden.zero_rad, 1e-6)!r}",
               f"compliance_rel = {max(hidden.compliance_rel, 1e-6)!r}", "length_mm = 0.001"]
     return "\n".join(lines) + "\n"
