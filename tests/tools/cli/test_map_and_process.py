@@ -109,6 +109,7 @@ def test_map_refuses_ranges_that_are_none(
         assert outcome.code == 2 and not (tmp_path / "m").exists()
 
 
+@pytest.mark.minutes
 def test_a_million_postures_in_two_seconds_of_processor(tmp_path: Path, paper_limb: Path) -> None:
     spent_s, _ = processor_s("map", "--model", paper_limb, "--postures", 1_000_000, "--out", tmp_path / "m")
     assert_a_million_takes_two_seconds(spent_s, paper_limb, tmp_path / "few")

@@ -97,7 +97,8 @@ def limb() -> Path:
     ("spoil", "words"),
     [
         (zero_steps, "the sensor's zero moved by fz_n +0.4"),
-        (slips, "single readings"),
+        # test_an_effect_is_named_beside_a_trouble has the same readings
+        pytest.param(slips, "single readings", marks=pytest.mark.minutes),
     ],
 )
 def test_a_sound_limb_with_a_troubled_sensor(tmp_path: Path, limb: Path, spoil: Spoil, words: str) -> None:
@@ -229,7 +230,7 @@ def test_what_follows_a_posture_is_no_step_in_time(tmp_path: Path, limb: Path) -
 @pytest.mark.parametrize(
     ("what", "words"),
     [
-        ("one axis", "the sensor had another gain along one axis"),
+        pytest.param("one axis", "the sensor had another gain along one axis", marks=pytest.mark.minutes),
         pytest.param(
             "one posture", "the force at rest was another one at one of the postures", marks=pytest.mark.minutes
         ),
@@ -280,7 +281,8 @@ def times_rarer(time_s: float) -> float:
     return float(np.exp(0.5 * (3.0 * np.log10(max(time_s / 0.1, 1.0))) ** 2))
 
 
-@pytest.mark.parametrize(("wait_s", "play_mm"), [(0.2, PLAY_MM), pytest.param(4.0, 0.05, marks=pytest.mark.minutes)])
+@pytest.mark.minutes
+@pytest.mark.parametrize(("wait_s", "play_mm"), [(0.2, PLAY_MM), (4.0, 0.05)])
 def test_play_reads_like_a_lag(tmp_path: Path, limb: Path, wait_s: float, play_mm: float) -> None:
     """Equal steps hide the difference: late by wait * half the play / step, a sensor reads the same in a rig that moves
     on. A lag of up to 0.1 s is as common as play. Half of the rigs that are said to wait for 0.3 s move on, and the

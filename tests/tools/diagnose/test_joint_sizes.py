@@ -118,6 +118,7 @@ def test_a_friction_that_no_gear_has_needs_evidence_to_match(tmp_path: Path) -> 
     assert pull is not None and pull[at] > 0.0 and np.count_nonzero(pull) == 1
 
 
+@pytest.mark.minutes
 def test_identify_and_diagnose_give_the_same_numbers(tmp_path: Path) -> None:
     """A joint that has all that `brace identify` fits: both fit the same model to the same readings."""
     random = np.random.default_rng(4)
