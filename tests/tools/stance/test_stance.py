@@ -169,12 +169,20 @@ def test_without_a_stance_the_nearest_load_is_said(brace: Callable[..., Outcome]
     done = brace("stance", "load", path, "--draws", 20, "--json")
     assert done.code == 5
     found = json.loads(done.out)
-    assert "slide" in found["reason"] and 0.1 < found["nearest_load"]["payload_factor"] < 0.5
+    nearest, first = found["nearest_load"]["payload_factor"], found["first_slip"]
+    assert "slide" in found["reason"] and 0.1 < first["payload_factor"] < nearest < 0.5 and first["limb"] in CORNERS
     done = brace("stance", "load", path, "--draws", 20)
-    assert done.code == 5 and "% of the payload is borne" in done.err and done.out == ""
+    assert done.code == 5 and "% of the payload is borne; first to slide" in done.err and done.out == ""
     two = {name: CORNERS[name] for name in ("front left", "rear right")}
     done = brace("stance", "load", write(tmp_path, corners=two), "--json")
     assert done.code == 5 and "do not hold the body" in json.loads(done.out)["reason"]
+
+
+def test_limbs_that_give_way_are_said(brace: Callable[..., Outcome], tmp_path: Path) -> None:
+    path = write(tmp_path, "[payload]\nforce_n = [0.0, 0.0, -4000.0]\n")
+    done = brace("stance", "load", path, "--draws", 20, "--json")
+    found = json.loads(done.out)
+    assert done.code == 5 and "give way" in found["reason"] and 0.01 < found["nearest_load"]["payload_factor"] < 0.9
 
 
 def test_several_stances_are_lines(brace: Callable[..., Outcome], stance: Path) -> None:

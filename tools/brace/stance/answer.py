@@ -16,6 +16,7 @@ FACTOR_MOST = 1000.0
 _LOW_HIGH = (5.0, 95.0)
 _SEED = 20  # the same question has the same answer
 _UNBALANCED_SIGMAS = 4.0
+_HALVINGS = 10
 
 
 @dataclass(frozen=True)
@@ -99,13 +100,11 @@ class Answer:
 
 @dataclass(frozen=True)
 class _Outcome:
-    """One world's answer."""
+    """One world's answer under the payload."""
 
     before: State
     after: State
     statics: Statics
-    slip_limb: int
-    slip_factor: float
 
     @property
     def change_n(self) -> np.ndarray:
@@ -116,22 +115,54 @@ class _Outcome:
         return np.asarray(self.after.displacement_mm - self.before.displacement_mm)
 
 
+@dataclass(frozen=True)
+class _Slip:
+    """The first foot to move in one world, and the payload's factor then; -1 and infinity: none."""
+
+    limb: int
+    factor: float
+
+
+class OverloadedError(NoStanceError):
+    """The body stands under its weight, and not under the payload."""
+
+    def __init__(self, error: NoStanceError, first_slip: FirstSlip) -> None:
+        super().__init__(error.why, error.share, error.is_payload)
+        self.first_slip = first_slip
+
+    def as_json(self) -> dict[str, object]:
+        """With the first foot that moves on the way."""
+        return super().as_json() | {"first_slip": self.first_slip.as_json()}
+
+
 def answer(stance: Stance, measured: Measured | None = None, draws: int = DRAWS) -> Answer:
     """The stance under its payload, forces before it measured or not. Raises NoStanceError where what is believed has
-    no equilibrium; draws that have none are counted in a flag."""
+    no equilibrium, OverloadedError where it has one without the payload; draws that have none are counted in a flag."""
     middle = believed(stance)
     standing = middle.stand(measured)
-    best = _outcome(middle, standing)
+    slips = [_slip(middle, standing)]
+    best, trouble = _outcome(middle, standing)
+    others = [best] if best else []
     chance = np.random.default_rng(_SEED)
-    others = [best]
     lost = 0
     for _ in range(draws):
+        world = drawn(stance, middle, chance)
+        noisy = measured.with_noise(chance) if measured else None
         try:
-            world = drawn(stance, middle, chance)
-            noisy = measured.with_noise(chance) if measured else None
-            others.append(_outcome(world, world.stand(noisy, best.before.force_n), best.after.force_n))
+            here = world.stand(noisy, standing.state.force_n)
         except NoStanceError:
             lost += 1
+            continue
+        slips.append(_slip(world, here))
+        if best:
+            outcome, _ = _outcome(world, here, best.after.force_n)
+            others += [outcome] if outcome else []
+            lost += outcome is None
+    first_slip = _first_slip(stance, slips)
+    if best is None:
+        assert trouble is not None
+        trouble.share = max(trouble.share, _borne_share(middle, standing))
+        raise OverloadedError(trouble, first_slip)
     force_low, force_high = _span(other.after.force_n for other in others)
     change_low, change_high = _span(other.change_n for other in others)
     moved_low, moved_high = _span(other.moved_mm for other in others)
@@ -149,34 +180,50 @@ def answer(stance: Stance, measured: Measured | None = None, draws: int = DRAWS)
         moved_low,
         moved_high,
         best.after.rotation_rad - best.before.rotation_rad,
-        _first_slip(stance, best, others),
+        first_slip,
         _flags(stance, middle, standing, best, measured, lost, draws),
     )
 
 
-def _outcome(world: World, standing: Standing, near_n: np.ndarray | None = None) -> _Outcome:
-    force_n, _ = world.payload
-    slip_limb, slip_factor = -1, np.inf
-    if np.any(force_n):
-        slip_limb, slip_factor = _slip(world, standing)
-    statics, after = world.load(standing, [world.payload], near_n)
-    return _Outcome(standing.state, after, statics, slip_limb, slip_factor)
+def _outcome(
+    world: World, standing: Standing, near_n: np.ndarray | None = None
+) -> tuple[_Outcome | None, NoStanceError | None]:
+    """Or why there is none."""
+    try:
+        statics, after = world.load(standing, [world.payload], near_n)
+    except NoStanceError as error:
+        return None, error
+    return _Outcome(standing.state, after, statics), None
 
 
-def _slip(world: World, standing: Standing) -> tuple[int, float]:
-    """The first foot to move and the payload's factor then, the springs those at the load that moves it."""
+def _borne_share(world: World, standing: Standing) -> float:
+    """Of the payload, by halving; the feet's history begins anew with each."""
+    force, at = world.payload
+    borne, lost = 0.0, 1.0
+    for _ in range(_HALVINGS):
+        share = 0.5 * (borne + lost)
+        try:
+            world.load(standing, [(share * force, at)])
+            borne = share
+        except NoStanceError:
+            lost = share
+    return borne
+
+
+def _slip(world: World, standing: Standing) -> _Slip:
+    """The springs are those at the load that moves the foot."""
+    force, at = world.payload
     statics, limb, factor = standing.statics, -1, np.inf
-    for _ in range(2):
+    for _ in range(2 if np.any(force) else 0):
         found = statics.first_slip(standing.state, [world.payload], FACTOR_MOST)
         limb, factor = found.limb, found.factor
         if limb < 0 or factor <= 0.0:
             break
-        force, at = world.payload
         try:
             statics, _ = world.load(standing, [(0.999 * factor * force, at)])
         except NoStanceError:
             break
-    return limb, factor
+    return _Slip(limb, factor)
 
 
 def _span(values: Iterable[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
@@ -193,13 +240,14 @@ def _state(stance: Stance, index: int, state: State) -> str:
     return "grips" if float(stance.limbs[index].normal @ state.force_n[index]) < 0.0 else "sticks"
 
 
-def _first_slip(stance: Stance, best: _Outcome, others: list[_Outcome]) -> FirstSlip:
-    if best.slip_limb < 0:
+def _first_slip(stance: Stance, slips: list[_Slip]) -> FirstSlip:
+    """slips: of what is believed, then of the draws."""
+    best = slips[0]
+    if best.limb < 0:
         return FirstSlip(None, None, None, None, None)
-    factors = np.minimum([other.slip_factor for other in others], FACTOR_MOST)
-    low, high = np.percentile(factors, _LOW_HIGH)
-    surely = float(np.mean([other.slip_limb == best.slip_limb for other in others]))
-    return FirstSlip(stance.limbs[best.slip_limb].name, best.slip_factor, float(low), float(high), surely)
+    low, high = np.percentile(np.minimum([slip.factor for slip in slips], FACTOR_MOST), _LOW_HIGH)
+    surely = float(np.mean([slip.limb == best.limb for slip in slips]))
+    return FirstSlip(stance.limbs[best.limb].name, best.factor, float(low), float(high), surely)
 
 
 def _flags(

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from brace.ground.errors import BraceError
 from brace.model import LimbModel
 from brace.stance.stance_file import Limb
 from brace.stiffness.at_rest import PostureError
@@ -25,6 +24,10 @@ class Spring:
     k_n_per_mm: np.ndarray
     moved_mm: np.ndarray
     is_open: tuple[str, ...]
+
+
+class GivesWayError(Exception):
+    """A limb has no equilibrium under a force; the text says which."""
 
 
 class LimbLaw:
@@ -85,14 +88,14 @@ class LimbLaw:
         )
 
     def spring(self, force_n: np.ndarray) -> Spring:
-        """At a force of the ground on the tip. Raises BraceError where the limb has no rest under it."""
+        """At a force of the ground on the tip. Raises GivesWayError where the limb has no rest under it."""
         in_plane = self._from_plane.T @ force_n
         try:
             found = self._loaded.spring(self._limb.theta_rad, in_plane)
         except PostureError as error:
-            raise self._refusal(error.text) from None
+            raise GivesWayError(f"limb {self._limb.name!r}: {error.text}") from None
         if found is None:
-            raise self._refusal("it has no equilibrium under this force: a link buckles or a joint gives way")
+            raise GivesWayError(f"limb {self._limb.name!r} gives way: a link buckles or a joint turns too far")
         entries, moved_in_plane = found
         k = self._from_plane @ entries[_PLACES] @ self._from_plane.T
         moved = self._from_plane @ moved_in_plane
@@ -114,13 +117,6 @@ class LimbLaw:
                 compliance = compliance + half_rad / closing * np.outer(in_body, in_body)
                 is_open.append(joint)
         return Spring(np.linalg.inv(compliance) if is_open else k, moved, tuple(is_open))
-
-    def _refusal(self, why: str) -> BraceError:
-        return BraceError(
-            f"limb {self._limb.name!r} cannot stand so",
-            why=why,
-            next_step="another posture (theta_rad), less load, or a look at its limb.toml with `brace k`",
-        )
 
 
 def _turned(lever: np.ndarray) -> np.ndarray:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from brace.stance.answer import FACTOR_MOST, Answer, FirstSlip
+from brace.stance.answer import FACTOR_MOST, Answer, FirstSlip, OverloadedError
 from brace.stance.lift import Lifted
 from brace.stance.setpoints import SetPoints
 from brace.stance.view import N_MM_PER_N_M, View
@@ -110,4 +110,5 @@ def set_points(found: SetPoints) -> str:
 def reason(path: str, error: NoStanceError) -> str:
     """Why there is no such stance."""
     of = "payload" if error.is_payload else "weight"
-    return f"{path}: {error.why}; {100.0 * error.share:.1f} % of the {of} is borne"
+    said = f"{path}: {error.why}; {100.0 * error.share:.1f} % of the {of} is borne"
+    return f"{said}; {_slip(error.first_slip)}" if isinstance(error, OverloadedError) else said

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from brace.model import LIMB_KEYS, LimbModel
-from brace.stance.limb_law import JOINTS, LimbLaw
+from brace.stance.limb_law import JOINTS, GivesWayError, LimbLaw
 from brace.stance.stance_file import Limb, Stance
 from brace.stance.statics import E_LOOSE, OK, Contact, Force, State, Statics
 
@@ -59,7 +59,7 @@ class World:
         if measured is not None:
             forces = measured.force_n
         for _ in range(_ROUNDS_MOST):
-            self._set(statics, forces)
+            self._set(statics, forces, is_payload=False)
             state = statics.place(self.offset_mm)
             if measured is not None:
                 state = statics.place(self._places(statics, state, measured))
@@ -89,7 +89,7 @@ class World:
         what these may be."""
         statics, guess = self._statics(), standing.state.force_n if near_n is None else near_n
         for _ in range(_ROUNDS_MOST):
-            self._set(statics, guess)
+            self._set(statics, guess, is_payload=True)
             state = standing.state.copy()
             status, share = statics.settle(state, [*self.weight, *forces])
             self._refuse(status, share, is_payload=True)
@@ -101,11 +101,15 @@ class World:
     def statics_at(self, forces_n: np.ndarray) -> Statics:
         """The springs those at these forces, a row a limb."""
         statics = self._statics()
-        self._set(statics, forces_n)
+        self._set(statics, forces_n, is_payload=True)
         return statics
 
-    def _set(self, statics: Statics, forces_n: np.ndarray) -> None:
-        statics.set_springs([law.spring(force) for law, force in zip(self.laws, forces_n, strict=True)], forces_n)
+    def _set(self, statics: Statics, forces_n: np.ndarray, is_payload: bool) -> None:
+        try:
+            springs = [law.spring(force) for law, force in zip(self.laws, forces_n, strict=True)]
+        except GivesWayError as error:
+            raise NoStanceError(str(error), 0.0, is_payload) from None
+        statics.set_springs(springs, forces_n)
 
     def _is_settled(self, before_n: np.ndarray, forces_n: np.ndarray) -> bool:
         most = _SETTLED_SHARE * max(float(np.abs(forces_n).sum()), 1e-9)
@@ -115,6 +119,8 @@ class World:
     def _refuse(status: int, share: float, is_payload: bool) -> None:
         if status == E_LOOSE:
             why = "the limbs do not hold the body: it can move or turn without resistance"
+            if is_payload:  # under the weight alone they do
+                why = "under the payload the limbs give way: they no longer hold the body"
             raise NoStanceError(why, 0.0, is_payload)
         if status != OK:
             under = "the payload" if is_payload else "the weight"
