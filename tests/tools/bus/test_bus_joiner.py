@@ -311,6 +311,13 @@ def test_a_lost_frame_across_the_plane_is_no_coxa_joint_that_is_gone() -> None:
     assert told == {1: True, 2: True, 4: True, 5: True, 6: True, 9: False}
 
 
+def test_the_first_load_gets_what_is_across_it_when_that_comes() -> None:
+    joiner = Joiner()
+    frames = (*frames_of(1)[:2], *load_of(1), *load_of(1, group="load_across"), *frames_of(1)[2:])
+    joined = [s for frame in frames if (s := joiner.add(frame)) is not None and s.load is not None]
+    assert ["force_y_n" in s.load.as_json() for s in joined if s.load] == [False, True, True]
+
+
 def test_frames_of_two_ticks_never_make_one_load() -> None:
     chance = random.Random(12)
     joiner = Joiner()

@@ -371,10 +371,10 @@ class Joiner:
     def _add_load(
         self, node: int, time_s: float, sequence: Value, values: Mapping[str, Value], adds: str
     ) -> Snapshot | None:
-        newest = self._of_newest(node, time_s, sequence)
-        if newest is None or newest.load is not None:
-            return None
-        self._newest[node] = newest._replace(adds=adds, load=load_of(values))
+        newest, load = self._of_newest(node, time_s, sequence), load_of(values)
+        if newest is None or newest.load == load:
+            return None  # the same, or less what is across the plane, never follows
+        self._newest[node] = newest._replace(adds=adds, load=load)
         return self._newest[node]
 
     def _add_space(self, node: int, time_s: float, sequence: Value, values: Mapping[str, Value]) -> Snapshot | None:
