@@ -1,4 +1,4 @@
-"""A limb.toml without [uncertainty]: its numbers are trusted exactly, as docs/limb-keys.md says of the default."""
+"""A limb.toml without [uncertainty]: `identify` has nothing to turn and says so; `diagnose` assumes a trust."""
 
 from __future__ import annotations
 

@@ -125,10 +125,11 @@ def test_an_entry_that_is_no_number_is_named(brace: Brace, tmp_path: Path) -> No
     assert outcome.code == 3 and "row 6, fx_n: 'nan' is not a number" in outcome.out
 
 
-def test_a_limb_without_uncertainty_is_one_that_is_trusted(brace: Brace, tmp_path: Path) -> None:
+def test_a_limb_without_uncertainty(brace: Brace, tmp_path: Path) -> None:
     record = write_loading(tmp_path / "record", loading_rows())
     model = limb(tmp_path, WITHOUT_TRUST)
-    assert brace("diagnose", record, "--model", model, "--out", tmp_path / "out").code == 0
+    found = brace("diagnose", record, "--model", model, "--out", tmp_path / "out")
+    assert found.code == 0 and "write what you know under [uncertainty], length_mm = 0.5" in found.err
     exact = brace("identify", record, "--model", model, "--out", tmp_path / "fitted.toml")
     readable(exact, 2, "every number of the limb is trusted exactly", "or give --free")
     assert brace("identify", record, "--model", model, "--out", tmp_path / "fitted.toml", "--free").code == 0

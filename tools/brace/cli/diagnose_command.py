@@ -99,6 +99,8 @@ def _run_one(arguments: argparse.Namespace) -> int:
             given, options, lambda share, doing: advance(round(_PERCENT * share), doing)
         )
     write(arguments.out, written, inputs)
+    for caution in found.cautions:
+        common.say(caution)
     if arguments.json:
         common.print_json({**written.json_ready, "out": arguments.out})
     else:

@@ -46,6 +46,9 @@ def run_fleet(arguments: argparse.Namespace) -> int:
             f"interrupted; {sum(o.done for o in outcomes)} of {len(jobs)} are in {arguments.out}, no summary"
         )
         return EXIT_INTERRUPTED
+    for caution in dict.fromkeys(one for outcome in outcomes for one in outcome.cautions):
+        names = ", ".join(outcome.name for outcome in outcomes if caution in outcome.cautions)
+        common.say(f"{names}: {caution}")
     summary = overview.as_json(outcomes)
     with OutputSet() as outputs:
         outputs.add(arguments.out / "fleet.json", json.dumps(summary, indent=1, ensure_ascii=False) + "\n")

@@ -182,7 +182,7 @@ class JointSizes:
 class Diagnosis:
     """All that a diagnosis found. `model` is the limb with the effects in it (the believed one where nothing may be
     exported). `members` are the explanations that stand where one name does not; `took` is the one that `--take`
-    named."""
+    named. `cautions` are sentences that must be read before anything of it is believed."""
 
     verdict: Verdict
     sentence: str
@@ -205,6 +205,7 @@ class Diagnosis:
     held_out: tuple[HeldOut, ...] = ()
     took: str = ""
     stiffness: StiffnessChange | None = None
+    cautions: tuple[str, ...] = ()
 
     @property
     def exit_code(self) -> int:

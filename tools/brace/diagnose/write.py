@@ -165,7 +165,7 @@ def as_json(found: Diagnosis, origin: Provenance, exported: bool) -> dict[str, A
             {"label": tried.label, "gain": tried.gain, "posterior": tried.posterior}
             for tried in found.candidates
         ],
-        "notes": list(found.notes),
+        "notes": [*found.cautions, *found.notes],
         "kind": origin.kind,
         "title": origin.title,
         "rows": origin.rows,

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from brace import toml
 from brace.model import LimbModel
+from brace.model.assumed_trust import ASSUMED
 from brace.model.limb import limb_from_document
 from brace.newlimb.quantity import Joint, Link
 
@@ -108,10 +109,10 @@ def text(known: Known) -> str:
         "",
         "[uncertainty]  # one sigma of what is trusted above; measure the limb and run brace identify for better "
         "numbers",
-        "length_mm = 0.5",
-        "angle_rad = 0.01",
+        f"length_mm = {ASSUMED['uncertainty.length_mm']!r}",
+        f"angle_rad = {ASSUMED['uncertainty.angle_rad']!r}",
         f"compliance_rel = {compliance_rel(known):.3g}",
-        "gain_rel = 0.005",
+        f"gain_rel = {ASSUMED['uncertainty.gain_rel']!r}",
     ]
     return "\n".join(lines) + "\n"
 

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 from brace.ground.errors import UsageError, did_you_mean
 from brace.ground.units import unit_of
+from brace.model.assumed_trust import GUESSED_REL
 from brace.newlimb import LINK_FORMS
 from brace.newlimb.beams import ALIASES, MATERIALS, Compliances, Material, of_modulus, round_beam
 
@@ -19,7 +20,7 @@ LENGTH_MM = (10.0, 3000.0)  # of a link
 STIFFNESS_N_M_PER_RAD = (1.0, 1e6)  # of a joint
 PLAY_MOST_RAD = 0.1
 GUESSED_N_M_PER_RAD = 60.0  # a position-held servo of the MX-106's size: 54 to 66 measured
-GUESSED_REL, SAID_REL, MEASURED_REL = 0.5, 0.2, 0.05
+SAID_REL, MEASURED_REL = 0.2, 0.05
 
 
 def refusal(what: str, why: str, way: str) -> UsageError:

@@ -39,14 +39,15 @@ class Job:
 
 @dataclass(frozen=True)
 class Outcome:
-    """`files` and `data` (diagnosis.json) of a record that was diagnosed; `error` of one that was not; the exit
-    code of either."""
+    """`files`, `data` (diagnosis.json) and `cautions` of a record that was diagnosed; `error` of one that was not; the
+    exit code of either."""
 
     name: str
     files: Mapping[str, bytes] = field(default_factory=dict)
     data: Mapping[str, Any] = field(default_factory=dict)
     error: str = ""
     code: int = 0
+    cautions: tuple[str, ...] = ()
 
     @property
     def done(self) -> bool:
@@ -86,7 +87,7 @@ def _diagnosed(job: Job) -> Outcome:
         return Outcome(
             job.name, error=f"brace: internal error: {type(error).__name__}: {error}", code=EXIT_CHECK_FAILED
         )
-    return Outcome(job.name, written.files, written.json_ready, code=found.exit_code)
+    return Outcome(job.name, written.files, written.json_ready, code=found.exit_code, cautions=found.cautions)
 
 
 def jobs_of(folders: Sequence[Path], model: Path | None, options: Options) -> list[Job]:

@@ -78,7 +78,7 @@ class Fitter:
         scale = size.angle_rad / size.torque_n_mm if np.isinf(self.trust) else self.trust * start
         least, most = 1e-3 * size.angle_rad / size.torque_n_mm, 1.0
         if np.isfinite(self.trust):  # inside the calibration's trust a deviation is no missing effect
-            least, most = (1.0 - 2.0 * self.trust) * start, (1.0 + 2.0 * self.trust) * start
+            least, most = max((1.0 - 2.0 * self.trust) * start, least), (1.0 + 2.0 * self.trust) * start
         spring = Parameter(key, float(np.clip(start, least, most)), scale, least, most)
         return (
             *([spring] if self.trust > 0.0 else []),

@@ -39,6 +39,7 @@ from brace.effects import JointTestBench
 from brace.effects.catalogue import FADES_SHRINK
 from brace.identify.parameters import ANGLE_ZERO, TORQUE_OFFSET
 from brace.model import LimbModel
+from brace.model.assumed_trust import with_assumed_trust
 from brace.model.keys import KEY_BY_NAME
 
 DRAWN_ROWS = 20000  # residuals that a report lays beside the record
@@ -113,7 +114,7 @@ def _competing(record: JointRecord, fitted: Fitted) -> list[Term]:
 
 
 def _trust(believed: LimbModel | None) -> float:
-    return float("inf") if believed is None else believed.number("uncertainty.compliance_rel")
+    return float("inf") if believed is None else with_assumed_trust(believed).number("uncertainty.compliance_rel")
 
 
 def _faulty(dataset: Dataset, base: LimbModel, faults: Sequence[DataFault], options: Options) -> Diagnosis:

@@ -35,6 +35,7 @@ from brace.ground.errors import UsageError
 from brace.identify.record import Record, load_record, setting_of
 from brace.identify.turning import settled
 from brace.model import LimbModel
+from brace.model.assumed_trust import with_assumed_trust
 
 
 MOST_TROUBLES = 3
@@ -52,7 +53,7 @@ def diagnose_loading(
             why="nothing can be missing from no model",
             next_step="--model limb.toml",
         )
-    dataset = settled(dataset, believed)
+    dataset = settled(dataset, with_assumed_trust(believed))
     stopped = gate(dataset, believed, options)
     if stopped is not None:
         return stopped

@@ -12,6 +12,7 @@ import numpy as np
 from brace.effects import Variant
 from brace.identify.parameters import PRIOR_KEYS, prior_parameter, tibia_beam
 from brace.model import LimbModel
+from brace.model.assumed_trust import with_assumed_trust
 from brace.native.plant_batch import model_numbers, number_index
 
 if TYPE_CHECKING:
@@ -31,8 +32,10 @@ class Trust:
 
 
 def trust_of(believed: LimbModel, *, turns: bool) -> Trust:
-    """Everything that the calibration knows within a sigma. `turns`: of a limb that turns as it is displaced."""
-    parameters = [item for key in PRIOR_KEYS if (item := prior_parameter(believed, key)) is not None]
+    """Everything that the calibration knows within a sigma, which is assumed where limb.toml does not say it. `turns`:
+    of a limb that turns as it is displaced."""
+    said = with_assumed_trust(believed)
+    parameters = [item for key in PRIOR_KEYS if (item := prior_parameter(said, key)) is not None]
     if turns and (beam := tibia_beam(believed)) is not None:
         parameters.append(beam)
     return Trust(

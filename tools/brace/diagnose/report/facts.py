@@ -100,6 +100,7 @@ class Facts:
     verdict: str
     headline: str
     sentence: str
+    cautions: tuple[str, ...]
     answers: tuple[Answer, ...]
     misfit: str
     unit: str  # of the misfit
@@ -154,6 +155,7 @@ def facts(dataset: Dataset, believed: LimbModel | None, found: Diagnosis, origin
         verdict=found.verdict,
         headline=_headline(believed, found),
         sentence=found.sentence,
+        cautions=found.cautions,
         answers=(_missing(believed, found), _sure(found), _becomes(believed, found), _to_do(believed, found)),
         misfit=_misfit(found, given),
         unit=_unit(found),

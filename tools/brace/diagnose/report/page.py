@@ -48,6 +48,7 @@ def _top(said: Facts) -> str:
     return (
         f'<header style="--accent:var(--{said.verdict})">\n<h1>{text(said.record)} · {text(said.limb)}</h1>\n'
         f'<span class="badge">{text(said.headline)}</span>\n<p class="lead">{text(said.sentence)}</p>\n'
+        f'{"".join(html.paragraph(one, "caution") for one in said.cautions)}'
         f'<div class="tiles">{answers}</div>\n{html.paragraph(said.misfit, "small") if said.misfit else ""}\n</header>'
     )
 

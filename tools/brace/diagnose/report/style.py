@@ -15,6 +15,7 @@ h2{font-size:1.15rem;margin:0 0 8px}
 h3{font-size:1rem;margin:18px 0 4px}
 p{margin:6px 0 10px;max-width:78ch}
 .lead{font-size:1.45rem;line-height:1.35;margin:4px 0 14px;max-width:60ch}
+.caution{border-left:4px solid var(--soft);padding-left:10px}
 .badge{display:inline-block;background:var(--accent,var(--ink));color:#fff;border-radius:99px;
 padding:2px 12px;font-size:.85rem;margin-bottom:6px}
 .tiles{display:flex;flex-wrap:wrap;gap:12px;margin-top:14px}

@@ -19,6 +19,7 @@ from brace.diagnose.loading.space import Space, Trust, space_of, trust_of
 from brace.identify.playing import player_of
 from brace.identify.turning import settled
 from brace.model import LimbModel
+from brace.model.assumed_trust import with_assumed_trust
 from brace.native.plant_batch import LoadingBatchPlayer
 
 FIT_ROWS = 1500  # a comparison needs no more
@@ -51,7 +52,9 @@ class Judge:
         # both forces, 2 x rows [N], and their noise
         self.measured = np.stack([np.asarray(dataset[name], float) for name in FORCES])
         self.sigma = np.stack([self.noise[name].sigma(dataset[name]) for name in FORCES])
-        self.trust: Trust = trust_of(believed, turns=not dataset.small_displacements)
+        # before a record is called faulty, what is believed exactly may be wrong
+        self.doubted = with_assumed_trust(believed, even_if_exact=True)
+        self.trust: Trust = trust_of(self.doubted, turns=not dataset.small_displacements)
         self.space: Space = space_of(self.trust, ())
         self.few = np.flatnonzero(enough_rows(dataset, FIT_ROWS))
         self.starts = run_starts(dataset["run"])
@@ -88,7 +91,7 @@ class Judge:
         if not (dataset.meta.displacements or dataset.small_displacements):
             # a repaired record may show that its limb does not turn, where a faulty one did not
             flat = fit(record.unturned, self.space, self.space.mean, final=False)
-            if flat.cost < found.cost and settled(part, self.believed).small_displacements:
+            if flat.cost < found.cost and settled(part, self.doubted).small_displacements:
                 found = flat
         return Agreement(found.cost, measured.size, found.model)
 
