@@ -14,6 +14,8 @@ import numpy as np
 from brace.diagnose.diagnosis import Alternative, StiffnessAt, Verdict
 from brace.diagnose.loading import confidence
 from brace.diagnose.loading.choose import LabelSet
+from brace.diagnose.loading.fit import Fit
+from brace.diagnose.loading.gain_instead import gain_instead, in_words, with_its_scale
 from brace.diagnose.loading.limb_of import limb_of
 from brace.diagnose.loading.rivals import Contest, Member
 from brace.diagnose.stiffness_change import apart, k_at, postures
@@ -29,7 +31,8 @@ SAME_K = 0.01  # relative, Frobenius: a third of the uncertainty that a controll
 @dataclass(frozen=True)
 class Resolved:
     """`verdict` with the contest counted; `members` with the probability that each is the one, empty where one name
-    stands alone; `exported` the limb of limb.toml, `taken` the member that it holds (None: none, it is as given)."""
+    stands alone; `exported` the limb of limb.toml, `taken` the member that it holds (None: none, it is as given);
+    `caution` what else would explain a record in which nothing is missing, `freed` the fit that is exported for it."""
 
     verdict: Verdict
     members: tuple[tuple[Member, float], ...]
@@ -37,6 +40,8 @@ class Resolved:
     exported: LimbModel
     taken: Member | None
     note: str = ""
+    caution: str = ""
+    freed: Fit | None = None
 
 
 def resolve(record: Record, final: Pass, found: Contest | None, believed: LimbModel, take: str | None) -> Resolved:
@@ -59,6 +64,11 @@ def resolve(record: Record, final: Pass, found: Contest | None, believed: LimbMo
     else:
         unexplained = verdict == "none" and final.structure.structured  # beside a plain loop: no refit to rely on
         base = believed if unexplained else limb_of(believed, final.base.fit.model)
+        freed = None if unexplained else gain_instead(final)
+        if freed is not None:
+            kept = with_its_scale(believed, freed)
+            caution = in_words(record, believed, base, kept, freed)
+            return Resolved(verdict, (), (), kept, None, _nothing_to_take(take), caution, freed)
         exported = believed if verdict == "unknown" else chosen if verdict == "effect" else base
         return Resolved(verdict, (), (), exported, None, _nothing_to_take(take))
     limbs = [limb_of(believed, member.model) for member, _ in members]

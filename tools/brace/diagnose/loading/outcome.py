@@ -158,12 +158,13 @@ def _all_but_next(
             *_notes(whole, record, final, twin, agreed, after),
             *([resolved.note] if resolved.note else []),
         ),
+        cautions=(resolved.caution,) if resolved.caution else (),
         seed=options.seed,
         details={
             **_details(record, final, agreed),
             "refitted": _refitted(whole, believed, final),
             "refit_pull_sigma": pull_sigma(judged.base.fit),
-            "pull_sigma": pull_sigma(after),
+            "pull_sigma": pull_sigma(resolved.freed or after),
             "allowed_sigma": allowed_sigma(final.base.fit.space),
         },
     )
