@@ -298,19 +298,6 @@ def test_a_load_joins_its_k_before_it_or_behind_it() -> None:
         assert isinstance(entry, dict) and entry["is_counted"] and entry["force_x_n"] == entry["moved_z_mm"]
 
 
-def test_a_lost_frame_across_the_plane_is_no_coxa_joint_that_is_gone() -> None:
-    joiner = Joiner()
-    told = {}
-    for tick in range(1, 10):
-        across = [] if tick in (3, 7, 8, 9) else load_of(tick, group="load_across")
-        for frame in (*frames_of(tick)[:2], *across, *load_of(tick)):
-            snapshot = joiner.add(frame)
-            if snapshot is not None and snapshot.load is not None:
-                told[tick] = "force_y_n" in snapshot.load.as_json()
-    # none for the tick whose frames are lost; that nothing comes across any more is believed after two loads
-    assert told == {1: True, 2: True, 4: True, 5: True, 6: True, 9: False}
-
-
 def test_the_first_load_gets_what_is_across_it_when_that_comes() -> None:
     joiner = Joiner()
     frames = (*frames_of(1)[:2], *load_of(1), *load_of(1, group="load_across"), *frames_of(1)[2:])

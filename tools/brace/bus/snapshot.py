@@ -17,7 +17,6 @@ from brace.wire.layout import Layout, Value
 # Halves with one number that lie further apart are of two rounds of the 8-bit counter: the shortest round is 256 ticks
 # of 500 us, 0.128 s.
 PAIR_S = 0.040
-_LOST_AT_MOST = 1  # loads in a row whose frames across the plane are lost
 _STIFFNESS_A, _STIFFNESS_B = MESSAGES["stiffness_a"], MESSAGES["stiffness_b"]
 _EIGENVALUES, _POSTURE = MESSAGES["eigenvalues"], MESSAGES["posture"]
 _WHOLE = FD_MESSAGES["snapshot_fd"]
@@ -169,7 +168,7 @@ class Joiner:
         self._faults: dict[int, tuple[str, ...]] = {}  # by node, as last heard
         self._seen: set[int] = set()
         self._sends_space: set[int] = set()
-        self._loads_alone: dict[int, int] = {}  # by node that sends the load across the plane: how many came without
+        self._sends_across: set[int] = set()  # the load across the plane, too
         self._whole_alone: dict[int, int] = {}  # of CAN FD: how many have come since K in space did
         self.unmatched = 0  # snapshots some of whose frames never came
         takers: list[tuple[Layout, Callable[[int, Frame], Snapshot | None]]] = [
@@ -298,13 +297,13 @@ class Joiner:
         if message == "space":
             self._sends_space.add(node)
         if message == "load_across":
-            self._loads_alone[node] = 0
+            self._sends_across.add(node)
         begun = self._parts.get((message, node))
         if begun is None or begun.sequence != sequence or abs(frame.time_s - begun.time_s) > PAIR_S:
             if begun is not None and 0 in begun.parts and not begun.is_whole:
                 self.unmatched += 1
             if message == "load" and begun is not None:
-                self._count_alone(node, begun, sequence)
+                self._forget_across(node, begun, sequence)
             begun = self._parts[message, node] = _Parts(layouts, frame.time_s, sequence)
         begun.parts[part] = frame.data
         if not begun.is_whole:
@@ -315,14 +314,11 @@ class Joiner:
             return self._join_interval(node)
         return self._join_sigma(node) if message in ("sigma", "sigma_space") else self._join_load(node)
 
-    def _count_alone(self, node: int, load: _Parts, next_sequence: int) -> None:
-        """A node that has sent loads without what is across does not send that any more: its coxa joint is gone. One
-        such load alone may be a lost frame."""
+    def _forget_across(self, node: int, load: _Parts, next_sequence: int) -> None:
+        """A node that has sent a load without what is across does not send that any more: its coxa joint is gone."""
         across = self._parts.get(("load_across", node))
         if load.is_whole and across is not None and across.sequence not in (load.sequence, next_sequence):
-            alone = self._loads_alone.pop(node, _LOST_AT_MOST) + 1
-            if alone <= _LOST_AT_MOST:
-                self._loads_alone[node] = alone
+            self._sends_across.discard(node)
 
     def _join_load(self, node: int, adds: str = "load") -> Snapshot | None:
         """The load, and with it what is across the plane where the node sends that."""
@@ -333,7 +329,7 @@ class Joiner:
         values = load.values()
         if across is not None and across.is_whole and across.sequence == load.sequence:
             values = across.values() | values
-        elif node in self._loads_alone:
+        elif node in self._sends_across:
             return None
         return self._add_load(node, load.time_s, load.sequence, values, adds)
 
