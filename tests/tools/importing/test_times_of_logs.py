@@ -215,7 +215,7 @@ def at(t: float) -> dict[str, int]:
         (lambda topic, t: at(START_S), "/ft: the stamps of its messages do not advance (1 different", False),
         (lambda topic, t: {"sec": int(t), "nanosec": 0}, "do not advance", False),
         (lambda topic, t: at(t - START_S + 60.0 if topic == "/ft" else t), "are of several clocks", False),
-        (lambda topic, t: at(t + 0.62 if topic == "/ft" else t), "a clock that is ahead", False),
+        (lambda topic, t: at(t + 0.62 if topic == "/ft" else t), "the clock of those stamps is ahead", False),
         (lambda topic, t: at(t + 0.002), "/tip: its stamps are used", True),
     ],
 )  # fmt: skip

@@ -139,7 +139,7 @@ def answer(stance: Stance, measured: Measured | None = None, draws: int = DRAWS)
     """The stance under its payload, forces before it measured or not. Raises NoStanceError where what is believed has
     no equilibrium, OverloadedError where it has one without the payload; draws that have none are counted in a flag."""
     middle = believed(stance)
-    standing = middle.stand(measured)
+    standing = middle.stand(measured, measured.force_n if measured else None)
     slips = [_slip(middle, standing)]
     best, trouble = _outcome(middle, standing)
     others = [best] if best else []
@@ -149,7 +149,8 @@ def answer(stance: Stance, measured: Measured | None = None, draws: int = DRAWS)
         world = drawn(stance, middle, chance)
         noisy = measured.with_noise(chance) if measured else None
         try:
-            here = world.stand(noisy, standing.state.force_n)
+            near_n = _near(world, standing.state.force_n) if noisy else standing.state.force_n
+            here = world.stand(noisy, near_n)
         except NoStanceError:
             lost += 1
             continue
@@ -183,6 +184,15 @@ def answer(stance: Stance, measured: Measured | None = None, draws: int = DRAWS)
         first_slip,
         _flags(stance, middle, standing, best, measured, lost, draws),
     )
+
+
+def _near(world: World, near_n: np.ndarray) -> np.ndarray:
+    """Where a draw's search for what was measured begins: at its own forces, for its footholds say which joints are
+    within their play."""
+    try:
+        return world.stand(None, near_n).state.force_n
+    except NoStanceError:
+        return near_n
 
 
 def _outcome(

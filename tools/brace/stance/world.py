@@ -56,8 +56,6 @@ class World:
     def stand(self, measured: Measured | None = None, near_n: np.ndarray | None = None) -> Standing:
         """The body under its weight, its forces measured or not. near_n: what the forces may be."""
         statics, forces = self._statics(), np.zeros((len(self.laws), 3)) if near_n is None else near_n
-        if measured is not None:
-            forces = measured.force_n
         for _ in range(_ROUNDS_MOST):
             self._set(statics, forces, is_payload=False)
             state = statics.place(self.offset_mm)
