@@ -116,7 +116,7 @@ void brace_stance_lift(brace_stance_state_t *state, int32_t limb);
 double brace_stance_margin_n(const brace_stance_limb_t *limb, const double force_n[3]);
 
 /* The linear law at a load, for who computes with it: forces [N] of all feet, limb after limb, from their places [mm]:
- * force = at_rest + stiffness (place - state's place). stiffness: (3 n) x (3 n), rows one after the other; at_rest: 3 n.
+ * force = at_rest + stiffness (place - state's place). stiffness: 3 n rows of 3 n, one after the other; at_rest: 3 n.
  * returns OK, E_INPUT, E_LOOSE. Feet that are off the ground are left out: rows and columns of zero. */
 int32_t brace_stance_linear(const brace_stance_t *stance, const brace_stance_load_t *load,
                             const brace_stance_state_t *state, double *stiffness, double *at_rest);
