@@ -185,6 +185,16 @@ def test_limbs_that_give_way_are_said(brace: Callable[..., Outcome], tmp_path: P
     assert done.code == 5 and "give way" in found["reason"] and 0.01 < found["nearest_load"]["payload_factor"] < 0.9
 
 
+def test_play_that_no_load_holds_is_flagged_and_softens(brace: Callable[..., Outcome], tmp_path: Path) -> None:
+    path = write(tmp_path)
+    stiff = json.loads(brace("stance", "load", path, "--draws", 20, "--json").out)
+    (tmp_path / "limb.toml").write_text(LIMB.replace("[joint.coxa]", "[joint.coxa]\ngap_rad = 0.006"))
+    found = json.loads(brace("stance", "load", path, "--draws", 20, "--json").out)
+    assert [flag for flag in found["flags"] if flag.startswith("gap_open")] == [f"gap_open: {n}, coxa" for n in CORNERS]
+    # a push forward loads all coxa joints; they yield within their play
+    assert found["body"]["displacement_mm"][0] > 1.2 * stiff["body"]["displacement_mm"][0]
+
+
 def test_several_stances_are_lines(brace: Callable[..., Outcome], stance: Path) -> None:
     lines = brace("stance", "load", stance, stance, "--draws", 20, "--json").out.splitlines()
     assert len(lines) == 2 and lines[0] == lines[1] and json.loads(lines[0])["limbs"][0]["name"] == "front left"

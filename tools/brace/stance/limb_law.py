@@ -12,7 +12,8 @@ from brace.stiffness.at_rest import PostureError
 from brace.stiffness.in_space_under_load import LoadedLimbInSpace
 
 JOINTS = ("coxa", "femur", "tibia")
-_OPEN_LEVER_SHARE = 0.02  # of the lever: a force of so many newtons closes a joint's play from its middle to its end
+CLOSES_AT_N = 0.05  # a force at the tip that closes a joint's play from its middle to its end
+UNSURE_N = 0.6  # two sigma of a sensor of 0.3 N: below it nobody can tell on which side of its play a joint stands
 _PLACES = np.array([[0, 1, 2], [1, 3, 4], [2, 4, 5]])  # K's entries xx xy xz yy yz zz as a matrix
 
 
@@ -31,9 +32,13 @@ class GivesWayError(Exception):
 
 
 class LimbLaw:
-    """A limb at its commanded angles, with a model that may differ from the stance's own."""
+    """A limb at its commanded angles, with a model that may differ from the stance's own. closes_at_n: UNSURE_N for a
+    law of what is believed, which is then the mean over where the joints may stand in their play."""
 
-    def __init__(self, limb: Limb, down: np.ndarray, model: LimbModel | None = None) -> None:
+    def __init__(
+        self, limb: Limb, down: np.ndarray, model: LimbModel | None = None, closes_at_n: float = CLOSES_AT_N
+    ) -> None:
+        self._closes_at_n = closes_at_n
         self._limb, self._model, self._down = limb, model or limb.model, down
         true = limb.theta_rad + [self._model.number(f"joint.{joint}.zero_offset_rad") for joint in JOINTS]
         yaw = np.array([[np.cos(true[0]), -np.sin(true[0]), 0.0], [np.sin(true[0]), np.cos(true[0]), 0.0], [0, 0, 1]])
@@ -109,7 +114,7 @@ class LimbLaw:
             half_rad = 0.5 * self._model.number(f"joint.{joint}.gap_rad")
             if half_rad <= 0.0:
                 continue
-            load, closing = float(turn @ in_plane_n), _OPEN_LEVER_SHARE * float(np.abs(turn).sum())
+            load, closing = float(turn @ in_plane_n), self._closes_at_n * float(np.abs(turn).sum())
             side = float(np.clip(load / closing, -1.0, 1.0))
             in_body = self._from_plane @ turn
             moved = moved + half_rad * side * in_body

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from brace.model import LIMB_KEYS, LimbModel
-from brace.stance.limb_law import JOINTS, GivesWayError, LimbLaw
+from brace.stance.limb_law import JOINTS, UNSURE_N, GivesWayError, LimbLaw
 from brace.stance.stance_file import Limb, Stance
 from brace.stance.statics import E_LOOSE, OK, Contact, Force, State, Statics
 
@@ -149,7 +149,7 @@ class Standing:
 
 def believed(stance: Stance) -> World:
     """Every unknown at its most probable value."""
-    laws = tuple(LimbLaw(limb, stance.down) for limb in stance.limbs)
+    laws = tuple(LimbLaw(limb, stance.down, closes_at_n=UNSURE_N) for limb in stance.limbs)
     offsets = np.zeros((len(laws), 3))
     return _world(stance, laws, offsets, [limb.friction_ratio for limb in stance.limbs])
 
