@@ -302,6 +302,7 @@ def test_a_session_over_a_log_asks_nobody(tmp_path: Path) -> None:
         session.ask("identify")
 
 
+@pytest.mark.minutes
 def test_a_loading_test_becomes_a_dataset(brace: Callable[..., Outcome], limb: Path, tmp_path: Path) -> None:
     """The slope along x of what was fetched is K's first column, as the physics has it."""
     import numpy as np

@@ -79,6 +79,7 @@ def test_what_was_pushed_is_there_after_power_off(
         assert crc_in_force(url) == crc
 
 
+@pytest.mark.minutes
 def test_a_push_interrupted_at_any_frame_leaves_the_set_before(limb: Path, other: Path) -> None:
     block = pack(load_limb(other).with_values({"controller.node_id": 1}))
     words = len(block.content) // 4

@@ -55,6 +55,7 @@ def test_frames_that_are_left_out_are_counted(brace: Brace, tmp_path: Path) -> N
     assert done.code == 0 and "left out" not in done.err
 
 
+@pytest.mark.minutes
 def test_a_long_gap_of_a_log_is_told_before_it_is_waited_for(brace: Brace, tmp_path: Path) -> None:
     log = tmp_path / "gap.log"
     log.write_text("(1.0) can0 181#00\n(3601.0) can0 181#01\n")

@@ -87,6 +87,7 @@ def locally(fleet: list[Path], tmp_path_factory: pytest.TempPathFactory) -> tupl
     return out, _run(*fleet, "--out", out, "--jobs", 2)
 
 
+@pytest.mark.minutes
 def test_a_broken_one_is_told_and_the_others_are_written(
     fleet: list[Path], locally: tuple[Path, Outcome]
 ) -> None:

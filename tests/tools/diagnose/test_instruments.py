@@ -256,6 +256,7 @@ def test_what_begins_with_the_record_is_no_step(tmp_path: Path, limb: Path, what
     assert f"looks as if {words}" in found.sentence, found.sentence
 
 
+@pytest.mark.minutes
 def test_a_late_sensor_is_a_lag_and_no_friction(tmp_path: Path, limb: Path) -> None:
     """Where equal steps hide the difference to a play at the contact, both are named."""
     found = spoiled(tmp_path / "record", limb, reads_late, values={}, rig=QUICK)
@@ -341,6 +342,7 @@ def test_every_part_of_what_is_named_may_be_contested(tmp_path: Path, limb: Path
     assert "twice the dwell" in found.sentence and "dial gauge" in found.sentence
 
 
+@pytest.mark.minutes
 def test_an_effect_is_named_beside_a_trouble(tmp_path: Path, limb: Path) -> None:
     found = spoiled(tmp_path / "record", limb, slips, values={"joint.tibia.zero_offset_rad": 0.05})
     assert [effect.label for effect in found.effects] == ["joint_zero_offset@joint.tibia"]

@@ -46,6 +46,7 @@ def test_a_perfect_spring_behind_a_coarse_encoder(tmp_path: Path, counts: int) -
     assert found.verdict == "none", found.sentence
 
 
+@pytest.mark.minutes
 @pytest.mark.parametrize("counts", [6, 11])
 def test_dry_friction_behind_a_coarse_encoder_is_dry_friction_alone(tmp_path: Path, counts: int) -> None:
     """Dahl's law at three amplitudes and two rates. What the encoder rounds off is neither creep nor a lag."""

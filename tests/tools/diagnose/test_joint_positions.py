@@ -96,6 +96,7 @@ def test_amplitudes_from_zero_to_one_side_are_one_position(tmp_path: Path) -> No
     assert found.joint is None or found.joint.gear_positions == 1
 
 
+@pytest.mark.minutes
 def test_the_sizes_are_told_in_the_units_of_gears(tmp_path: Path) -> None:
     found = bench(tmp_path, (0.1, -0.15, 0.22), (GAP_RAD,) * 3)
     assert found.joint is not None

@@ -85,6 +85,7 @@ def soft_middle(random: np.random.Generator) -> list[tuple[np.ndarray, np.ndarra
     return tests
 
 
+@pytest.mark.minutes
 def test_a_smooth_soft_middle_is_no_play_for_sure(tmp_path: Path) -> None:
     found = found_in(tmp_path, soft_middle(np.random.default_rng(0)))
     assert all(effect.confidence < 0.8 for effect in found.effects if effect.name == "backlash")

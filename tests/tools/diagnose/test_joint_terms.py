@@ -69,6 +69,7 @@ def test_viscosity_is_no_creep(tmp_path: Path) -> None:
     assert any("viscous friction" in note for note in found.notes), found.notes
 
 
+@pytest.mark.minutes
 def test_viscosity_below_the_encoders_rounding_is_no_friction(tmp_path: Path) -> None:
     """Sines of six speeds; the spring alone leaves no more than rounding and noise, so that the search ends with it."""
     random, step_rad, readings = np.random.default_rng(3), 2.0 * np.pi / 65536, 3000
@@ -84,6 +85,7 @@ def test_viscosity_below_the_encoders_rounding_is_no_friction(tmp_path: Path) ->
     assert any("viscous friction" in note for note in found.notes), found.notes
 
 
+@pytest.mark.minutes
 def test_a_stop_on_one_side_is_no_hardening(tmp_path: Path) -> None:
     at = 0.55 * REACH_RAD
     found = bench(tmp_path, lambda angle: STIFFNESS * (angle + 2.0 * np.maximum(angle - at, 0.0)))

@@ -150,6 +150,7 @@ def test_a_member_is_taken_by_its_name(brace: Callable[..., Outcome], tmp_path: 
     assert any("backlash" in note and "nothing was taken" in note for note in said["notes"])
 
 
+@pytest.mark.minutes
 def test_a_turned_sensor_and_a_femur_turned_back_are_a_turned_rig(tmp_path: Path, limb: Path) -> None:
     both = {"sensor.rotation_rad": TURNED_RAD, "joint.femur.zero_offset_rad": -TURNED_RAD}
     found = told(tmp_path / "record", limb, both)
@@ -171,6 +172,7 @@ def test_turns_that_do_not_match_are_two_effects(femur_rad: float, tmp_path: Pat
     assert "joint_zero_offset@joint.femur" in [effect.label for effect in found.effects]
 
 
+@pytest.mark.minutes
 def test_one_turn_alone_is_no_turned_rig(tmp_path: Path, limb: Path) -> None:
     found = told(tmp_path / "record", limb, {"sensor.rotation_rad": TURNED_RAD})
     assert found.effects[0].label == "sensor_rotation@sensor" and "rig_rotation@rig" not in members(found)

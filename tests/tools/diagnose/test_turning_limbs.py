@@ -22,6 +22,7 @@ def told(folder: Path, values: dict[str, float]) -> Diagnosis:
     return diagnose(load_dataset(loading_record(folder, LIMB, values=values)), load_limb(LIMB), Options())
 
 
+@pytest.mark.minutes
 def test_the_weights_of_femur_and_knee_come_apart(tmp_path: Path) -> None:
     """A knee's weight bends the femur by more than twice as much as a femur's own of the same moment about the hip."""
     found = told(tmp_path / "record", {"gravity.femur_n": 60.0, "gravity.tibia_n": 2.0})

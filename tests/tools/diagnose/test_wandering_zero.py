@@ -49,6 +49,7 @@ def test_a_zero_that_stands_is_not_mentioned(tmp_path: Path, paper_limb: Path) -
     assert not [one for one in found.notes if one.startswith("also seen")]
 
 
+@pytest.mark.minutes
 def test_a_zero_that_goes_far_is_a_finding(tmp_path: Path, paper_limb: Path) -> None:
     assert diagnosed(tmp_path / "record", paper_limb, 5.0 * STEP_N).verdict != "none"
 

@@ -44,6 +44,7 @@ def test_identify_says_that_nothing_is_to_be_fitted(brace: Brace, exact: Path, r
     assert not (tmp_path / "fitted.toml").exists()
 
 
+@pytest.mark.minutes
 def test_identify_fits_what_it_is_told_to(brace: Brace, exact: Path, record: Path, tmp_path: Path) -> None:
     fitted = tmp_path / "fitted.toml"
     outcome = brace("identify", record, "--model", exact, "--out", fitted, "--fit", "joint.tibia.gap_rad")

@@ -180,6 +180,7 @@ def test_a_port_that_is_taken_is_told(brace: Callable[..., Outcome], tmp_path: P
     assert outcome.code == 2 and port in outcome.err and "--web 0" in outcome.err
 
 
+@pytest.mark.minutes
 @pytest.mark.skipif(CHROMIUM is None, reason="no chromium here")
 def test_the_page_in_a_browser(limb_file: Path, tmp_path: Path) -> None:
     """Two limbs, drawn, at two widths; nothing asked for but what this computer serves."""

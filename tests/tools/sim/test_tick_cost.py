@@ -31,6 +31,7 @@ def _measured(ticks: int, processor: Processor = M4F) -> tick_cost.TickCost:
         pytest.skip(f"missing: {missing}")
 
 
+@pytest.mark.minutes
 def test_worst_of_random_ticks_within_limit() -> None:
     cost = _measured(TICKS)
     assert cost.count == TICKS
