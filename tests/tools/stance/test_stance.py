@@ -195,6 +195,14 @@ def test_play_that_no_load_holds_is_flagged_and_softens(brace: Callable[..., Out
     assert found["body"]["displacement_mm"][0] > 1.2 * stiff["body"]["displacement_mm"][0]
 
 
+def test_a_picture_is_drawn_and_replaces_no_input(brace: Callable[..., Outcome], stance: Path, tmp_path: Path) -> None:
+    picture = tmp_path / "s.png"
+    assert brace("stance", "load", stance, "--draws", 20, "--picture", picture).code == 0
+    assert picture.read_bytes().startswith(b"\x89PNG") and picture.stat().st_size > 20_000
+    assert brace("stance", "load", stance, "--draws", 20, "--picture", stance).code == 2
+    assert brace("stance", "load", stance, stance, "--picture", picture).code == 2
+
+
 def test_several_stances_are_lines(brace: Callable[..., Outcome], stance: Path) -> None:
     lines = brace("stance", "load", stance, stance, "--draws", 20, "--json").out.splitlines()
     assert len(lines) == 2 and lines[0] == lines[1] and json.loads(lines[0])["limbs"][0]["name"] == "front left"
@@ -212,6 +220,12 @@ def test_show_and_lift_say_it_in_words(brace: Callable[..., Outcome], stance: Pa
             assert forces(one).sum(axis=0)[2] == pytest.approx(WEIGHT_N + LIMBS_N + 2.0, abs=1e-6)
             assert len(one["limbs"]) == 3
     assert brace("stance", "lift", stance, "--limb", "front").code == 2
+    measured = Path(str(stance)).parent / "m.csv"
+    rows = ((-6.0, -6.0, 9.2), (-6.0, 6.0, 9.2), (6.0, -6.0, 9.2), (6.0, 6.0, 9.2))
+    lines = [f"{name},{x},{y},{z}" for name, (x, y, z) in zip(CORNERS, rows)]
+    measured.write_text("\n".join(["limb,fx_n,fy_n,fz_n", *lines]) + "\n")
+    known = json.loads(brace("stance", "lift", stance, "--measured", measured, "--json").out)["lifted"]
+    assert known != lifted  # feet that press harder outwards bear other forces when one is gone
 
 
 @pytest.mark.parametrize(

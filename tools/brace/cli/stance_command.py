@@ -93,6 +93,9 @@ def _add_load(actions: Subcommands) -> None:
         "--draws", type=common.count(20, 10_000), default=100, metavar="N",
         help="of what is not known, for the intervals; default 100",
     )  # fmt: skip
+    parser.add_argument(
+        "--picture", type=common.path, metavar="PNG", help="body, limbs, forces, each foot's friction cone"
+    )
     common.add_json(parser)
     parser.set_defaults(run=_load)
 
@@ -106,8 +109,14 @@ def _add_lift(actions: Subcommands) -> None:
     )
     parser.add_argument("stance", type=common.path, metavar="STANCE.toml", help="the stance")
     parser.add_argument("--limb", metavar="NAME", help="this one alone")
+    _add_measured(parser)
     common.add_json(parser)
     parser.set_defaults(run=_lift)
+
+
+def _add_measured(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--measured", type=common.path, metavar="CSV", help="forces before the payload, as for load")
+    parser.add_argument("--measured-sd", type=common.positive, default=SENSOR_SD_N, metavar="N", help="as for load")
 
 
 def _add_set(actions: Subcommands) -> None:
@@ -130,8 +139,7 @@ def _add_set(actions: Subcommands) -> None:
     parser.add_argument(
         "--travel", type=common.positive, default=5.0, metavar="MM", help="most way in x, y and z; default 5"
     )
-    parser.add_argument("--measured", type=common.path, metavar="CSV", help="as for load")
-    parser.add_argument("--measured-sd", type=common.positive, default=SENSOR_SD_N, metavar="N", help="as for load")
+    _add_measured(parser)
     common.add_json(parser)
     parser.set_defaults(run=_set)
 
@@ -160,11 +168,22 @@ def _load(arguments: argparse.Namespace) -> int:
                 next_step="as many --measured files as stances, in the same order",
             )
         files = list(arguments.measured)
+    if arguments.picture and len(arguments.stances) > 1:
+        raise UsageError(
+            "--picture of several stances",
+            why="a picture shows one",
+            next_step="name one stance, or leave --picture out",
+        )
     worst = EXIT_OK
     for path, measured in zip(arguments.stances, files, strict=True):
 
         def ask(stance: Stance, measured: Path | None = measured) -> dict[str, object] | str:
             found = answer(stance, _measured(arguments, stance, measured), arguments.draws)
+            if arguments.picture:
+                from brace.ground.files import write_file
+                from brace.stance.picture import picture
+
+                write_file(arguments.picture, picture(found), arguments.stances)
             return found.as_json() if arguments.json else loaded(found)
 
         worst = max(worst, _answer_or_reason(arguments, ask, path, is_one=len(files) == 1))
@@ -192,7 +211,7 @@ def _lift(arguments: argparse.Namespace) -> int:
                 why=f"the stance has {', '.join(names)}",
                 next_step="name one of them, or leave --limb out for all",
             )
-        found = lift(stance, arguments.limb)
+        found = lift(stance, arguments.limb, _measured(arguments, stance, arguments.measured))
         return {"lifted": [one.as_json() for one in found]} if arguments.json else lifted(found)
 
     return _answer_or_reason(arguments, ask, arguments.stance)

@@ -52,6 +52,8 @@ class Answer:
     change_n: np.ndarray
     change_low_n: np.ndarray
     change_high_n: np.ndarray
+    pressing_n: np.ndarray  # out of the ground and along it: low, most probable, high
+    along_n: np.ndarray
     margin_n: list[float]
     state: list[str]
     displacement_mm: np.ndarray
@@ -175,6 +177,7 @@ def answer(stance: Stance, measured: Measured | None = None, draws: int = DRAWS)
         best.change_n,
         change_low,
         change_high,
+        *_in_cones(stance, best, others),
         [best.statics.margin_n(i, force) for i, force in enumerate(best.after.force_n)],
         [_state(stance, i, best.after) for i in range(len(stance.limbs))],
         best.moved_mm,
@@ -184,6 +187,19 @@ def answer(stance: Stance, measured: Measured | None = None, draws: int = DRAWS)
         first_slip,
         _flags(stance, middle, standing, best, measured, lost, draws),
     )
+
+
+def _in_cones(stance: Stance, best: _Outcome, others: list[_Outcome]) -> tuple[np.ndarray, np.ndarray]:
+    """Each foot's force out of the ground and along it: low, most probable, high."""
+    normal = np.array([limb.normal for limb in stance.limbs])
+
+    def split(force_n: np.ndarray) -> np.ndarray:
+        pressing = np.einsum("nc,nc->n", normal, force_n)
+        return np.stack([pressing, np.linalg.norm(force_n - pressing[:, None] * normal, axis=1)])
+
+    low, high = _span(split(other.after.force_n) for other in others)
+    pressing, along = np.stack([low, split(best.after.force_n), high], -1)
+    return pressing, along
 
 
 def _near(world: World, near_n: np.ndarray) -> np.ndarray:

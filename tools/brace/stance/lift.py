@@ -8,7 +8,7 @@ import numpy as np
 
 from brace.stance.stance_file import Stance
 from brace.stance.statics import SLIDES
-from brace.stance.world import NoStanceError, believed
+from brace.stance.world import Measured, NoStanceError, Standing, World, believed
 
 
 @dataclass(frozen=True)
@@ -41,26 +41,25 @@ class Lifted:
         }
 
 
-def lift(stance: Stance, name: str | None = None) -> list[Lifted]:
-    """Each foot, or the named one, taken off the ground under weight and payload. Raises NoStanceError where the body
-    does not even stand on all of them."""
+def lift(stance: Stance, name: str | None = None, measured: Measured | None = None) -> list[Lifted]:
+    """Each foot, or the named one, taken off the ground under weight and payload, forces before the payload measured or
+    not. Raises NoStanceError where the body does not even stand on all of them."""
     world = believed(stance)
-    _, under_all = world.load(world.stand(), [world.payload])
+    standing = world.stand(measured)
+    _, under_all = world.load(standing, [world.payload])
     return [
-        _without(stance, index, under_all.displacement_mm)
+        _without(stance, world, standing, index, under_all.displacement_mm)
         for index, limb in enumerate(stance.limbs)
         if name in (None, limb.name)
     ]
 
 
-def _without(stance: Stance, index: int, before_mm: np.ndarray) -> Lifted:
-    world = believed(stance)
-    standing = world.stand()
-    _, state = world.load(standing, [world.payload])
-    standing.state.lift(index)
+def _without(stance: Stance, world: World, standing: Standing, index: int, before_mm: np.ndarray) -> Lifted:
+    lifted = Standing(world, standing.statics, standing.state.copy())
+    lifted.state.lift(index)
     name = stance.limbs[index].name
     try:
-        statics, state = world.load(standing, [world.payload])
+        statics, state = world.load(lifted, [world.payload])
     except NoStanceError as error:
         return Lifted(stance, name, error.why, np.zeros((0, 3)), [], [], np.zeros(3))
     forces = state.force_n

@@ -57,6 +57,10 @@ class LimbLaw:
     def _in_body(self, in_plane_mm: np.ndarray) -> np.ndarray:
         return np.asarray(self._limb.mount_mm + self._from_plane @ in_plane_mm)
 
+    def points_mm(self) -> np.ndarray:
+        """4 x 3: mount, hip, knee and tip, in the body's frame."""
+        return np.array([self._limb.mount_mm, self._hip_mm, self._knee_mm, self.tip_mm])
+
     def weights(self) -> list[tuple[float, np.ndarray]]:
         """The limb's own weights [N] and where they act, in the body's frame."""
         femur, knee, tibia = (self._model.number(f"gravity.{part}") for part in ("femur_n", "knee_n", "tibia_n"))

@@ -41,11 +41,12 @@ def loaded(answer: Answer) -> str:
     moved = " ".join(_two(part) for part in answer.displacement_mm)
     turned = " ".join(_two(part * 1000.0) for part in answer.rotation_rad)
     lines.append(f"the payload moves the body by {moved} mm and turns it by {turned} mrad (x, y, z)")
-    lines.append(_slip(answer.first_slip))
+    lines.append(first_slip_words(answer.first_slip))
     return "\n".join([*lines, *(f"note: {flag}" for flag in answer.flags)])
 
 
-def _slip(slip: FirstSlip) -> str:
+def first_slip_words(slip: FirstSlip) -> str:
+    """Which foot moves first, in words."""
     if slip.limb is None or slip.payload_factor is None or slip.low is None or slip.high is None:
         return f"no foot slides or lets go up to {FACTOR_MOST:g} times the payload"
     surely = f", first in {100.0 * slip.surely:.0f} % of what may be" if slip.surely is not None else ""
@@ -111,4 +112,4 @@ def reason(path: str, error: NoStanceError) -> str:
     """Why there is no such stance."""
     of = "payload" if error.is_payload else "weight"
     said = f"{path}: {error.why}; {100.0 * error.share:.1f} % of the {of} is borne"
-    return f"{said}; {_slip(error.first_slip)}" if isinstance(error, OverloadedError) else said
+    return f"{said}; {first_slip_words(error.first_slip)}" if isinstance(error, OverloadedError) else said
