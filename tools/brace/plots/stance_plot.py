@@ -20,8 +20,8 @@ _CONES_A_ROW = 4
 
 @dataclass(frozen=True)
 class PlacedLimb:
-    """points_mm: 4 x 3, mount, hip, knee and foot in the body's frame. pressing_n and along_n: the ground's force out of
-    the ground and along it: low, most probable, high; begun_n: both before the payload."""
+    """points_mm: 4 x 3, mount, hip, knee and foot in the body's frame. pressing_n and along_n: the ground's force out
+    of the ground and along it: low, most probable, high; begun_n: both before the payload."""
 
     name: str
     points_mm: np.ndarray
@@ -38,7 +38,8 @@ def stance_figure(title: str, limbs: Sequence[PlacedLimb], com_mm: np.ndarray, p
     """Views with one scale of length and of force; a cone for each foot."""
     rows = -(-len(limbs) // _CONES_A_ROW)
     figure = new_figure(10.0, 4.2 + 2.5 * rows)
-    views, cones = figure.subfigures(2, 1, height_ratios=[4.2, 2.5 * rows])
+    parts = figure.add_gridspec(2, 1, height_ratios=[4.2, 2.5 * rows])
+    views, cones = figure.add_subfigure(parts[0]), figure.add_subfigure(parts[1])
     above, aside = views.subplots(1, 2)
     points = np.concatenate([limb.points_mm for limb in limbs])
     longest = max(float(np.linalg.norm(limb.force_n)) for limb in limbs)

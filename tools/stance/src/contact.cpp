@@ -10,6 +10,7 @@ namespace {
 constexpr int changes_most = 8 * limbs_most;      // of contacts in a step, before it is given up
 constexpr int iterations_most = 25;
 constexpr double exact_share = 1e-10;             // of the forces: what is left of the law of sliding
+constexpr double near_share = 1e-4; // enough to see which contact's law is broken
 constexpr double slide_most_mm = 100.0;           // a foot that goes further in one step has no rest
 constexpr double turn_most_rad = 0.5;             // of a sliding direction in one iteration
 
@@ -34,16 +35,21 @@ public:
 
     int32_t run(Rest &rest)
     {
-        bool is_assembled = false;
+        bool is_assembled = false, is_exact = false;
         for (int change = 0; change < changes_most; change++) {
             if (!is_assembled && !assemble()) {
                 return change == 0 ? BRACE_STANCE_E_LOOSE : BRACE_STANCE_E_NO_REST;
             }
             is_assembled = true;
-            if (!slide()) {
+            if (!slide(is_exact ? exact_share : near_share)) {
                 return BRACE_STANCE_E_NO_REST;
             }
             const Change next = worst();
+            if (next.limb < 0 && slides_ > 0 && !is_exact) {
+                is_exact = true; // the contacts are found, perhaps: now to the end
+                continue;
+            }
+            is_exact = false;
             if (next.limb < 0) {
                 rest.body = body_;
                 for (int i = 0; i < count_; i++) {
@@ -68,8 +74,17 @@ private:
 
     double pressing_n(int i) const { return ground_[i].normal.dot(force_[i]) + stance_.limb[i].grip_n; }
 
+    double beyond_cone_n(int i) const
+    {
+        const Eigen::Vector2d along = ground_[i].along.transpose() * force_[i];
+        return along.norm() - stance_.limb[i].friction_ratio * pressing_n(i);
+    }
+
     bool assemble()
     {
+        for (auto &row : has_by_slide_) {
+            row.fill(false);
+        }
         std::array<bool, limbs_most> bears{};
         for (int i = 0; i < count_; i++) {
             bears[i] = on_ground(i);
@@ -90,8 +105,19 @@ private:
         place_[slide.limb] = stood_[slide.limb] + ground_[slide.limb].along * (slide.way_mm * slide.direction());
     }
 
+    // How a limb's force changes as another foot goes along its ground.
+    const Eigen::Matrix<double, 3, 2> &by_slide(int limb, int foot)
+    {
+        if (!has_by_slide_[limb][foot]) {
+            by_slide_[limb][foot] = equilibrium_.stiffness(limb, foot) * ground_[foot].along;
+            has_by_slide_[limb][foot] = true;
+        }
+        return by_slide_[limb][foot];
+    }
+
     // Newton's method on f_t + friction (f_n + grip) direction = 0 of every sliding foot, in its way and direction.
-    bool slide()
+    // share: of the forces, that may be left of the law.
+    bool slide(double share)
     {
         forces();
         if (slides_ == 0) {
@@ -116,14 +142,14 @@ private:
                 for (int b = 0; b < slides_; b++) {
                     const int j = slide_[b].limb;
                     const Eigen::Vector2d towards = slide_[b].direction();
-                    const Eigen::Matrix2d s = rows * equilibrium_.stiffness(i, j) * ground_[j].along;
+                    const Eigen::Matrix2d s = rows * by_slide(i, j);
                     by.block<2, 1>(2 * a, 2 * b) = s * towards;
                     by.block<2, 1>(2 * a, 2 * b + 1) =
                         slide_[b].way_mm * s * Eigen::Vector2d(-towards.y(), towards.x());
                 }
                 by.block<2, 1>(2 * a, 2 * a + 1) += friction * pressing_n(i) * turned;
             }
-            if (left.lpNorm<Eigen::Infinity>() <= exact_share * size_n) {
+            if (left.lpNorm<Eigen::Infinity>() <= share * size_n) {
                 return true;
             }
             const Vector go = by.partialPivLu().solve(-left);
@@ -165,8 +191,7 @@ private:
             if (contact_[i] == BRACE_FOOT_STICKS) {
                 offer(-pressing, i, limb.grip_n > 0.0 ? BRACE_FOOT_LET_GO : BRACE_FOOT_OPEN);
                 if (pressing >= 0.0) {
-                    const Eigen::Vector2d along = ground_[i].along.transpose() * force_[i];
-                    offer(along.norm() - limb.friction_ratio * pressing, i, BRACE_FOOT_SLIDES);
+                    offer(beyond_cone_n(i), i, BRACE_FOOT_SLIDES);
                 }
             } else if (contact_[i] == BRACE_FOOT_SLIDES) {
                 offer(-pressing, i, limb.grip_n > 0.0 ? BRACE_FOOT_LET_GO : BRACE_FOOT_OPEN);
@@ -224,6 +249,8 @@ private:
     std::array<Slide, limbs_most> slide_;
     int slides_ = 0;
     Body equilibrium_;
+    std::array<std::array<Eigen::Matrix<double, 3, 2>, limbs_most>, limbs_most> by_slide_;
+    std::array<std::array<bool, limbs_most>, limbs_most> has_by_slide_;
     Vec6 body_;
 };
 
