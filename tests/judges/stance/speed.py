@@ -95,7 +95,8 @@ def main() -> int:
     asked = parser.parse_args()
     rng, call = np.random.default_rng(asked.seed), _empty_call()
     for words, friction in (("feet stick", 5.0), ("feet slide", 0.35)):
-        times, slides, without = [], 0, 0
+        times: list[tuple[float, float]] = []
+        slides = without = 0
         while len(times) < asked.count:
             drawn = _draw(rng, friction)
             ours, sliding = _ours(*drawn)
@@ -104,10 +105,10 @@ def main() -> int:
                 continue
             slides += sliding
             times.append((ours - call, _daqp(*drawn)))
-        ours, theirs = 1e6 * np.array(times).T
-        print(f"{words}: {np.median(ours):.1f} us, worst {ours.max():.1f}; DAQP {np.median(theirs):.1f}, worst "
-              f"{theirs.max():.1f}; median ratio {np.median(theirs / ours):.1f}, of the worst "
-              f"{theirs.max() / ours.max():.1f}; {slides / asked.count:.2f} of {LIMBS} feet slide; {without} without a rest")
+        mine, theirs = 1e6 * np.array(times).T
+        print(f"{words}: {np.median(mine):.1f} us, worst {mine.max():.1f}; DAQP {np.median(theirs):.1f}, worst "
+              f"{theirs.max():.1f}; median ratio {np.median(theirs / mine):.1f}, of the worst "
+              f"{theirs.max() / mine.max():.1f}; {slides / asked.count:.2f} of {LIMBS} feet slide; {without} without a rest")
     return 0
 
 

@@ -4,14 +4,11 @@ from __future__ import annotations
 
 import subprocess
 import sys
-from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
-
-sys.path.insert(0, str(Path(__file__).parent))
 
 pytest.importorskip("daqp", reason="daqp is not installed: pip install -e 'tools[stance]'")
 
@@ -22,16 +19,6 @@ from truth import Siconos
 
 BRACE = Path(sys.executable).parent / "brace"
 EXACT = judge.Asked(3, world.Hidden.none(), False, True, [str(BRACE)])
-
-
-@pytest.fixture(scope="module")
-def solver() -> Iterator[Siconos]:
-    try:
-        siconos = Siconos()
-    except OSError as error:
-        pytest.skip(str(error))
-    yield siconos
-    siconos.close()
 
 
 def _cases(asked: judge.Asked, solver: Siconos, count: int) -> list[judge.Case]:

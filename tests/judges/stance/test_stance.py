@@ -5,14 +5,11 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
-from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
-
-sys.path.insert(0, str(Path(__file__).parent))
 
 import truth
 import world
@@ -22,16 +19,6 @@ from truth import NoStance, Siconos, World, first_slip, payload, stand
 BRACE = Path(sys.executable).parent / "brace"
 HEIGHT_MM = 130.0  # of the plain body's origin above its feet
 CLOSED_N = 1e-4  # the truth's own residual is 1e-7, in moments 1e-5 N mm at levers of 100 mm
-
-
-@pytest.fixture(scope="module")
-def solver() -> Iterator[Siconos]:
-    try:
-        siconos = Siconos()
-    except OSError as error:
-        pytest.skip(str(error))
-    yield siconos
-    siconos.close()
 
 
 def plain(feet_mm: list[tuple[float, float]], stiffness: float | list[float] = 10.0, **changes: object) -> World:
