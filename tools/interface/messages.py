@@ -356,12 +356,16 @@ def _refuse_process(frame: Frame) -> None:
         raise DictionaryError(f"{frame.name}: it has neither a rate nor by_hand = true, so nobody would send it")
 
 
+HEARTBEAT_RATE = "controller.heartbeat_hz"
+
+
 def check_rates(wire: Wire, keys: Mapping[str, str]) -> None:
-    """Each rate is a parameter in Hz. keys: the unit of each parameter."""
-    rates = sorted(key for key, unit in keys.items() if unit == "Hz")
+    """Each rate is a parameter in Hz; the heartbeat's is for what is sent by hand. keys: the unit of each parameter."""
+    rates = sorted(key for key, unit in keys.items() if unit == "Hz" and key != HEARTBEAT_RATE)
     for frame in wire.process_frames:
-        if frame.rate and frame.rate not in rates:
-            raise DictionaryError(f"{frame.name}: {frame.rate} is no parameter in Hz; rates are {', '.join(rates)}")
+        if frame.rate and frame.rate not in rates and not (frame.by_hand and frame.rate == HEARTBEAT_RATE):
+            listed = ", ".join(rates)
+            raise DictionaryError(f"{frame.name}: {frame.rate} is no rate of process data; rates are {listed}")
 
 
 def _refuse_numbers(what: str, numbered: Sequence[tuple[int, str]], least: int, below: int) -> None:

@@ -49,7 +49,7 @@ def _off(limb: LimbModel, truth: LimbModel) -> float:
 
 @pytest.fixture(scope="module")
 def softer(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The record of a sound limb that is softer throughout than its limb.toml, which says nothing of trust, guesses."""
+    """The record of a sound limb. Its limb.toml has too small compliances, and no [uncertainty]."""
     limb = Path(__file__).resolve().parents[3] / "tools" / "brace" / "data" / "paper-limb.toml"
     folder = tmp_path_factory.mktemp("softer")
     true = {key: SOFTER * load_limb(limb).number(key) for key in COMPLIANCES}

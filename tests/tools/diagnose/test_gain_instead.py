@@ -19,7 +19,7 @@ LIMB = Path(__file__).resolve().parents[3] / "tools" / "brace" / "data" / "paper
 
 
 def _diagnosed(folder: Path, gain: float) -> tuple[Diagnosis, float]:
-    """Of the paper's limb; with how far K of what is exported is off."""
+    """The diagnosis of a record of the paper's limb, and the relative error of the exported model's K."""
     believed = load_limb(LIMB)
     dataset = load_dataset(loading_record(folder / "record", LIMB, values={"sensor.gain": gain}, repeats=1))
     found = diagnose(dataset, believed, Options(processes=1))

@@ -10,6 +10,7 @@ import pytest
 from brace.effects import BY_NAME
 from brace.effects.catalogue import EFFECTS
 from brace.effects.page import page
+from brace.effects.row import Effect
 from brace.model.keys import KEY_BY_NAME
 
 PROJECT = Path(__file__).resolve().parents[3]
@@ -45,3 +46,6 @@ def test_what_changes_with_time_or_temperature_follows_time() -> None:
     assert names and set(names) <= {effect.name for effect in EFFECTS}
     forgotten = [name for name in names if not BY_NAME[name].follows_time]
     assert not forgotten, f"follows_time = True is missing in the rows of {forgotten} in effects/catalogue.py"
+    thermal = [effect for effect in EFFECTS if "thermal" in effect.places]
+    unseen = [effect.name for effect in thermal if effect.loading_seen is Effect.loading_seen]
+    assert not unseen, f"loading_seen is missing in the rows of {unseen}: a record at one temperature cannot show them"

@@ -192,12 +192,14 @@ def test_process_data_that_is_not_measured_is_refused(before: str, after: str, w
         snapshot_source(wire, load_values(DICTIONARY, load_codes(DICTIONARY)))
 
 
-def test_a_rate_that_no_parameter_is_is_refused(tmp_path: Path) -> None:
+@pytest.mark.parametrize("rate", ["controller.tick_us", "controller.heartbeat_hz"])
+def test_a_rate_that_no_parameter_is_is_refused(tmp_path: Path, rate: str) -> None:
+    """The heartbeat's rate is one for what is sent by hand alone."""
     path = tmp_path / "messages.toml"
-    path.write_text(MESSAGES.read_text().replace("controller.stiffness_hz", "controller.tick_us", 1))
+    path.write_text(MESSAGES.read_text().replace("controller.stiffness_hz", rate, 1))
     keys = {entry.key: entry.unit for entry in load(DICTIONARY).parameters}
     check_rates(load_wire(MESSAGES, load_codes(DICTIONARY)), keys)
-    with pytest.raises(DictionaryError, match="stiffness_a: controller.tick_us is no parameter in Hz; rates are"):
+    with pytest.raises(DictionaryError, match=f"stiffness_a: {rate} is no rate of process data; rates are"):
         check_rates(load_wire(path, load_codes(DICTIONARY)), keys)
 
 

@@ -39,7 +39,7 @@ def _number(value: object) -> float | None:
 
 @dataclass(frozen=True)
 class Choice:
-    """The topics whose stamps are taken as the times of their readings, and what the user is told about it."""
+    """The topics whose stamps give the times of their readings, and the sentences for the user about them."""
 
     by_stamp: frozenset[str]
     partly: Mapping[str, tuple[int, int]]  # topics with stamps that fit, but not in all: how many have none, of how many

@@ -267,7 +267,7 @@ def _state(stance: Stance, index: int, state: State) -> str:
 
 
 def _first_slip(stance: Stance, slips: list[_Slip]) -> FirstSlip:
-    """slips: of what is believed, then of the draws."""
+    """slips: the believed world's first, then one for each draw."""
     best = slips[0]
     if best.limb < 0:
         return FirstSlip(None, None, None, None, None)

@@ -32,8 +32,9 @@ class GivesWayError(Exception):
 
 
 class LimbLaw:
-    """A limb at its commanded angles, with a model that may differ from the stance's own. closes_at_n: UNSURE_N for a
-    law of what is believed, which is then the mean over where the joints may stand in their play."""
+    """A limb at its commanded angles, with a model that may differ from the stance's own. closes_at_n: CLOSES_AT_N
+    for a draw. UNSURE_N for the believed limb: its stiffness is then a mean over the joints' possible places in their
+    play."""
 
     def __init__(
         self, limb: Limb, down: np.ndarray, model: LimbModel | None = None, closes_at_n: float = CLOSES_AT_N
