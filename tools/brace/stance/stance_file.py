@@ -33,6 +33,7 @@ KEYS = (
 LIMB_KEYS = (
     toml.Key("name", None, "the limb's name", kind="text"),
     toml.Key("model", None, "its limb.toml, beside this file", kind="text"),
+    toml.Key("node", 0, "the CAN node of its controller; 0: its place in this file, from 1", "", 0, 127, kind="integer"),
     _vector("mount_mm", "where the limb's first axis stands", "mm", 1e4, None),
     _vector("mount_rpy_rad", "the turn of the limb's frame into the body's: roll, pitch, yaw", "rad", _TURN, [0.0] * 3),
     _vector("theta_rad", "the commanded angles of coxa, femur and tibia", "rad", _TURN, None),
@@ -41,6 +42,7 @@ LIMB_KEYS = (
     toml.Key("foothold.friction_sd", 0.0, "how well that is known, one sigma", "", 0.0, 10.0),
     toml.Key("foothold.grip_n", 0.0, "how hard the foot may be pulled; 0: it only presses", "N", 0.0, 1e5),
     toml.Key("foothold.offset_sd_mm", 1.0, "how well the foothold's place is known, one sigma each", "mm", 0.0, 100.0),
+    _vector("foothold.offset_mm", "where it is, seen from where the tip stands without load", "mm", 100.0, [0.0] * 3),
 )  # fmt: skip
 
 
@@ -58,6 +60,8 @@ class Limb:
     friction_sd: float
     grip_n: float
     offset_sd_mm: float
+    offset_mm: np.ndarray
+    node: int
 
 
 @dataclass(frozen=True)
@@ -96,6 +100,7 @@ def load_stance(path: Path) -> Stance:
     models: dict[Path, LimbModel] = {}
     limbs = tuple(_limb(document, index, entry, models) for index, entry in enumerate(listed))
     _refuse_twice(document, limbs)
+    _refuse_node_twice(document, limbs)
     return Stance(
         str(values["name"]) or path.stem,
         limbs,
@@ -124,6 +129,8 @@ def _limb(document: toml.Document, index: int, entry: Mapping[str, object], mode
         toml.number(values, "foothold.friction_sd"),
         toml.number(values, "foothold.grip_n"),
         toml.number(values, "foothold.offset_sd_mm"),
+        _array(values, "foothold.offset_mm"),
+        int(toml.number(values, "node")) or index + 1,
     )
 
 
@@ -136,6 +143,18 @@ def _refuse_twice(document: toml.Document, limbs: tuple[Limb, ...]) -> None:
                 where=document.where(f"limb.{index}.name"),
                 why="answers and measurements name a limb",
                 next_step="give each limb its own name",
+            )
+
+
+def _refuse_node_twice(document: toml.Document, limbs: tuple[Limb, ...]) -> None:
+    nodes = [limb.node for limb in limbs]
+    for index, node in enumerate(nodes):
+        if node in nodes[:index]:
+            raise BadFileError(
+                f"two limbs have node {node}",
+                where=document.where(f"limb.{index}.node"),
+                why="each limb has its own controller; a limb without `node` has its place in the file, from 1",
+                next_step="give each limb the node of its controller",
             )
 
 

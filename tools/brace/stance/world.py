@@ -150,7 +150,7 @@ class Standing:
 def believed(stance: Stance) -> World:
     """Every unknown at its most probable value."""
     laws = tuple(LimbLaw(limb, stance.down, closes_at_n=UNSURE_N) for limb in stance.limbs)
-    offsets = np.zeros((len(laws), 3))
+    offsets = np.array([limb.offset_mm for limb in stance.limbs])
     return _world(stance, laws, offsets, [limb.friction_ratio for limb in stance.limbs])
 
 
@@ -160,7 +160,7 @@ def drawn(stance: Stance, middle: World, chance: np.random.Generator) -> World:
     laws, offsets, frictions = [], [], []
     for limb, at_middle in zip(stance.limbs, middle.laws, strict=True):
         law = LimbLaw(limb, stance.down, _drawn_model(limb.model, chance))
-        foothold = at_middle.tip_mm + chance.normal(0.0, limb.offset_sd_mm, 3)
+        foothold = at_middle.tip_mm + limb.offset_mm + chance.normal(0.0, limb.offset_sd_mm, 3)
         laws.append(law)
         offsets.append(foothold - law.tip_mm)
         frictions.append(max(0.0, limb.friction_ratio + limb.friction_sd * chance.standard_normal()))
