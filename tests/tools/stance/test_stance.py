@@ -105,6 +105,23 @@ def test_a_payload_at_its_factor_makes_the_first_foot_slide(brace: Callable[...,
         assert (states[first["limb"]] == "slides") == slides, states
 
 
+def test_a_foothold_that_is_known_to_be_higher_bears_more(brace: Callable[..., Outcome], stance: Path) -> None:
+    level = forces(json.loads(brace("stance", "load", stance, "--draws", 20, "--json").out))[:, 2]
+    head, at, tail = stance.read_text().partition('[[limb]]\nname = "rear left"')
+    stance.write_text(head + at + tail.replace("[limb.foothold]", "[limb.foothold]\noffset_mm = [0.0, 0.0, 0.5]", 1))
+    found = json.loads(brace("stance", "load", stance, "--draws", 20, "--json").out)
+    more = forces(found)[:, 2] - level
+    assert min(more[1], more[2]) > 0.2 and max(more[0], more[3]) < -0.2  # the other diagonal bears less
+    rear_left = found["limbs"][2]
+    assert rear_left["force_low_n"][2] < rear_left["force_n"][2] < rear_left["force_high_n"][2]
+
+
+def test_two_limbs_of_one_controller_are_refused(stance: Path) -> None:
+    stance.write_text(stance.read_text().replace("[limb.foothold]", "node = 3\n[limb.foothold]"))
+    with pytest.raises(BadFileError, match="two limbs have node 3"):
+        load_stance(stance)
+
+
 def test_measured_forces_make_the_answer_narrow(brace: Callable[..., Outcome], stance: Path, tmp_path: Path) -> None:
     measured = tmp_path / "m.csv"
     rows = [(-4.0, -4.0, 9.2), (-4.5, 4.2, 9.5), (4.2, -4.0, 9.0), (4.1, 3.9, 9.1)]
@@ -235,6 +252,7 @@ def test_show_and_lift_say_it_in_words(brace: Callable[..., Outcome], stance: Pa
         ("weight_n = 30.0", "wieght_n = 30.0", "unknown key body.wieght_n"),
         ("mount_mm = [120.0, 90.0, 0.0]", "mount_mm = [120.0, 90.0]", "limb.0.mount_mm"),
         ('name = "front right"', 'name = "front left"', "two limbs are named 'front left'"),
+        ('model = "limb.toml"', 'node = 200\nmodel = "limb.toml"', "limb.0.node = 200 is not allowed"),
         ("friction = 0.9", "friction = 0.9\nnormal = [0, 0, 0]", "limb.0.foothold.normal has no direction"),
         ('model = "limb.toml"', 'model = "none.toml"', "none.toml"),
         ("theta_rad = [0.0, 0.4, 1.6]", "", "limb.0.theta_rad is missing"),
