@@ -1,5 +1,5 @@
 // A joint with play carries no torque within half of it to either side.
-// Reads joint.*.gap_rad; depends on the sign of the load.
+// Reads joint.*.gap_rad; depends on the load.
 #pragma once
 
 #include <cmath>

@@ -1,5 +1,6 @@
 // The base moves and turns: displacement = compliance * force, along the robot's x and z whatever its turn; rotation =
 // compliance * moment about the femur axis.
+// Reads base.*; depends on nothing else.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,5 +1,6 @@
 // The tip's ball joint has clearance, and drags the tip along: along each axis the tip stays where it is until the
 // clearance is taken up on that side. So the slip depends on which way the rig last moved, not on the force.
+// Reads contact.play_mm; depends on the load and what came before.
 #pragma once
 
 #include <Eigen/Core>

@@ -2,7 +2,7 @@
 // constant, and a share of what the spring carries, because gears rub harder under load. The share may fade as the load
 // grows, to the two-thirds power of the load at last: the true area of an elastic contact grows so (Hertz). Seen as
 // energy, each change costs friction times its size.
-// Reads joint.*.coulomb_*; depends on the load, on its sign and on what came before.
+// Reads joint.*.coulomb_*; depends on the load and what came before.
 #pragma once
 
 #include <algorithm>

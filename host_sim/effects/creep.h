@@ -1,6 +1,6 @@
 // A joint deflects further with delay: the delayed deflection approaches ratio * elastic with one time constant. The
 // elastic deflection stands still between readings, so the step is exact.
-// Reads creep.*; depends on time and on what came before.
+// Reads creep.*; depends on time and what came before.
 #pragma once
 
 #include <cmath>

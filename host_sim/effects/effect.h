@@ -2,11 +2,12 @@
 // joints and links.
 //
 // A file of this folder has all that is known of one effect: its law, the law's derivative where the plant needs one,
-// which numbers of the model it reads (firmware/interface/dictionary.toml has their units, ranges and defaults), and
-// whether it acts (`acts`) where a caller may save work if it does not. The arguments of a law say what it depends on:
-// a law that reads Conditions depends on time or temperature, and only limb_now.h calls it; a law of a joint that reads
-// a deflection or a torque depends on load and sign, and plant/joint_law.h calls it; a law that depends on what came
-// before is listed in memory.h.
+// and whether it acts (`acts`) where a caller may save work if it does not. Its head has a line "Reads A, B; depends on
+// C and D.". A and B are numbers of the model; firmware/interface/dictionary.toml has their units, ranges and defaults.
+// C and D are "temperature", "time", "the load" (the reading is no straight line of the displacement), "what came
+// before", or "nothing else". tests/tools/effects/test_what_laws_depend_on.py plays each law and compares.
+// A law that reads Conditions is called by limb_now.h only; a law of a joint that reads a deflection or a torque by
+// plant/joint_law.h; a law that depends on what came before is listed in memory.h.
 #pragma once
 
 extern "C" {

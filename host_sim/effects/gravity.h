@@ -1,6 +1,7 @@
 // The weights of femur, tibia and knee pull along direction_rad in the limb's plane, less where the plane leans out of
 // it. While displacements count as small they are torques on the joints by posture, both links' at mid-length; else
 // they pull at the bodies of plant/structure.h.
+// Reads gravity.*; depends on nothing else.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,5 +1,5 @@
 // Gearbox and servo turn under torque: deflection = compliance * torque.
-// Reads joint.*.compliance_rad_per_n_mm; depends on nothing but the load.
+// Reads joint.*.compliance_rad_per_n_mm; depends on nothing else.
 #pragma once
 
 #include "effects/effect.h"

@@ -1,4 +1,5 @@
 // An encoder's zero is off: true angle = commanded + offset.
+// Reads joint.*.zero_offset_rad; depends on nothing else.
 #pragma once
 
 #include "effects/effect.h"

@@ -1,5 +1,6 @@
 // A link yields as an ellipsoid: it has principal compliances at the far end, and tilt turns its axes away from the
 // link's. The effect is that the ellipsoid differs from the calibration's.
+// Reads link.*; depends on nothing else.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,5 @@
 // The sensor reads this much at no force.
+// Reads sensor.bias_*; depends on nothing else.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,5 @@
 // Each of the sensor's axes reads a share of the other's force.
+// Reads sensor.crosstalk_*; depends on nothing else.
 #pragma once
 
 #include <Eigen/Core>

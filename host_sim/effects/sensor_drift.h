@@ -1,4 +1,5 @@
 // The sensor's zero moves with time.
+// Reads sensor.drift_*; depends on time.
 #pragma once
 
 #include <Eigen/Core>

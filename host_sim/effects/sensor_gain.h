@@ -1,4 +1,5 @@
 // The sensor reads every force times its gain.
+// Reads sensor.gain; depends on nothing else.
 #pragma once
 
 #include <Eigen/Core>

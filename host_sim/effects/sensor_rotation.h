@@ -1,4 +1,5 @@
 // The sensor is mounted turned: it reads R(angle) * force.
+// Reads sensor.rotation_rad; depends on nothing else.
 #pragma once
 
 #include <Eigen/Core>

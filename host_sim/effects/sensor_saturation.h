@@ -1,4 +1,5 @@
 // The sensor clips what each axis reads to +-limit, after everything else.
+// Reads sensor.saturation_n; depends on the load.
 #pragma once
 
 #include <Eigen/Core>
