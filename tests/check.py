@@ -42,6 +42,10 @@ C_PARTS = {  # changed folder: folder of its tests
     "tools/stance": "tests/stance",
 }
 INTERFACE = ("firmware/interface", "tools/interface")  # the dictionary, and what writes all that follows from it
+FRAMES = "firmware/interface/generated"
+FRAMES_TEST = "test_wires"  # plays the whole controller and counts its frames, so a message that is added can break it
+LAWS = "host_sim/effects"
+LAWS_TESTS = ("test_effects_page", "test_what_laws_depend_on")
 
 
 def run(
@@ -159,6 +163,8 @@ def c_tests(changed: Iterable[Path]) -> list[str]:
             continue
         if path.name.startswith("test_") and path.parts[:2] in (("tests", "unit"), ("tests", "host_sim")):
             names.add(path.stem)
+        if path.is_relative_to(FRAMES):
+            names.add(FRAMES_TEST)
         for part, folder in C_PARTS.items():
             if path.is_relative_to(part):
                 names |= {test.stem for test in (ROOT / folder).rglob("test_*.c*")}
@@ -180,12 +186,15 @@ def check_generated() -> bool:
 
 def python_tests(changed: Iterable[Path]) -> list[str]:
     """Files of tests/tools that mirror changed modules, the closest first: changed themselves, named after a module,
-    importing one or running its command. The generator's tests where the dictionary or the generator has changed."""
+    importing one or running its command. The generator's tests where the dictionary or the generator has changed, and
+    those of the laws where an effect's header has."""
     tests = {path: path.read_text() for path in sorted((ROOT / "tests" / "tools").rglob("test_*.py"))}
     closest: dict[Path, int] = {}
     for path in changed:
         if is_interface(path):
             closest |= {test: 0 for test in tests if test.stem.startswith("test_interface")}
+        if path.is_relative_to(LAWS):
+            closest |= {test: 0 for test in tests if test.stem in LAWS_TESTS}
         if path.suffix != ".py":
             continue
         if ROOT / path in tests:
