@@ -16,7 +16,8 @@ import numpy as np
 import pytest
 from brace.model import LimbModel
 from brace.params import pack
-from brace.stiffness.at_rest import PLANAR_K, SPATIAL_K, PostureError
+from brace.stiffness.at_rest import PostureError
+from brace.stiffness.names import PLANAR_K, SPATIAL_K
 from brace.stiffness.in_space_under_load import LoadedLimbInSpace
 from brace.stiffness.play_under_load import JOINTS, JOINTS_IN_SPACE, Play, PlayInSpaceUnderLoad, PlayUnderLoad, put_into
 from brace.stiffness.under_load import LoadedLimb, stiffness_under_load

@@ -18,7 +18,7 @@ from brace.bus.snapshot import emergency_of
 from brace.cli.monitor_display import emergency_line
 from brace.model import load_limb
 from brace.native.loaded import space_under_force
-from brace.stiffness.at_rest import SPATIAL_K
+from brace.stiffness.names import SPATIAL_K
 from brace.wire.frames import MESSAGES
 
 WIRES = ("can", "modbus_tcp")

@@ -52,7 +52,7 @@ def head_of(effect: Effect) -> tuple[list[str], set[str]]:
 def forces(limb: LimbModel, axis: str, place_mm: tuple[float, ...], t_s: np.ndarray, warmer_degc: float) -> np.ndarray:
     """Readings [N] along x and z where one run moves the tip along an axis; shape (2, places)."""
     still = np.zeros(len(place_mm))
-    columns = {
+    columns: dict[str, np.ndarray] = {
         "run": np.zeros(len(place_mm), np.int32),
         "theta1_rad": still + 0.5,
         "theta2_rad": still + 1.2,
@@ -60,7 +60,8 @@ def forces(limb: LimbModel, axis: str, place_mm: tuple[float, ...], t_s: np.ndar
         "temp_degc": still + limb.number("thermal.reference_degc") + warmer_degc,
         "dx_mm": still,
         "dz_mm": still,
-    } | {axis: np.array(place_mm)}
+    }
+    columns[axis] = np.array(place_mm)
     read = LoadingPlayer(columns, small_displacements=True).play(limb)
     return np.stack([read["fx_n"], read["fz_n"]])
 

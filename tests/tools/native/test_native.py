@@ -56,7 +56,7 @@ def test_every_plant_key_has_its_place() -> None:
     elsewhere = ("uncertainty.", "format", "name")
     expected = [key.name for key in LIMB_KEYS if not key.name.startswith(elsewhere) and key.name not in CONTROLLER_KEYS]
     assert keys == expected
-    assert len(set(positions.tolist())) == len(keys)
+    assert len(set(positions)) == len(keys)
 
 
 @pytest.fixture

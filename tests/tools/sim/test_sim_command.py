@@ -79,6 +79,14 @@ def test_it_says_where_to_connect_runs_and_ends_by_itself(brace: Callable[..., O
     assert lines[2].startswith("limb 1: monitor, K 3.9")
 
 
+def test_it_starts_without_numpy(paper_limb: Path) -> None:
+    """Importing it would take as long as all else that a simulation does before it is ready."""
+    code = "import sys; sys.modules['numpy'] = None; from brace.cli import main; sys.exit(main(sys.argv[1:]))"
+    given = ("sim", "--model", str(paper_limb), "--seconds", "0.01", *FREE)
+    ran = subprocess.run([sys.executable, "-c", code, *given], capture_output=True, text=True, check=False, timeout=60)
+    assert ran.returncode == 0, ran.stderr
+
+
 def test_fast_is_the_same_for_the_same_seed(brace: Callable[..., Outcome], paper_limb: Path) -> None:
     def end(seed: int) -> Any:
         given = ("--seconds", 30, "--fast", "--press", "1,2", "--json", "--seed", seed, *FREE)

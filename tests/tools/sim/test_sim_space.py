@@ -14,7 +14,7 @@ from brace.model import LimbModel, load_limb
 from brace.native import loaded
 from brace.sim.node import LimbSetup, Node
 from brace.sim.status import line_of
-from brace.stiffness.at_rest import SPATIAL_K
+from brace.stiffness.names import SPATIAL_K
 
 SPATIAL = {
     "link.coxa.bending_mm_per_n": 0.002,

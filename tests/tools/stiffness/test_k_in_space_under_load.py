@@ -13,7 +13,7 @@ import pytest
 
 from brace.model import LimbModel, load_limb
 from brace.native import loaded
-from brace.stiffness.at_rest import SPATIAL_C, SPATIAL_K
+from brace.stiffness.names import SPATIAL_C, SPATIAL_K
 from brace.stiffness.in_space_under_load import DISPLACEMENT, LoadedLimbInSpace
 from command_bench import Outcome
 

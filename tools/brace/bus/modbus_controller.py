@@ -387,7 +387,7 @@ class ModbusController:
 
     def upload(self, block: Block, advance: Advance) -> None:
         """Into the holding registers, where it is staged."""
-        words = struct.unpack(f">{2 * len(_PLACES)}H", block.words[_PLACES].astype(">u4").tobytes())
+        words = [half for at in _PLACES for half in divmod(block.words[at], 1 << 16)]
         for start in range(0, len(words), _BLOCK):
             self._owning(partial(self._write, start, words[start : start + _BLOCK]))
             advance(min(start + _BLOCK, len(words)) // 2)
@@ -425,8 +425,6 @@ class ModbusController:
 
     def download(self, advance: Advance) -> Block:
         """The holding registers as a block."""
-        import numpy as np
-
         from brace.params.block import pack
         from brace.params.values import model_of
 
@@ -435,8 +433,9 @@ class ModbusController:
         for start in range(0, total, _BLOCK):
             halves += self._read("holding", start, min(_BLOCK, total - start))
             advance(len(halves) // 2)
-        words = np.empty(len(_PLACES), np.uint32)
-        words[_PLACES] = np.frombuffer(struct.pack(f">{total}H", *halves), dtype=">u4")
+        words = [0] * len(_PLACES)
+        for at, high, low in zip(_PLACES, halves[::2], halves[1::2], strict=True):
+            words[at] = high << 16 | low
         sequence = int(self._input()["parameter_sequence"] or 0)
         return pack(model_of(words), sequence)
 

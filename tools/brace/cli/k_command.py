@@ -242,7 +242,7 @@ def _run_single(arguments: argparse.Namespace, model: LimbModel) -> int:
 def _both_open(gaps: dict[str, float], while_open: dict[str, dict[str, float]]) -> dict[str, float]:
     """K with every gap open, the lower bound: what a controller reports while no load is seen. Empty without play, or
     where it is not known."""
-    from brace.stiffness.at_rest import PLANAR_K
+    from brace.stiffness.names import PLANAR_K
 
     if not while_open or len(while_open) < len(gaps):
         return {}

@@ -17,6 +17,7 @@ from brace.ground.files import check_file, write_file
 from brace.model import LimbModel
 from brace.stiffness import at_rest
 from brace.stiffness.in_space_under_load import LOADED_SPACE_REST, LoadedLimbInSpace
+from brace.stiffness.names import PLANAR_C, PLANAR_K, PLANAR_REST, SPATIAL_C, SPATIAL_K, SPATIAL_REST
 from brace.stiffness.play_under_load import Play, PlayInSpaceUnderLoad, PlayUnderLoad, put_into
 from brace.stiffness.under_load import LOADED_REST, stiffness_under_load
 
@@ -30,8 +31,8 @@ def run_table(arguments: argparse.Namespace, model: LimbModel) -> int:
     loaded = bool(table.forces) or arguments.is_loaded
     _check_load(table, arguments)
     loaded_rest = LOADED_SPACE_REST if spatial else LOADED_REST
-    rest = loaded_rest if loaded else at_rest.SPATIAL_REST if spatial else at_rest.PLANAR_REST
-    k, c = (at_rest.SPATIAL_K, at_rest.SPATIAL_C) if spatial else (at_rest.PLANAR_K, at_rest.PLANAR_C)
+    rest = loaded_rest if loaded else SPATIAL_REST if spatial else PLANAR_REST
+    k, c = (SPATIAL_K, SPATIAL_C) if spatial else (PLANAR_K, PLANAR_C)
     names = (*k, *c, *rest, "flags")
     _refuse_taken(table, names)
     try:

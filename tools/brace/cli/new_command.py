@@ -199,7 +199,8 @@ def _expected(known: Known, model: object) -> dict[str, object]:
 
     from brace.model import LimbModel
     from brace.newlimb.describe import compliance_rel, posture_rad
-    from brace.stiffness.at_rest import PLANAR_K, PostureError, planar_limb
+    from brace.stiffness.at_rest import PostureError, planar_limb
+    from brace.stiffness.names import PLANAR_K
 
     assert isinstance(model, LimbModel)
     theta1, theta2 = posture_rad(known)

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from array import array
 from functools import cache
-
-import numpy as np
+from typing import cast
 
 from brace.ground.errors import BadFileError
 from brace.model import LIMB_KEYS, LimbModel
@@ -26,9 +26,8 @@ def status_text(native: Library, status: int) -> str:
 def firmware_limb(native: Library, model: LimbModel) -> CData:
     """`brace_limb_t *` with the model's values in float; refused when the firmware would refuse it."""
     limb = native.ffi.new("brace_limb_t *")
-    members = np.frombuffer(native.ffi.buffer(limb), dtype=np.float32)
-    with np.errstate(over="ignore", under="ignore"):
-        members[:] = [model.number(key) for key in _LIMB_KEYS]
+    members = array("f", (model.number(key) for key in _LIMB_KEYS))
+    native.ffi.memmove(limb, members, members.itemsize * len(members))
     status = native.lib.brace_limb_check(limb)
     if status != 0:
         raise refused_limb(native, model, status)
@@ -65,8 +64,7 @@ def refused_limb(native: Library, model: LimbModel, status: int) -> BadFileError
             why=f"moment transfer divides by the link's length, at least {_SHORTEST_COXA_MM:g} mm",
             next_step=f"geometry.coxa_mm = 57.0, or {transfer} = false",
         )
-    single = np.float32
-    present = [key for key in _SOURCES if single(model.number(key)) > 0.0]
+    present = [key for key in _SOURCES if array("f", [model.number(key)])[0] > 0.0]
     alone = {next((i for i, line in enumerate(_ON_ONE_LINE) if key in line), key) for key in present}
     if len(alone) < 2:
         line = next((line for line in _ON_ONE_LINE if set(present) & line), set())
@@ -98,12 +96,15 @@ def plant_model(native: Library, model: LimbModel) -> CData:
 def fill_plant(native: Library, plant: CData, model: LimbModel) -> None:
     """Writes a model into a plant struct (one of an array, say), every key of limb.toml at its own place."""
     positions, keys = plant_layout(native)
-    numbers = [LINKS.index(model.values[key]) if key == "change.link" else model.values[key] for key in keys]
-    np.frombuffer(native.ffi.buffer(native.ffi.addressof(plant)), dtype=np.float64)[positions] = numbers
+    link = LINKS.index(str(model.values["change.link"]))
+    numbers = cast("dict[str, float]", {**model.values, "change.link": link})
+    members = memoryview(native.ffi.buffer(native.ffi.addressof(plant))).cast("d")
+    for position, key in zip(positions, keys, strict=True):
+        members[position] = numbers[key]
 
 
 @cache
-def plant_layout(native: Library) -> tuple[np.ndarray, list[str]]:
+def plant_layout(native: Library) -> tuple[list[int], list[str]]:
     """Index of each key's double in brace_plant_model_t, from the library's own list of keys."""
     keys, positions = [], []
     for key in LIMB_KEYS:
@@ -111,7 +112,7 @@ def plant_layout(native: Library) -> tuple[np.ndarray, list[str]]:
         if offset >= 0:  # format, name and the calibration's trust are no part of the plant
             keys.append(key.name)
             positions.append(offset // 8)
-    return np.array(positions), keys
+    return positions, keys
 
 
 def plant_error(native: Library, status: int, model: LimbModel, doing: str) -> BadFileError:

@@ -26,7 +26,7 @@ def model_numbers(model: LimbModel) -> np.ndarray:
 def number_index() -> Mapping[str, int]:
     """Where each key of limb.toml stands in `model_numbers`."""
     positions, keys = plant_layout(library())
-    return dict(zip(keys, (int(position) for position in positions)))
+    return dict(zip(keys, positions))
 
 
 class LoadingBatchPlayer(LoadingPlayer):

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
+from array import array
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-
-import numpy as np
 
 from brace.ground.errors import BadFileError, VersionMismatchError
 from brace.ground.files import read_bytes
@@ -29,7 +28,7 @@ class Block:
     """A set of parameters as a controller holds it."""
 
     content: bytes
-    words: np.ndarray = field(repr=False)  # one uint32 for each parameter
+    words: "array[int]" = field(repr=False)  # 32 bits for each parameter
     sequence: int
     identity: int  # CRC-32 of schema and values, whatever the sequence: what the controller reports
     rounded: Sequence[Rounded] = ()
@@ -46,7 +45,7 @@ def pack(model: LimbModel, sequence: int = 1) -> Block:
     _refuse_other_library(native)
     words, rounded = words_of(model)
     parameters = native.ffi.new("brace_parameters_t *")
-    native.ffi.memmove(parameters, words.tobytes(), words.nbytes)
+    native.ffi.memmove(parameters, words, words.itemsize * len(words))
     wrong = native.ffi.new("uint32_t *")
     status = native.lib.brace_parameters_check(parameters, wrong)
     if status != 0:
@@ -68,7 +67,7 @@ def unpack(content: bytes, where: str) -> Block:
     status = native.lib.brace_parameters_unpack(content, len(content), parameters, sequence, wrong)
     if status != 0:
         raise _refused_block(native, content, where, int(status), int(wrong[0]))
-    words = np.frombuffer(native.ffi.buffer(parameters), dtype=np.uint32).copy()
+    words = array("I", bytes(native.ffi.buffer(parameters)))
     return Block(content, words, int(sequence[0]), int(native.lib.brace_parameters_crc(parameters)))
 
 

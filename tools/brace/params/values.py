@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
+from array import array
+from collections.abc import Sequence
 from dataclasses import dataclass
-
-import numpy as np
 
 from brace.ground.errors import BadFileError
 from brace.model import LimbModel
@@ -26,9 +26,9 @@ class Rounded:
     held: float
 
 
-def words_of(model: LimbModel) -> tuple[np.ndarray, list[Rounded]]:
+def words_of(model: LimbModel) -> tuple["array[int]", list[Rounded]]:
     """One 32-bit word for each parameter, in the block's order; and what was rounded by more than usual."""
-    words = np.zeros(len(PARAMETERS), dtype=np.uint32)
+    words = array("I", [0] * len(PARAMETERS))
     rounded: list[Rounded] = []
     for parameter in PARAMETERS:
         if parameter.texts:
@@ -38,18 +38,17 @@ def words_of(model: LimbModel) -> tuple[np.ndarray, list[Rounded]]:
         if parameter.type == "u32":
             words[parameter.index] = int(value)
             continue
-        with np.errstate(over="ignore", under="ignore"):
-            single = np.float32(value) + np.float32(0.0)  # -0 is 0
-        if math.isinf(single) and not math.isinf(value):
+        single = array("f", [value + 0.0])  # -0 is 0
+        if math.isinf(single[0]) and not math.isinf(value):
             raise BadFileError(
                 f"{parameter.key} = {value:g} is too large for the controller",
                 where=model.where(parameter.key),
                 why="it holds 32-bit floats, at most 3.4e38",
                 next_step="write a smaller value" + (", or inf" if parameter.infinite else ""),
             )
-        if math.isfinite(value) and abs(float(single) - value) > abs(value) * _HALF_STEP:
-            rounded.append(Rounded(parameter.key, value, float(single)))
-        words[parameter.index] = single.view(np.uint32)
+        if math.isfinite(value) and abs(single[0] - value) > abs(value) * _HALF_STEP:
+            rounded.append(Rounded(parameter.key, value, single[0]))
+        words[parameter.index] = memoryview(single).cast("B").cast("I")[0]
     return words, rounded
 
 
@@ -59,18 +58,20 @@ def value_of(parameter: Parameter, word: int) -> float | int | str:
         return parameter.texts[word]
     if parameter.type == "u32":
         return int(word)
+    import numpy as np  # it knows the shortest decimals of a 32-bit float
+
     single = np.uint32(word).view(np.float32)
     shortest = float(str(single))
     key = KEY_BY_NAME[parameter.key]
     return min(max(shortest, key.low), key.high)  # a bound's decimals may lie just outside of it
 
 
-def model_of(words: np.ndarray) -> LimbModel:
+def model_of(words: Sequence[int]) -> LimbModel:
     """The limb model of a block's words; what equals the format's default is not marked as given."""
     values: dict[str, Value] = {"format": 1, "name": "", **{one.key: one.default or 0.0 for one in OF_THE_MODEL}}
     given = {"format"}
     for parameter in PARAMETERS:
-        values[parameter.key] = value_of(parameter, int(words[parameter.index]))
+        values[parameter.key] = value_of(parameter, words[parameter.index])
         if parameter.default is None:
             given.add(parameter.key)
     return LimbModel(values, frozenset(given))

@@ -17,7 +17,7 @@ from brace.native.c_data import CData
 from brace.native.limb import fill_plant, plant_error, status_text
 from brace.params import pack
 from brace.sim.spec import JOINTS, Fault, Posture
-from brace.stiffness.at_rest import SPATIAL_K, flag_names
+from brace.stiffness.names import SPATIAL_K
 from brace.wire import codes
 
 MODES = tuple(name.lower() for name in codes.MODE.names)
@@ -336,7 +336,7 @@ class Node:
             "lambda_min_n_per_mm": k.lambda_min_n_per_mm if valid else None,
             "lambda_max_n_per_mm": k.lambda_max_n_per_mm if valid else None,
             "stiff_axis_rad": k.stiff_axis_rad if valid else None,
-            "flag_names": flag_names(k.flags),
+            "flag_names": list(codes.FLAG.names_of_bits(k.flags)),
             "load": _load_of(s),
             "theta1_rad": s.theta_rad[1],
             "theta2_rad": s.theta_rad[2],
@@ -410,7 +410,7 @@ def _space_of(s: CData) -> dict[str, object]:
     for place, axis in enumerate("xyz"):
         entries[f"stiff_axis_{axis}"] = k.stiff_axis[place] if valid else None
     return entries | {
-        "flag_names": flag_names(k.flags),
+        "flag_names": list(codes.FLAG.names_of_bits(k.flags)),
         "k_across_n_per_mm": space.across_n_per_mm if valid else None,
         "theta0_rad": s.theta_rad[0],
         "play_coxa": PLAY_STATES[s.play[0].state],

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from brace.sim.node import LimbState
 
-from brace.stiffness.at_rest import SPATIAL_K
+from brace.stiffness.names import SPATIAL_K
 
 
 def line_of(state: LimbState) -> str:

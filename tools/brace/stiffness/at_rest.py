@@ -13,6 +13,7 @@ from brace.model import LimbModel
 from brace.native import Library, library
 from brace.native.c_data import CData
 from brace.native.limb import firmware_limb, refused_limb, status_text
+from brace.stiffness.names import PLANAR_C, PLANAR_K, PLANAR_REST, SPATIAL_C, SPATIAL_K, SPATIAL_REST
 from brace.wire.codes import FLAG
 
 ARITHMETICS = ("f32", "fixed", "general")
@@ -20,22 +21,9 @@ E_RANGE, E_UNREACHABLE, E_SINGULAR, E_UNSUPPORTED = -3, -4, -6, -8
 Q28 = float(1 << 28)
 FIXED_LIMIT_RAD = 7.99999999
 
-PLANAR_K = ("k_xx_n_per_mm", "k_xz_n_per_mm", "k_zz_n_per_mm")
-PLANAR_C = ("c_xx_mm_per_n", "c_xz_mm_per_n", "c_zz_mm_per_n")
-PLANAR_REST = ("lambda_min_n_per_mm", "lambda_max_n_per_mm", "stiff_axis_rad")
 _PLANAR = np.dtype([(name, "f4") for name in (*PLANAR_K, *PLANAR_REST)] + [("flags", "u4")])
 _PLANAR_ALL = np.dtype(
     [(name, "f4") for name in (*PLANAR_K, *PLANAR_REST, *PLANAR_C)] + [("flags", np.dtype("u4"))]
-)
-SPATIAL_K = tuple(f"k_{axes}_n_per_mm" for axes in ("xx", "xy", "xz", "yy", "yz", "zz"))
-SPATIAL_C = tuple(f"c_{axes}_mm_per_n" for axes in ("xx", "xy", "xz", "yy", "yz", "zz"))
-SPATIAL_REST = (
-    "lambda_min_n_per_mm",
-    "lambda_mid_n_per_mm",
-    "lambda_max_n_per_mm",
-    "stiff_axis_x",
-    "stiff_axis_y",
-    "stiff_axis_z",
 )
 _SPATIAL = np.dtype([(name, "f4") for name in (*SPATIAL_K, *SPATIAL_REST)] + [("flags", "u4")])
 SIGMA = (

@@ -12,8 +12,6 @@ from brace.native.c_data import CData
 from brace.native.limb import firmware_limb, status_text
 from brace.stiffness.at_rest import (
     E_SINGULAR,
-    SPATIAL_K,
-    SPATIAL_REST,
     PostureError,
     joined,
     require_yield_across,
@@ -21,6 +19,7 @@ from brace.stiffness.at_rest import (
     within_half_turn,
 )
 from brace.stiffness.hardening import Spring, settle
+from brace.stiffness.names import SPATIAL_K, SPATIAL_REST
 from brace.stiffness.sigma import sigma_in_space
 from brace.stiffness.under_load import NO_REST
 

@@ -15,7 +15,8 @@ import numpy as np
 
 from brace.model import LimbModel
 from brace.model.travel import KNEE_MOST_RAD, has_travel, within_travel
-from brace.stiffness.at_rest import PLANAR_C, PLANAR_K, PLANAR_REST, PlanarLimb, planar_limb
+from brace.stiffness.at_rest import PlanarLimb, planar_limb
+from brace.stiffness.names import PLANAR_C, PLANAR_K, PLANAR_REST
 from brace.stiffness.under_load import LoadedLimb
 
 KNEES = ("up", "down")

@@ -8,7 +8,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from brace.model import LimbModel
-from brace.stiffness.at_rest import PLANAR_K, PLANAR_REST, PostureError
+from brace.stiffness.at_rest import PostureError
+from brace.stiffness.names import PLANAR_K, PLANAR_REST
 from brace.stiffness.with_gap import gaps_rad, stiffness_while_open
 
 

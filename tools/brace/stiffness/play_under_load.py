@@ -14,16 +14,8 @@ from brace.native import library
 from brace.native.c_data import CData
 from brace.native.limb import firmware_limb, status_text
 from brace.params.values import words_of
-from brace.stiffness.at_rest import (
-    PLANAR_C,
-    PLANAR_K,
-    PLANAR_REST,
-    SPATIAL_C,
-    SPATIAL_K,
-    SPATIAL_REST,
-    PostureError,
-    spatial_compliance,
-)
+from brace.stiffness.at_rest import PostureError, spatial_compliance
+from brace.stiffness.names import PLANAR_C, PLANAR_K, PLANAR_REST, SPATIAL_C, SPATIAL_K, SPATIAL_REST
 from brace.stiffness.in_space_under_load import LoadedLimbInSpace
 from brace.stiffness.under_load import LoadedLimb
 
@@ -55,7 +47,7 @@ class _Watched:
         ffi, lib = self.native.ffi, self.native.lib
         words, _ = words_of(model)
         parameters = ffi.new("brace_parameters_t *")
-        ffi.memmove(parameters, words.tobytes(), words.nbytes)
+        ffi.memmove(parameters, words, words.itemsize * len(words))
         self.joints = joints
         self.play = ffi.new("brace_play_joint_t[]", len(joints))
         self._kept = [ffi.new("brace_backlash_t *") for _ in joints]

@@ -8,7 +8,8 @@ from brace.model import LimbModel
 from brace.native import library
 from brace.native.c_data import CData
 from brace.native.limb import firmware_limb, status_text
-from brace.stiffness.at_rest import E_SINGULAR, PLANAR_C, PLANAR_K, PLANAR_REST, PostureError
+from brace.stiffness.at_rest import E_SINGULAR, PostureError
+from brace.stiffness.names import PLANAR_C, PLANAR_K, PLANAR_REST
 from brace.stiffness.hardening import Spring, settle
 from brace.stiffness.sigma import sigma_in_plane
 

@@ -7,7 +7,8 @@ from collections.abc import Mapping
 from brace.model import LimbModel
 from brace.native import library
 from brace.native.limb import firmware_limb, status_text
-from brace.stiffness.at_rest import PLANAR_K, PLANAR_REST, PostureError
+from brace.stiffness.at_rest import PostureError
+from brace.stiffness.names import PLANAR_K, PLANAR_REST
 
 JOINTS = ("femur", "tibia")
 

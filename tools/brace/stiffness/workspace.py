@@ -12,7 +12,8 @@ from brace.ground.errors import UsageError
 from brace.model import LimbModel
 from brace.native import library
 from brace.native.limb import firmware_limb, refused_limb
-from brace.stiffness.at_rest import PLANAR_K, PLANAR_REST, E_UNSUPPORTED
+from brace.stiffness.at_rest import E_UNSUPPORTED
+from brace.stiffness.names import PLANAR_K, PLANAR_REST
 from brace.stiffness.under_load import LOADED_REST, LoadedLimb
 
 COLUMNS = (*PLANAR_K, *PLANAR_REST)
