@@ -15,7 +15,7 @@ typedef struct {
     double tilt_rad; /* [-1.5708, 1.5708] */
     double lateral_mm_per_n; /* [0, 1000] */
     double torsion_rad_per_n_mm; /* [0, 1] */
-    double moment_transfer_ratio; /* [0, 1] */
+    double moment_transfer; /* [0, 1] */
 } brace_plant_link_t;
 
 typedef struct {

@@ -9,7 +9,7 @@ namespace brace::api {
 inline reference::LinkCompliance link_of(const brace_plant_link_t &link)
 {
     return {link.axial_mm_per_n,   link.bending_mm_per_n,     link.tilt_rad,
-            link.lateral_mm_per_n, link.torsion_rad_per_n_mm, link.moment_transfer_ratio};
+            link.lateral_mm_per_n, link.torsion_rad_per_n_mm, link.moment_transfer};
 }
 
 inline reference::Lengths lengths_of(const brace_plant_model_t &model)

@@ -105,7 +105,7 @@ void add_link(const Model &model, int index, const Line &line, double weight_n, 
     const Vector3d along = in_plane(line.angle_rad), up = along.cross(kLeft);
     const Vector3d elastic_along = in_plane(line.angle_rad + link.tilt_rad), elastic_up = elastic_along.cross(kLeft);
     const Vector3d end_mm = line.root_mm + line.length_mm * along;
-    const double beam = line.length_mm > 0.0 ? link.moment_transfer_ratio : 0.0, ellipsoid = 1.0 - beam;
+    const double beam = line.length_mm > 0.0 ? link.moment_transfer : 0.0, ellipsoid = 1.0 - beam;
     const auto square = [](const Vector3d &v) -> Matrix3d { return v * v.transpose(); };
     const auto on_line_mm = [&](double share) -> Vector3d { return line.root_mm + share * line.length_mm * along; };
 

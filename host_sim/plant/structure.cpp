@@ -49,7 +49,7 @@ void add_link(const Model &model, int index, const Vector2d &axis, double length
     const auto &link = model.link[index];
     const double bending = link.bending_mm_per_n;
     const Matrix2d axes = effects::link_compliance_error::axes(axis, link.tilt_rad);
-    const double beam = link.moment_transfer_ratio;
+    const double beam = link.moment_transfer;
     const int hinges = beam > 0.0 ? 2 * parts : 0;
     const double part_mm = length_mm / parts;
     const double per_hinge =

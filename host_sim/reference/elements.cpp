@@ -56,8 +56,8 @@ Element link_element(const LinkCompliance &link, const Frame &axis, Real angle, 
     element.s(kAcross, kAcross) = link.bending_mm_per_n;
     element.s(kSideways, kSideways) = link.lateral_mm_per_n;
     element.s(kTwist, kTwist) = link.torsion_rad_per_n_mm;
-    if (length_mm > 0.0L && link.moment_transfer_ratio != 0.0L) {
-        const Real per_length = link.moment_transfer_ratio / length_mm;
+    if (length_mm > 0.0L && link.moment_transfer != 0.0L) {
+        const Real per_length = link.moment_transfer / length_mm;
         const auto couple = [&](int shift, int turn, Real bending) {
             element.s(shift, turn) = element.s(turn, shift) = 1.5L * bending * per_length;
             element.s(turn, turn) = 3.0L * bending * per_length / length_mm;

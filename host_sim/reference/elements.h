@@ -20,7 +20,7 @@ using Matrix6 = Eigen::Matrix<Real, 6, 6>;
 using WrenchMap = Eigen::Matrix<Real, 6, 3>;
 
 struct LinkCompliance {
-    Real axial_mm_per_n, bending_mm_per_n, tilt_rad, lateral_mm_per_n, torsion_rad_per_n_mm, moment_transfer_ratio;
+    Real axial_mm_per_n, bending_mm_per_n, tilt_rad, lateral_mm_per_n, torsion_rad_per_n_mm, moment_transfer;
 };
 
 struct Limb {

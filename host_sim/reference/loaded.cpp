@@ -57,7 +57,7 @@ public:
     void link(const LinkCompliance &link, const Vector3d &root, double angle_rad, double length_mm, double weight_n,
               int parts, bool in_space)
     {
-        const double m = length_mm > 0.0 ? static_cast<double>(link.moment_transfer_ratio) : 0.0;
+        const double m = length_mm > 0.0 ? static_cast<double>(link.moment_transfer) : 0.0;
         const double bending = static_cast<double>(link.bending_mm_per_n);
         const double lateral = in_space ? static_cast<double>(link.lateral_mm_per_n) : 0.0;
         const double torsion = in_space ? static_cast<double>(link.torsion_rad_per_n_mm) : 0.0;

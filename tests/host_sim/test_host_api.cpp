@@ -87,7 +87,7 @@ static void test_keys_find_their_doubles(void)
         const char *key;
         const double *number;
     } some[] = {{"geometry.tibia_mm", &model.geometry.tibia_mm},
-                {"link.femur.moment_transfer", &model.link[1].moment_transfer_ratio},
+                {"link.femur.moment_transfer", &model.link[1].moment_transfer},
                 {"joint.tibia.gap_rad", &model.joint[2].gap_rad},
                 {"sensor.saturation_n", &model.sensor.saturation_n},
                 {"change.link", &model.change.link_index},

@@ -41,7 +41,7 @@ brace_plant_model_t paper_limb(double moment_transfer)
     limb.link[kFemur].bending_mm_per_n = 0.06;
     limb.link[kTibia].axial_mm_per_n = 0.002;
     limb.link[kTibia].bending_mm_per_n = 0.25;
-    limb.link[kFemur].moment_transfer_ratio = limb.link[kTibia].moment_transfer_ratio = moment_transfer;
+    limb.link[kFemur].moment_transfer = limb.link[kTibia].moment_transfer = moment_transfer;
     limb.joint[kFemur].compliance_rad_per_n_mm = 1.0e-5;
     limb.joint[kTibia].compliance_rad_per_n_mm = 1.6e-5;
     return limb;
@@ -100,7 +100,7 @@ brace::reference::Limb reference_limb(const brace_plant_model_t &model)
     for (int i = 0; i < 3; ++i) {
         const brace_plant_link_t &from = model.link[i];
         *link[i] = {from.axial_mm_per_n,   from.bending_mm_per_n,     from.tilt_rad,
-                    from.lateral_mm_per_n, from.torsion_rad_per_n_mm, from.moment_transfer_ratio};
+                    from.lateral_mm_per_n, from.torsion_rad_per_n_mm, from.moment_transfer};
     }
     limb.coxa_joint_rad_per_n_mm = model.joint[kCoxa].compliance_rad_per_n_mm;
     limb.femur_joint_rad_per_n_mm = model.joint[kFemur].compliance_rad_per_n_mm;
@@ -197,7 +197,7 @@ Cantilever cantilever()
     brace_plant_link_t &beam = made.limb.link[kTibia];
     beam.bending_mm_per_n = 0.3;
     beam.axial_mm_per_n = 1e-7; // so that C has an inverse
-    beam.moment_transfer_ratio = 1.0;
+    beam.moment_transfer = 1.0;
     made.ei_n_mm2 = std::pow(made.length_mm, 3) / (3.0 * beam.bending_mm_per_n);
     return made;
 }
@@ -506,7 +506,7 @@ void test_cantilever_under_its_weight(void)
     TEST_ASSERT_DOUBLE_WITHIN(1e-6 * beam_mm, -beam_mm,
                               under_force(beam.limb, {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, kDown_rad}).dz_mm);
     // An ellipsoid's weight lies before its spring: nothing yields.
-    beam.limb.link[kTibia].moment_transfer_ratio = 0.0;
+    beam.limb.link[kTibia].moment_transfer = 0.0;
     TEST_ASSERT_DOUBLE_WITHIN(1e-15, 0.0, under_force(beam.limb, {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, kDown_rad}).dz_mm);
     // Joints and base bear it at mid-length; the knee's weight at the knee.
     beam.limb.gravity = {2e-3, weight_n, 3e-3, kDown_rad, 0.0};
@@ -555,7 +555,7 @@ void test_default_in_space_has_it_too(void)
     for (int trial = 0; trial < 12; ++trial) {
         brace_plant_model_t limb = draw.limb();
         for (auto &link : limb.link) {
-            link.moment_transfer_ratio = 1.0;
+            link.moment_transfer = 1.0;
         }
         const brace_loaded_space_case_t given = {draw.between(-3.0, 3.0),
                                                  draw.between(-3.0, 3.0),

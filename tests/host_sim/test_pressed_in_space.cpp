@@ -76,7 +76,7 @@ brace_plant_model_t random_limb(Draw &draw, double strength, bool weighs)
         link.lateral_mm_per_n = draw.between(0.02, 0.2);
         link.torsion_rad_per_n_mm = draw.between(0.0, 5e-6);
         link.tilt_rad = draw.between(-0.2, 0.2);
-        link.moment_transfer_ratio = strength;
+        link.moment_transfer = strength;
     }
     limb.link[0].bending_mm_per_n = draw.between(0.001, 0.005);
     limb.link[0].lateral_mm_per_n = draw.between(0.001, 0.005);

@@ -216,6 +216,10 @@ def _check(entry: Entry) -> None:
         raise refuse(f"type {entry.type}")
     # A whole number without a unit may count what its own name says.
     leaf = entry.key.rpartition(".")[2]
+    table = entry.key.partition(".")[0]
+    if entry.member and entry.field not in (leaf, f"{table}_{leaf}"):
+        raise refuse(f"in C it is {entry.field}; one thing has one name: {leaf}, or {table}_{leaf} where tables share a"
+                     " struct")
     if fault := unit_fault(entry.unit) or (name_fault(leaf, entry.unit) if entry.type == "f32" or entry.unit else ""):
         raise refuse(fault)
     if entry.type == "f32" and (entry.texts or entry.numbers):

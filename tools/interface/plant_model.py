@@ -81,9 +81,8 @@ def _is_repeated(entry: Entry) -> bool:
 
 
 def _field(entry: Entry) -> str:
-    """The key's last part. What limb.toml may write as true and false, or as a text, says what the double holds."""
-    leaf = entry.key.rpartition(".")[2]
-    return leaf + ("_index" if entry.texts else "_ratio" if entry.ratio else "")
+    """The key's last part. Of a text the double holds the index."""
+    return entry.key.rpartition(".")[2] + ("_index" if entry.texts else "")
 
 
 def _member(entry: Entry) -> str:

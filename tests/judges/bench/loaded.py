@@ -107,7 +107,7 @@ def _errors(limb: Limb, rows: np.ndarray) -> tuple[float, float, float, float]:
     keys |= {f"gravity.{part}": weight_n for part, weight_n in WEIGHTS_N.items()}
     for name, link, joint in (("femur", limb.femur, 1), ("tibia", limb.tibia, 2)):
         keys |= {f"link.{name}.{key}": getattr(link, key) for key in ("axial_mm_per_n", "bending_mm_per_n", "tilt_rad")}
-        keys |= {f"link.{name}.moment_transfer": link.moment_transfer_ratio,
+        keys |= {f"link.{name}.moment_transfer": link.moment_transfer,
                  f"joint.{name}.compliance_rad_per_n_mm": limb.joint_rad_per_n_mm[joint]}
     paper = load_limb(BENCH.parents[2] / "tools" / "brace" / "data" / "paper-limb.toml")
     angles = np.vstack([postures(), workspace()]).astype(float)

@@ -21,7 +21,7 @@ class Link:
     tilt_rad: float = 0.0
     lateral_mm_per_n: float = 0.0
     torsion_rad_per_n_mm: float = 0.0
-    moment_transfer_ratio: float = 0.0
+    moment_transfer: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -64,7 +64,7 @@ def tilted_limb() -> Limb:
     limb = paper_limb()
     return replace(
         limb,
-        femur=replace(limb.femur, tilt_rad=0.21, moment_transfer_ratio=0.5),
+        femur=replace(limb.femur, tilt_rad=0.21, moment_transfer=0.5),
         tibia=replace(limb.tibia, tilt_rad=-0.33),
     )
 
@@ -72,7 +72,7 @@ def tilted_limb() -> Limb:
 def beam_limb() -> Limb:
     """The paper's limb with beams for links: what K under a load is counted and judged on."""
     limb = paper_limb()
-    return replace(limb, tibia=replace(limb.tibia, moment_transfer_ratio=1.0))
+    return replace(limb, tibia=replace(limb.tibia, moment_transfer=1.0))
 
 
 def random_limbs(count: int = 64) -> list[Limb]:
@@ -128,7 +128,7 @@ def _float(value: float) -> str:
 def _limb_initialiser(limb: Limb) -> str:
     links = ", ".join(
         "{" + ", ".join(map(_float, (link.axial_mm_per_n, link.bending_mm_per_n, link.tilt_rad, link.lateral_mm_per_n,
-                                     link.torsion_rad_per_n_mm, link.moment_transfer_ratio))) + "}"
+                                     link.torsion_rad_per_n_mm, link.moment_transfer))) + "}"
         for link in limb.links)
     joints = ", ".join("{" + f"{_float(c)}, 0.0f, 0.0f" + "}" for c in limb.joint_rad_per_n_mm)
     base = ", ".join(map(_float, (*limb.base_mm_per_n, 0.0)))

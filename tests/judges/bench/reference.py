@@ -50,7 +50,7 @@ def _link_in_plane(link: Link, length: float, angle: Array, arm: Array) -> Array
     axial, bending = _f(link.axial_mm_per_n), _f(link.bending_mm_per_n)
     force = np.swapaxes(turn, -1, -2)
     total = np.swapaxes(force, -1, -2) @ np.diag([axial, bending]) @ force
-    kappa = _f(link.moment_transfer_ratio)
+    kappa = _f(link.moment_transfer)
     if kappa > 0.0:
         moment = np.stack([-arm[:, 1], arm[:, 0]], -1)
         across = turn[:, :, 1]
@@ -91,7 +91,7 @@ def planar(limb: Limb, theta1: Array, theta2: Array) -> Planar:
 def _out_of_plane(limb: Limb, theta2: Array, theta1: Array, tip: Array) -> Array:
     """The compliance across the limb's plane [mm/N] (n,), limb frame."""
     def beam(link: Link, length: float, reach: Array) -> Array:
-        lateral, kappa = _f(link.lateral_mm_per_n), _f(link.moment_transfer_ratio)
+        lateral, kappa = _f(link.lateral_mm_per_n), _f(link.moment_transfer)
         return lateral * (1.0 + 3.0 * kappa / length * reach + 3.0 * kappa / length**2 * reach**2)
 
     tibia = _f(limb.tibia_mm)

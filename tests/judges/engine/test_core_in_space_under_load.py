@@ -50,7 +50,7 @@ class CoreLimb:
         for index, (link, joint) in enumerate(zip(LINKS, (self._load.yaw, self._load.hip, self._load.knee))):
             for name in names:
                 setattr(limb.link[index], name, keys[f"link.{link}.{name}"])
-            limb.link[index].moment_transfer_ratio = keys[f"link.{link}.moment_transfer"]
+            limb.link[index].moment_transfer = keys[f"link.{link}.moment_transfer"]
             yields = keys[f"joint.{link}.compliance_rad_per_n_mm"]
             joint.yields_by_rad_per_n_mm = joint.slope_rad_per_n_mm = yields
         for name in ("femur_n", "knee_n", "tibia_n"):

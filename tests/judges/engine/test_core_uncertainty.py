@@ -36,7 +36,7 @@ def limb_of(case: Case) -> tuple[CData, CData]:
     for index, link in enumerate(LINKS):
         for part in (*LINK_PARTS, "tilt_rad"):
             setattr(limb.link[index], part, keys.get(f"link.{link}.{part}", 0.0))
-        limb.link[index].moment_transfer_ratio = keys.get(f"link.{link}.moment_transfer", 0.0)
+        limb.link[index].moment_transfer = keys.get(f"link.{link}.moment_transfer", 0.0)
         limb.joint[index].compliance_rad_per_n_mm = keys.get(f"joint.{link}.compliance_rad_per_n_mm", 0.0)
     for part in ("femur_n", "knee_n", "tibia_n"):
         setattr(weights, part, keys.get(f"gravity.{part}", 0.0))

@@ -26,7 +26,7 @@ def core_limb(case: Case) -> tuple[CData, CData, CData]:
     for index, link in enumerate(LINKS[1:], start=1):
         for name in ("axial_mm_per_n", "bending_mm_per_n", "tilt_rad"):
             setattr(limb.link[index], name, case.keys[f"link.{link}.{name}"])
-        limb.link[index].moment_transfer_ratio = case.keys[f"link.{link}.moment_transfer"]
+        limb.link[index].moment_transfer = case.keys[f"link.{link}.moment_transfer"]
         limb.joint[index].compliance_rad_per_n_mm = case.keys[f"joint.{link}.compliance_rad_per_n_mm"]
     for name in ("femur_n", "knee_n", "tibia_n"):
         setattr(weights, name, case.keys.get(f"gravity.{name}", 0.0))

@@ -28,7 +28,7 @@ brace_node_limb_t nominal(const Setting &setting)
         limb.plant.joint[kTibia].gap_rad = 0.008;
     }
     if (setting.is_heavy) {
-        limb.plant.link[kFemur].moment_transfer_ratio = limb.plant.link[kTibia].moment_transfer_ratio = 1.0;
+        limb.plant.link[kFemur].moment_transfer = limb.plant.link[kTibia].moment_transfer = 1.0;
         limb.plant.gravity = {2.0, 1.5, 1.0, -M_PI_2, 0.0};
     }
     if (setting.is_in_space) {
@@ -55,7 +55,7 @@ brace_parameters_t parameters_of(const brace_node_limb_t &limb, std::uint32_t no
         p.limb.link[i].axial_mm_per_n = number(link.axial_mm_per_n);
         p.limb.link[i].bending_mm_per_n = number(link.bending_mm_per_n);
         p.limb.link[i].lateral_mm_per_n = number(link.lateral_mm_per_n);
-        p.limb.link[i].moment_transfer_ratio = number(link.moment_transfer_ratio);
+        p.limb.link[i].moment_transfer = number(link.moment_transfer);
         p.limb.joint[i] = {number(plant.joint[i].compliance_rad_per_n_mm), number(plant.joint[i].gap_rad), 0.0f};
         brace_drive_t &reported = p.drive[i];
         reported.motor_friction_n_mm = number(drive.friction_n_mm);

@@ -83,6 +83,19 @@ def test_every_key_of_the_file_is_a_parameter() -> None:
     assert [p.index for p in PARAMETERS] == list(range(len(PARAMETERS)))
 
 
+def test_c_has_the_names_of_the_file() -> None:
+    """A number of limb.toml is found in C under its own name; where tables share a struct, behind the table's name."""
+    members = re.findall(r"^\s+(?:float|uint32_t) (\w+);", "".join(
+        (PROJECT / header).read_text()
+        for header in ("firmware/core/include/brace/limb_fields.h",
+                       "firmware/interface/generated/brace/parameter_fields.h")
+    ), re.M)  # fmt: skip
+    for parameter in PARAMETERS:
+        table, leaf = parameter.key.split(".")[0], parameter.key.split(".")[-1]
+        assert leaf in members or f"{table}_{leaf}" in members, parameter.key
+        assert parameter.member.rpartition(".")[2] in (leaf, f"{table}_{leaf}"), parameter.key
+
+
 # contracts.md, as printed there: the file's defaults are the zero effect.
 CONTRACT = {
     "joint.femur.gap_rad": (0.0, "rad"),
@@ -124,6 +137,7 @@ def test_defaults_are_those_of_the_format(key: str) -> None:
         ('unit = "mm"\nrange', "range"),
         ("range = [0.0, 1e4]\n", ""),
         ("required = true\nsafe = 185.0", "required = true"),
+        ('field = "creep_ratio"', 'field = "creep_strength_ratio"'),
     ],
 )
 def test_a_bad_dictionary_is_refused(before: str, after: str, tmp_path: Path) -> None:

@@ -9,8 +9,8 @@ static brace_parameters_t parameters;
 void setUp(void)
 {
     parameters = bench_parameters();
-    parameters.limb.link[BRACE_FEMUR].moment_transfer_ratio = 1.0f;
-    parameters.limb.link[BRACE_TIBIA].moment_transfer_ratio = 0.5f;
+    parameters.limb.link[BRACE_FEMUR].moment_transfer = 1.0f;
+    parameters.limb.link[BRACE_TIBIA].moment_transfer = 0.5f;
     parameters.gravity.femur_n = 2.0f;
     parameters.gravity.knee_n = 1.0f;
     parameters.gravity.tibia_n = 1.5f;

@@ -26,7 +26,7 @@ static brace_parameters_t space_parameters(void)
 {
     brace_parameters_t p = bench_parameters();
     p.limb.link[BRACE_TIBIA].torsion_rad_per_n_mm = 3e-6f;
-    p.limb.link[BRACE_FEMUR].moment_transfer_ratio = 0.5f;
+    p.limb.link[BRACE_FEMUR].moment_transfer = 0.5f;
     p.controller.modbus_address = UNIT;
     p.controller.stiffness_hz = 50;
     p.controller.bus_load_ratio = 1.0f;

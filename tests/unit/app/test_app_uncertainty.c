@@ -330,7 +330,7 @@ static void test_of_a_limb_in_space_the_coxa_joint_s_load_counts_beside_a_sensor
     parameters.limb.joint[BRACE_COXA].compliance_rad_per_n_mm = 8e-6f;
     parameters.limb.link[BRACE_FEMUR].lateral_mm_per_n = 0.06f;
     parameters.limb.link[BRACE_TIBIA].lateral_mm_per_n = 0.25f;
-    parameters.limb.link[BRACE_TIBIA].moment_transfer_ratio = 1.0f;
+    parameters.limb.link[BRACE_TIBIA].moment_transfer = 1.0f;
     bench_start(&parameters);
     fake.joint[BRACE_COXA].absent = false;
     TEST_ASSERT_EQUAL(BRACE_OK, brace_app_start(&app, &fake.hal));

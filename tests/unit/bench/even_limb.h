@@ -29,7 +29,7 @@ static inline void be_even(double turn_rad, double force_n)
                                       .lateral_mm_per_n = (float)(any(0.1, 0.4) * per_n_mm * square),
                                       .torsion_rad_per_n_mm = (float)(any(0.2, 1.0) * per_n_mm),
                                       .tilt_rad = (float)any(-0.5, 0.5),
-                                      .moment_transfer_ratio = (float)any(0.0, 1.0)};
+                                      .moment_transfer = (float)any(0.0, 1.0)};
         limb.joint[i].compliance_rad_per_n_mm = (float)(any(0.2, 1.0) * per_n_mm);
     }
     limb.base = (brace_base_t){(float)(any(0.01, 0.05) * per_n_mm * 1e4), (float)(any(0.01, 0.05) * per_n_mm * 1e4),

@@ -36,7 +36,7 @@ static inline reference_planar_t reference_planar(const brace_limb_t *limb, doub
     reference_planar_t r = {(double)limb->base.x_mm_per_n, 0.0, (double)limb->base.z_mm_per_n, 0, 0, 0, 0, 0, 0};
     reference_ellipsoid(&r, femur, theta1);
     reference_ellipsoid(&r, &limb->link[BRACE_TIBIA], theta12);
-    const double bent = (double)femur->bending_mm_per_n * (double)femur->moment_transfer_ratio;
+    const double bent = (double)femur->bending_mm_per_n * (double)femur->moment_transfer;
     const double across = theta1 + (double)femur->tilt_rad;
     reference_add(&r, 3.0 * bent / l1, -sin(across), cos(across), p2x, p2z);
     reference_add(&r, 3.0 * bent / (l1 * l1), p2x, p2z, p2x, p2z);

@@ -98,8 +98,8 @@ static inline reference_spatial_t reference_spatial(const brace_limb_t *limb, do
     reference_turning(&flat, limb->joint[BRACE_FEMUR].compliance_rad_per_n_mm, y, tip);
     reference_turning(&flat, limb->base.rotation_rad_per_n_mm, y, tip);
     reference_turning(&flat, limb->joint[BRACE_TIBIA].compliance_rad_per_n_mm, y, shank);
-    reference_link(&flat, &link[BRACE_COXA], l0, 0.0, tip, (double)link[BRACE_COXA].moment_transfer_ratio);
-    reference_link(&flat, &link[BRACE_FEMUR], l1, theta1, shank, (double)link[BRACE_FEMUR].moment_transfer_ratio);
+    reference_link(&flat, &link[BRACE_COXA], l0, 0.0, tip, (double)link[BRACE_COXA].moment_transfer);
+    reference_link(&flat, &link[BRACE_FEMUR], l1, theta1, shank, (double)link[BRACE_FEMUR].moment_transfer);
     reference_link(&flat, &link[BRACE_TIBIA], l2, theta1 - theta2, none, 0.0);
     reference_dyad(&flat, (double)limb->base.x_mm_per_n, x, x);
     reference_dyad(&flat, (double)limb->base.z_mm_per_n, z, z);

@@ -16,11 +16,11 @@ static brace_limb_t limb;
 static brace_drift_reading_t reading;
 
 /* A limb with everything that the check knows: a tilted femur that passes moments on, a base that turns. */
-static void be(int sample, float tilt_rad, float moment_transfer_ratio)
+static void be(int sample, float tilt_rad, float moment_transfer)
 {
     limb = sample_limb[sample];
     limb.link[BRACE_FEMUR].tilt_rad = tilt_rad;
-    limb.link[BRACE_FEMUR].moment_transfer_ratio = moment_transfer_ratio;
+    limb.link[BRACE_FEMUR].moment_transfer = moment_transfer;
     limb.link[BRACE_TIBIA].tilt_rad = 0.0f;
     limb.base = (brace_base_t){0.0f, 0.0f, 3e-6f};
 }

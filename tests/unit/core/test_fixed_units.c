@@ -49,7 +49,7 @@ static void any_limb(void)
         limb.link[i] = (brace_link_t){.axial_mm_per_n = any_size(-6.0f, 3.0f, 0.0f),
                                       .bending_mm_per_n = any_size(-6.0f, 3.0f, 0.0f),
                                       .tilt_rad = tilt,
-                                      .moment_transfer_ratio = any_size(-2.0f, 0.0f, 0.0f)};
+                                      .moment_transfer = any_size(-2.0f, 0.0f, 0.0f)};
     }
     limb.base = (brace_base_t){any_size(-6.0f, 3.0f, 0.0f), any_size(-6.0f, 3.0f, 0.0f), any_size(-12.0f, 0.0f, 0.0f)};
     weights = (brace_gravity_t){.femur_n = any_size(-3.0f, 6.0f, 0.0f),

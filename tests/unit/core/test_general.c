@@ -93,7 +93,7 @@ static brace_limb_t random_limb(void)
         limb.link[i].tilt_rad = one_in(2) ? 0.0f : between(-1.5f, 1.5f);
         limb.joint[i].compliance_rad_per_n_mm = one_in(4) ? 0.0f : between(1e-7f, 6e-5f);
     }
-    limb.link[BRACE_FEMUR].moment_transfer_ratio = one_in(2) ? 0.0f : between(0.0f, 1.0f);
+    limb.link[BRACE_FEMUR].moment_transfer = one_in(2) ? 0.0f : between(0.0f, 1.0f);
     if (one_in(2)) {
         limb.base = (brace_base_t){between(0.0f, 0.1f), between(0.0f, 0.1f), between(0.0f, 1e-5f)};
     }

@@ -72,7 +72,7 @@ static void test_of_any_limb(void)
             limb.link[link] = (brace_link_t){.axial_mm_per_n = any(1e-4, 1),
                                              .bending_mm_per_n = any(1e-4, 1),
                                              .tilt_rad = any(0.1, 1.0) - 0.3f,
-                                             .moment_transfer_ratio = any(0.1, 1)};
+                                             .moment_transfer = any(0.1, 1)};
             limb.joint[link].compliance_rad_per_n_mm = any(1e-8, 1e-4);
         }
         limb.base = (brace_base_t){0, 0, any(1e-8, 1e-5)};

@@ -72,7 +72,7 @@ static void test_bounds_are_inclusive_and_sharp(void)
         {offsetof(brace_limb_t, link[BRACE_TIBIA].bending_mm_per_n), 0.0f, 1e3f},
         {offsetof(brace_limb_t, link[BRACE_COXA].lateral_mm_per_n), 0.0f, 1e3f},
         {offsetof(brace_limb_t, link[BRACE_COXA].torsion_rad_per_n_mm), 0.0f, 1.0f},
-        {offsetof(brace_limb_t, link[BRACE_FEMUR].moment_transfer_ratio), 0.0f, 1.0f},
+        {offsetof(brace_limb_t, link[BRACE_FEMUR].moment_transfer), 0.0f, 1.0f},
         {offsetof(brace_limb_t, joint[BRACE_TIBIA].compliance_rad_per_n_mm), 0.0f, 1.0f},
         {offsetof(brace_limb_t, joint[BRACE_COXA].gap_rad), 0.0f, 0.5f},
         {offsetof(brace_limb_t, joint[BRACE_FEMUR].zero_offset_rad), -0.5f, 0.5f},
@@ -100,7 +100,7 @@ static void test_bounds_are_inclusive_and_sharp(void)
 /* Zero has a sign, and a field that may be zero takes it with either. */
 static void test_minus_zero_is_zero(void)
 {
-    limb.link[BRACE_COXA].moment_transfer_ratio = -0.0f;
+    limb.link[BRACE_COXA].moment_transfer = -0.0f;
     limb.coxa_mm = -0.0f;
     limb.base.x_mm_per_n = -0.0f;
     TEST_ASSERT_EQUAL(BRACE_OK, brace_limb_check(&limb));
@@ -139,7 +139,7 @@ static void test_knee_spring_and_tibia_bending_are_one_direction(void)
     TEST_ASSERT_EQUAL(BRACE_OK, brace_limb_check(&limb));
     limb.joint[BRACE_TIBIA].compliance_rad_per_n_mm = 0.0f; /* tilted, but alone */
     TEST_ASSERT_EQUAL(BRACE_E_PARAMETER, brace_limb_check(&limb));
-    limb.link[BRACE_FEMUR].moment_transfer_ratio = 1.0f; /* of a femur that does not bend */
+    limb.link[BRACE_FEMUR].moment_transfer = 1.0f; /* of a femur that does not bend */
     TEST_ASSERT_EQUAL(BRACE_E_PARAMETER, brace_limb_check(&limb));
     limb.base.z_mm_per_n = 1e-38f;
     TEST_ASSERT_EQUAL(BRACE_OK, brace_limb_check(&limb));
@@ -150,7 +150,7 @@ static void test_a_bending_femur_that_passes_moments_yields_in_two_directions(vo
     all_rigid();
     limb.link[BRACE_FEMUR].bending_mm_per_n = 0.1f;
     TEST_ASSERT_EQUAL(BRACE_E_PARAMETER, brace_limb_check(&limb));
-    limb.link[BRACE_FEMUR].moment_transfer_ratio = 0.05f; /* however few */
+    limb.link[BRACE_FEMUR].moment_transfer = 0.05f; /* however few */
     TEST_ASSERT_EQUAL(BRACE_OK, brace_limb_check(&limb));
 }
 
@@ -165,7 +165,7 @@ static void test_a_limb_is_taken_where_c_has_an_inverse_at_some_posture(void)
         }
         all_rigid();
         limb.link[BRACE_FEMUR] = (brace_link_t){
-            .axial_mm_per_n = 0.3f * is[0], .bending_mm_per_n = 0.4f * is[1], .moment_transfer_ratio = 0.8f * is[2]};
+            .axial_mm_per_n = 0.3f * is[0], .bending_mm_per_n = 0.4f * is[1], .moment_transfer = 0.8f * is[2]};
         limb.link[BRACE_TIBIA] =
             (brace_link_t){.axial_mm_per_n = 0.2f * is[3], .bending_mm_per_n = 0.5f * is[4], .tilt_rad = 0.3f * is[5]};
         limb.joint[BRACE_FEMUR].compliance_rad_per_n_mm = 1e-5f * is[6];
@@ -185,7 +185,7 @@ static void test_a_coxa_without_moment_transfer_may_have_no_length(void)
 {
     limb.coxa_mm = 0.0f;
     TEST_ASSERT_EQUAL(BRACE_E_PARAMETER, brace_limb_check(&limb));
-    limb.link[BRACE_COXA].moment_transfer_ratio = 0.0f;
+    limb.link[BRACE_COXA].moment_transfer = 0.0f;
     TEST_ASSERT_EQUAL(BRACE_OK, brace_limb_check(&limb));
     limb.coxa_mm = -1e-6f;
     TEST_ASSERT_EQUAL(BRACE_E_PARAMETER, brace_limb_check(&limb));

@@ -75,7 +75,7 @@ static void be_row(const double *row)
                                       .tilt_rad = (float)of[2],
                                       .lateral_mm_per_n = (float)of[3],
                                       .torsion_rad_per_n_mm = (float)of[4],
-                                      .moment_transfer_ratio = (float)of[5]};
+                                      .moment_transfer = (float)of[5]};
         limb.joint[i].compliance_rad_per_n_mm = (float)row[21 + i];
     }
     limb.base = (brace_base_t){(float)row[24], (float)row[25], (float)row[26]};

@@ -56,7 +56,7 @@ static double slope_at_base(const direction_t *direction, double force_n)
     const float length_mm[BRACE_LINK_COUNT] = {limb.coxa_mm, limb.femur_mm, limb.tibia_mm};
     for (int i = BRACE_TIBIA; i >= direction->last; i--) {
         add_link(&at, force_n, (double)length_mm[i], direction->bending_mm_per_n[i],
-                 (double)limb.link[i].moment_transfer_ratio);
+                 (double)limb.link[i].moment_transfer);
         add_hinge(&at, force_n, direction->hinge_rad_per_n_mm[i]);
     }
     return at.slope;
@@ -168,7 +168,7 @@ static void be_column(const yields_t *of)
         limb.link[i] = (brace_link_t){.axial_mm_per_n = nearly_rigid,
                                       .bending_mm_per_n = of->bending[i] + nearly_rigid,
                                       .lateral_mm_per_n = of->lateral[i] + nearly_rigid,
-                                      .moment_transfer_ratio = of->share[i]};
+                                      .moment_transfer = of->share[i]};
     }
 }
 

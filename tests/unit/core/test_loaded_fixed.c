@@ -202,7 +202,7 @@ static void be_rigid(float hip_rad_per_n_mm, float knee_rad_per_n_mm)
 {
     limb.base = (brace_base_t){0.0f, 0.0f, 0.0f};
     for (int i = 0; i < BRACE_LINK_COUNT; i++) {
-        limb.link[i] = (brace_link_t){.moment_transfer_ratio = 1.0f};
+        limb.link[i] = (brace_link_t){.moment_transfer = 1.0f};
     }
     limb.joint[BRACE_FEMUR].compliance_rad_per_n_mm = hip_rad_per_n_mm;
     limb.joint[BRACE_TIBIA].compliance_rad_per_n_mm = knee_rad_per_n_mm;
@@ -257,7 +257,7 @@ static void any_limb(void)
         limb.link[i] = (brace_link_t){.axial_mm_per_n = any_size(-6.0f, 3.0f),
                                       .bending_mm_per_n = any_size(-6.0f, 3.0f),
                                       .tilt_rad = any(-1.57f, 1.57f),
-                                      .moment_transfer_ratio = any(0.0f, 1.0f)};
+                                      .moment_transfer = any(0.0f, 1.0f)};
         limb.joint[i].compliance_rad_per_n_mm = any_size(-12.0f, 0.0f);
     }
     limb.base = (brace_base_t){any_size(-6.0f, 3.0f), any_size(-6.0f, 3.0f), any_size(-12.0f, 0.0f)};
@@ -322,7 +322,7 @@ static void any_soft_limb(void)
         limb.link[i] = (brace_link_t){.axial_mm_per_n = any_size(-6.0f, -0.7f) * length_unit_mm / force_unit_n,
                                       .bending_mm_per_n = any_turn() * length_mm * length_mm / (1.5f * moment_n_mm),
                                       .tilt_rad = any(0.0f, 1.0f) < 0.5f ? 0.0f : any(-0.3f, 0.3f),
-                                      .moment_transfer_ratio = any(0.0f, 1.0f) < 0.7f ? 1.0f : any(0.0f, 1.0f)};
+                                      .moment_transfer = any(0.0f, 1.0f) < 0.7f ? 1.0f : any(0.0f, 1.0f)};
         limb.joint[i].compliance_rad_per_n_mm = any_turn() / moment_n_mm;
     }
     limb.base = (brace_base_t){1e-3f, 1e-3f, any_size(-6.0f, 0.0f) / moment_n_mm};

@@ -32,7 +32,7 @@ static void any_limb(int sample, int i)
 {
     limb = sample_limb[sample];
     limb.base = (brace_base_t){0.02f, 0.01f, 2e-6f};
-    limb.link[BRACE_TIBIA].moment_transfer_ratio = i % 3 == 0 ? 0.7f : 0.0f;
+    limb.link[BRACE_TIBIA].moment_transfer = i % 3 == 0 ? 0.7f : 0.0f;
     weights = (brace_gravity_t){.femur_n = 1.0f, .knee_n = 0.5f, .tibia_n = 0.7f};
     load.down = (brace_vec_t){0.3f, -0.9f};
     space_load.down = (brace_vec3_t){0.3f, 0.4f, -0.8f};
@@ -232,7 +232,7 @@ static void be_hinged(float hip_c, float knee_c)
 {
     limb.base = (brace_base_t){0.0f, 0.0f, 0.0f};
     for (int i = 0; i < BRACE_LINK_COUNT; i++) {
-        limb.link[i] = (brace_link_t){.moment_transfer_ratio = (float)(i % 2)};
+        limb.link[i] = (brace_link_t){.moment_transfer = (float)(i % 2)};
     }
     limb.joint[BRACE_FEMUR].compliance_rad_per_n_mm = hip_c;
     limb.joint[BRACE_TIBIA].compliance_rad_per_n_mm = knee_c;

@@ -337,7 +337,7 @@ static void test_two_springs_of_a_link_become_one(void)
     brace_loaded_space_t loaded;
     for (uint32_t i = 0; i < sizeof transfers / sizeof *transfers; i++) {
         const double m = (double)transfers[i], mm = (double)limb.femur_mm;
-        limb.link[BRACE_FEMUR].moment_transfer_ratio = transfers[i];
+        limb.link[BRACE_FEMUR].moment_transfer = transfers[i];
         limb.link[BRACE_FEMUR].bending_mm_per_n = 0.06f, limb.link[BRACE_FEMUR].lateral_mm_per_n = 0.02f;
         brace_loaded_space_collapse(&limb, &weights, &loaded);
         const brace_space_link_t *femur = &loaded.femur;
@@ -365,8 +365,8 @@ static void test_in_the_plane_as_the_planes_own_path(void)
     limb = sample_limb[SAMPLE_TILTED];
     limb.joint[BRACE_COXA].compliance_rad_per_n_mm = 1e-9f;
     limb.link[BRACE_COXA] = (brace_link_t){0};
-    limb.link[BRACE_FEMUR].moment_transfer_ratio = 0.6f;
-    limb.link[BRACE_TIBIA].moment_transfer_ratio = 1.0f;
+    limb.link[BRACE_FEMUR].moment_transfer = 0.6f;
+    limb.link[BRACE_TIBIA].moment_transfer = 1.0f;
     weights = (brace_gravity_t){.femur_n = 2.0f, .knee_n = 1.0f, .tibia_n = 1.5f};
     brace_loaded_t plane;
     brace_loaded_collapse(&limb, &weights, &plane);

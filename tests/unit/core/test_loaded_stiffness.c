@@ -15,7 +15,7 @@ static brace_load_t load;
 void setUp(void)
 {
     limb = sample_limb[SAMPLE_PAPER];
-    limb.link[BRACE_FEMUR].moment_transfer_ratio = limb.link[BRACE_TIBIA].moment_transfer_ratio = 0.0f;
+    limb.link[BRACE_FEMUR].moment_transfer = limb.link[BRACE_TIBIA].moment_transfer = 0.0f;
     memset(&weights, 0, sizeof weights);
     load = (brace_load_t){.down = {0.0f, -1.0f}};
 }
@@ -102,7 +102,7 @@ static void test_check_values_of_beams(void)
         {1.0f, 1.4f, 0.0f, 10.0f, 4.23079, 38.12313, 5.091304, -0.306721, 0.272640},
         {0.3f, 0.6f, 0.0f, 10.0f, 5.72214, 48.83450, 22.428601, -1.369207, 0.283982},
     };
-    limb.link[BRACE_FEMUR].moment_transfer_ratio = limb.link[BRACE_TIBIA].moment_transfer_ratio = 1.0f;
+    limb.link[BRACE_FEMUR].moment_transfer = limb.link[BRACE_TIBIA].moment_transfer = 1.0f;
     for (uint32_t i = 0; i < sizeof known / sizeof *known; i++) {
         expect(&known[i], 1e-4, 1e-2);
     }

@@ -241,7 +241,7 @@ static void test_the_coxa_adds_its_cantilever_in_the_plane(void)
 {
     const brace_limb_t limb = sample_limb[SAMPLE_BEAM];
     const brace_link_t *coxa = &limb.link[BRACE_COXA];
-    const double theta1 = 0.7, theta2 = 1.1, kappa = (double)coxa->moment_transfer_ratio;
+    const double theta1 = 0.7, theta2 = 1.1, kappa = (double)coxa->moment_transfer;
     const double b = (double)coxa->bending_mm_per_n, length = (double)limb.coxa_mm;
     const double px = 185.0 * cos(theta1) + 313.5 * cos(theta1 - theta2);
     const double pz = 185.0 * sin(theta1) + 313.5 * sin(theta1 - theta2);

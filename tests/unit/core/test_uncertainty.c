@@ -103,7 +103,7 @@ static brace_limb_t limb_from(const case_t *from)
     limb.link[BRACE_FEMUR].axial_mm_per_n = (float)f[A1];
     limb.link[BRACE_FEMUR].bending_mm_per_n = (float)f[B1];
     limb.link[BRACE_FEMUR].tilt_rad = (float)f[TILT1];
-    limb.link[BRACE_FEMUR].moment_transfer_ratio = (float)f[MOMENT];
+    limb.link[BRACE_FEMUR].moment_transfer = (float)f[MOMENT];
     limb.link[BRACE_TIBIA].axial_mm_per_n = (float)f[A2];
     limb.link[BRACE_TIBIA].bending_mm_per_n = (float)f[B2];
     limb.link[BRACE_TIBIA].tilt_rad = (float)f[TILT2];

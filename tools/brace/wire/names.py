@@ -50,7 +50,7 @@ PARAMETERS: tuple[Parameter, ...] = (
         description="the coxa's torsional compliance about itself",
     ),
     Parameter(
-        8, 8, "link.coxa.moment_transfer", "limb.link[0].moment_transfer_ratio",
+        8, 8, "link.coxa.moment_transfer", "limb.link[0].moment_transfer",
         unit="", low=0.0, high=1.0, default=0.0, safe=0.0, ratio=True,
         description="the strength of the uniform-beam coupling of force and moment",
     ),
@@ -80,7 +80,7 @@ PARAMETERS: tuple[Parameter, ...] = (
         description="the femur's torsional compliance about itself",
     ),
     Parameter(
-        14, 14, "link.femur.moment_transfer", "limb.link[1].moment_transfer_ratio",
+        14, 14, "link.femur.moment_transfer", "limb.link[1].moment_transfer",
         unit="", low=0.0, high=1.0, default=0.0, safe=0.0, ratio=True,
         description="the strength of the uniform-beam coupling of force and moment",
     ),
@@ -110,7 +110,7 @@ PARAMETERS: tuple[Parameter, ...] = (
         description="the tibia's torsional compliance about itself",
     ),
     Parameter(
-        20, 20, "link.tibia.moment_transfer", "limb.link[2].moment_transfer_ratio",
+        20, 20, "link.tibia.moment_transfer", "limb.link[2].moment_transfer",
         unit="", low=0.0, high=1.0, default=0.0, safe=0.0, ratio=True,
         description="the strength of the uniform-beam coupling of force and moment",
     ),

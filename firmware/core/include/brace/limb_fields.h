@@ -19,7 +19,7 @@ typedef struct {
     /* the link's torsional compliance about itself [rad/(N mm), 0 to 1] */
     float torsion_rad_per_n_mm;
     /* the strength of the uniform-beam coupling of force and moment [0 to 1] */
-    float moment_transfer_ratio;
+    float moment_transfer;
 } brace_link_t;
 
 /* A joint, without its drive. */

@@ -6,7 +6,7 @@
  * 2000; stiffness of loaded manipulators: Klimchik, Pashkevich, Chablat, 2014). docs/kernel.md has the formulas.
  *
  * The limb at finite deflections: joints' springs and the base's rotation turn by any angle. Of a link's bending
- * compliance the share moment_transfer_ratio is a uniform, geometrically exact beam with its axial spring at the root.
+ * compliance the share moment_transfer is a uniform, geometrically exact beam with its axial spring at the root.
  * The rest is a spring at the link's end, which moves the end and turns nothing. A tilt turns the link's elastic axes
  * about its end. Base springs act in the robot's frame.
  *

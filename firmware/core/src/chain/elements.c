@@ -19,7 +19,7 @@ static brace_element_t element_of(brace_vec_t femur, brace_vec_t tibia)
  * and one vector of root sqrt(0.75 b). */
 static float moment_root(const brace_link_t *link)
 {
-    return sqrtf(0.75f * link->moment_transfer_ratio * link->bending_mm_per_n);
+    return sqrtf(0.75f * link->moment_transfer * link->bending_mm_per_n);
 }
 
 float brace_elements_split(float axial_mm_per_n, float bending_mm_per_n, brace_vec_t along, brace_vec_t *longer)

@@ -52,7 +52,7 @@ static bool yields_in_two_directions(const brace_limb_t *limb)
     const int32_t lines = femur_bends + (femur->axial_mm_per_n > 0.0f) + tibia_bends + (tibia->axial_mm_per_n > 0.0f) +
                           knee + hip + (limb->base.x_mm_per_n > 0.0f) + (limb->base.z_mm_per_n > 0.0f);
     if (lines == 1 && femur_bends) { /* a femur that passes moments on turns the tibia too: a second line */
-        return femur->moment_transfer_ratio > 0.0f;
+        return femur->moment_transfer > 0.0f;
     }
     if (lines == 2 && tibia_bends && knee) { /* both move the tip across the tibia, unless its ellipsoid is tilted */
         return tibia->tilt_rad < 0.0f || tibia->tilt_rad > 0.0f;
@@ -62,7 +62,7 @@ static bool yields_in_two_directions(const brace_limb_t *limb)
 
 static bool coxa_is_long_enough(const brace_limb_t *limb)
 {
-    return !(limb->link[BRACE_COXA].moment_transfer_ratio > 0.0f) || limb->coxa_mm >= COXA_LEAST_MM;
+    return !(limb->link[BRACE_COXA].moment_transfer > 0.0f) || limb->coxa_mm >= COXA_LEAST_MM;
 }
 
 brace_status_t brace_limb_check(const brace_limb_t *limb)

@@ -10,7 +10,7 @@
 static brace_loaded_link_t link_of(const brace_link_t *link, float length_mm, float weight_n)
 {
     const brace_vec_t along = brace_direction(link->tilt_rad);
-    const float beam = link->moment_transfer_ratio, rest = 1.0f - beam;
+    const float beam = link->moment_transfer, rest = 1.0f - beam;
     brace_loaded_link_t loaded = {.length_mm = length_mm,
                                   .beam_mm = vec_scaled(along, length_mm),
                                   .bend_rad_per_n_mm = 1.5f * beam * link->bending_mm_per_n / length_mm / length_mm,

@@ -11,7 +11,7 @@
 static brace_space_link_t link_of(const brace_link_t *link, float length_mm, float weight_n)
 {
     const brace_vec_t along = brace_direction(link->tilt_rad);
-    const float beam = length_mm > 0.0f ? link->moment_transfer_ratio : 0.0f;
+    const float beam = length_mm > 0.0f ? link->moment_transfer : 0.0f;
     const float per_mm = length_mm > 0.0f ? 1.0f / length_mm : 0.0f;
     const float springs = 1.0f - 0.75f * beam, beams = 0.25f * beam / springs, ends = 1.0f - beams;
     const float turn = 3.0f * beam * per_mm * per_mm, spread = springs * beams * ends * per_mm * per_mm;

@@ -10,7 +10,7 @@
 static brace_aside_t aside_of(const brace_link_t *link, float length_mm)
 {
     const float length = length_mm + FLT_MIN; /* a coxa of no length passes no moment on */
-    const float per_mm = 3.0f * link->moment_transfer_ratio * link->lateral_mm_per_n / length;
+    const float per_mm = 3.0f * link->moment_transfer * link->lateral_mm_per_n / length;
     return (brace_aside_t){per_mm, per_mm / length, link->torsion_rad_per_n_mm};
 }
 

@@ -80,7 +80,7 @@ void drift_expect(const brace_limb_t *limb, const brace_stiffness_t *stiffness, 
     const float turn = offset[DRIFT_TURN_KNEE]; /* some mrad, so two terms of its sine and cosine suffice */
     const brace_vec_t turned_by = vec_plus_scaled(vec_quarter(believed), believed, 0.5f * turn);
     const brace_vec_t along_tibia = vec_plus_scaled(believed, turned_by, -turn);
-    const float coupled = 0.75f * limb->link[BRACE_FEMUR].moment_transfer_ratio;
+    const float coupled = 0.75f * limb->link[BRACE_FEMUR].moment_transfer;
     const brace_vec_t across_tibia = vec_quarter(along_tibia);
     brace_vec_t vector[ELEMENTS], before[ELEMENTS];
     set_vectors(vector, bent, across_femur, across_tibia, femur_mm, tibia_mm);

@@ -212,7 +212,7 @@ brace_status_t brace_uncertainty_known(const brace_limb_t *limb, float theta1_ra
                            stiffness->lambda_min_n_per_mm};
     const vectors_t vectors = vectors_at(limb, theta1_rad, theta2_rad, &frame);
     const brace_link_t *femur = &limb->link[BRACE_FEMUR];
-    const float bend_per_moment = 1.5f * femur->moment_transfer_ratio * femur->bending_mm_per_n / limb->femur_mm;
+    const float bend_per_moment = 1.5f * femur->moment_transfer * femur->bending_mm_per_n / limb->femur_mm;
     const weights_t weights = {
         .hip = limb->joint[BRACE_FEMUR].compliance_rad_per_n_mm + limb->base.rotation_rad_per_n_mm,
         .knee = limb->joint[BRACE_TIBIA].compliance_rad_per_n_mm,

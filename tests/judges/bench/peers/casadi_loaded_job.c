@@ -21,7 +21,7 @@ void job_setup(void)
     const float length[2] = {limb.femur_mm, limb.tibia_mm};
     for (int i = 0; i < 2; i++) {
         const brace_link_t *link = &limb.link[BRACE_FEMUR + i];
-        const float p[5] = {length[i], link->axial_mm_per_n, link->bending_mm_per_n, link->moment_transfer_ratio,
+        const float p[5] = {length[i], link->axial_mm_per_n, link->bending_mm_per_n, link->moment_transfer,
                             link->tilt_rad};
         for (int j = 0; j < 5; j++) {
             parameters[5 * i + j] = p[j];

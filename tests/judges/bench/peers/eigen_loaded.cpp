@@ -72,7 +72,7 @@ Bent bend(const brace_link_t &link, float length, float angle, const Vector3f &q
 {
     Bent bent;
     const Vector3f root = Vector3f::UnitX(), tip = Vector3f::Ones();
-    const float strength = link.moment_transfer_ratio, rooted = angle + link.tilt_rad + q[0];
+    const float strength = link.moment_transfer, rooted = angle + link.tilt_rad + q[0];
     bent.lever(length * (along(angle + q[0]) - along(rooted)), beyond + 0.5f * own, root);
     for (int i = 0; i < 3; i++) {
         bent.lever(share[i] * length * along(rooted + turn_by[i].tail<2>().dot(q.tail<2>())),
@@ -114,7 +114,7 @@ Matrix6f springs()
     for (int i = 0; i < 2; i++) {
         const brace_link_t &link = limb.link[BRACE_FEMUR + i];
         const float length = i == 0 ? limb.femur_mm : limb.tibia_mm;
-        const float yields = 1.5f * link.moment_transfer_ratio * link.bending_mm_per_n / (length * length);
+        const float yields = 1.5f * link.moment_transfer * link.bending_mm_per_n / (length * length);
         k(3 * i + 1, 3 * i + 1) += 1.0f / yields;
         k(3 * i + 2, 3 * i + 2) += 1.0f / yields;
     }

@@ -16,7 +16,7 @@ static inline plain_link_t plain_link(const brace_link_t *link, float length)
                          link->bending_mm_per_n,
                          link->lateral_mm_per_n,
                          link->torsion_rad_per_n_mm,
-                         link->moment_transfer_ratio};
+                         link->moment_transfer};
     return copy;
 }
 

@@ -44,7 +44,7 @@ static brace_parameters_t random_parameters(const world_manner_t *manner)
         limb->link[i].lateral_mm_per_n = dice_between(&dice, 0.01f, 0.3f);
         limb->link[i].torsion_rad_per_n_mm = dice_between(&dice, 1e-7f, 1e-5f);
         limb->link[i].tilt_rad = dice_in(&dice, 2) ? 0.0f : dice_between(&dice, -0.5f, 0.5f);
-        limb->link[i].moment_transfer_ratio = dice_in(&dice, 2) ? 0.0f : dice_between(&dice, 0.1f, 1.0f);
+        limb->link[i].moment_transfer = dice_in(&dice, 2) ? 0.0f : dice_between(&dice, 0.1f, 1.0f);
         limb->joint[i].compliance_rad_per_n_mm = dice_between(&dice, 2e-6f, 4e-5f);
         limb->joint[i].gap_rad = manner->gap_rad[i];
         limb->joint[i].zero_offset_rad = dice_between(&dice, -0.02f, 0.02f);

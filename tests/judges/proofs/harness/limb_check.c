@@ -16,7 +16,7 @@ int main(void)
     if (status == BRACE_OK) {
         PROVE(value >= -1.5708f && value <= 1e4f, "accepted: every field is finite and in the widest range there is");
         PROVE(limb.femur_mm >= 1.0f && limb.tibia_mm >= 1.0f, "accepted: links have a length to divide by");
-        PROVE(limb.coxa_mm >= 1.0f || !(limb.link[BRACE_COXA].moment_transfer_ratio > 0.0f),
+        PROVE(limb.coxa_mm >= 1.0f || !(limb.link[BRACE_COXA].moment_transfer > 0.0f),
               "accepted: so has a coxa that passes moments on");
         PROVE(limb.joint[BRACE_FEMUR].gap_rad >= 0.0f && limb.joint[BRACE_FEMUR].gap_rad <= 0.5f,
               "accepted: play is in its range");
