@@ -1,20 +1,11 @@
-/* K in the loop of a program that has nothing else of Brace than two files, brace_core.h and brace_core.c.
+/* K in the loop of a program that has nothing else of Brace than two files, brace_core.h and brace_core.c, and a limb
+ * as const data.
  *
  * The Makefile builds it for this machine, and for emulated boards with a Cortex-M4F, a Cortex-M3 and a RISC-V.
  */
 #include <stdio.h>
 
-#include "brace_core.h"
-
-/* The paper's limb. `brace params pack` and docs/limb-keys.md say what each number means and where to get yours. */
-static const brace_limb_t limb = {
-    .femur_mm = 185.0f,
-    .tibia_mm = 313.5f,
-    .link[BRACE_FEMUR] = {.axial_mm_per_n = 0.001f, .bending_mm_per_n = 0.06f},
-    .link[BRACE_TIBIA] = {.axial_mm_per_n = 0.002f, .bending_mm_per_n = 0.25f},
-    .joint[BRACE_FEMUR] = {.compliance_rad_per_n_mm = 1.0e-5f},
-    .joint[BRACE_TIBIA] = {.compliance_rad_per_n_mm = 1.6e-5f},
-};
+#include "limb.h" /* the paper's limb; yours: brace export --model limb.toml --c limb.c */
 
 /* Yours reads two encoders, and never ends. */
 static bool read_joints(float *theta1_rad, float *theta2_rad)
@@ -32,15 +23,11 @@ static bool read_joints(float *theta1_rad, float *theta2_rad)
 
 int main(void)
 {
-    brace_planar_t planar; /* the limb, collapsed into the constants of the loop */
-    brace_status_t status = brace_limb_check(&limb);
-    if (status == BRACE_OK) {
-        status = brace_planar_collapse(&limb, &planar);
-    }
+    brace_status_t status = limb_check(); /* numbers as exported, and constants of this very core */
     float theta1_rad, theta2_rad;
     while (status == BRACE_OK && read_joints(&theta1_rad, &theta2_rad)) {
         brace_stiffness_t k;
-        status = brace_planar_stiffness(&planar, theta1_rad, theta2_rad, &k);
+        status = brace_planar_stiffness(&limb_planar, theta1_rad, theta2_rad, &k);
         if (status == BRACE_OK) { /* a refused call leaves k untouched */
             printf("k_xx %.5f k_xz %.5f k_zz %.5f N/mm\n", (double)k.k_xx_n_per_mm, (double)k.k_xz_n_per_mm,
                    (double)k.k_zz_n_per_mm);

@@ -10,7 +10,7 @@ SUBCOMMANDS = {
     "k": "K, C, eigenvalues and stiff axis at a posture",
     "map": "the workspace: eigenvalues over r, ellipses of K, as pictures and CSV",
     "import": "a dataset from your own files: CSV of any kind, .xlsx, candump and MCAP logs",
-    "export": "a limb as a MuJoCo model with its compliances, or as a URDF",
+    "export": "a limb as const C data, as a MuJoCo model with its compliances, or as a URDF",
     "simulate": "a loading test on the simulated limb, written as a dataset",
     "predict": "a dataset's own load sequence played on a model",
     "identify": "a limb's parameters from measurements, with intervals",
