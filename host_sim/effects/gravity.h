@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <cstring>
 
 #include "effects/effect.h"
 
@@ -18,6 +19,11 @@ inline Eigen::Vector3d down_in_space(const Model &model)
     const double in_plane = std::cos(weight.lean_rad);
     return {in_plane * std::cos(weight.direction_rad), std::sin(weight.lean_rad),
             in_plane * std::sin(weight.direction_rad)};
+}
+
+inline bool is_same(const Model &a, const Model &b)
+{
+    return std::memcmp(&a.gravity, &b.gravity, sizeof a.gravity) == 0;
 }
 
 // The same in the limb's plane; shorter than 1 where the plane leans.

@@ -34,12 +34,16 @@ Vector<N> speeds_with_friction(const Matrix<N> &inertia, const Vector<N> &impuls
 {
     Vector<N> speed = inertia.inverse() * impulse;
     for (int sweep = 0; sweep < kSweeps; ++sweep) {
+        const Vector<N> before = speed;
         for (int i = 0; i < N; ++i) {
             double pushed = impulse[i];
             for (int other = 0; other < N; ++other) {
                 pushed -= other != i ? inertia(i, other) * speed[other] : 0.0;
             }
             speed[i] = std::copysign(std::max(std::fabs(pushed) - rub[i], 0.0), pushed) / inertia(i, i);
+        }
+        if (speed == before) { // so would every further sweep leave it
+            break;
         }
     }
     return speed;

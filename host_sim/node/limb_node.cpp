@@ -19,7 +19,6 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kStep_s = 1e-3;                   // longest step of the motors
 constexpr int kSettleSteps = 1000;                 // before the controller starts
 constexpr std::uint64_t kCommandHolds_us = 100000; // brace_hal.h, joint_command
 constexpr double kCommandFades_rad_per_s = 0.1;
@@ -101,16 +100,32 @@ brace_node_failure_t LimbNode::open(const brace_node_limb_t &limb, brace_posix_b
     if (!store_block(limb, memory_is_new, failure)) {
         return failure;
     }
+    return {};
+}
+
+bool LimbNode::stand_alone(const brace_node_limb_t &limb)
+{
     take_hold(hold_n_per_mm_, limb.press);
     if (!limb_.settle(motors_rad(), 0.0, temp_degc(0.0), pressed_)) {
-        return {BRACE_NODE_PART_LIMB, BRACE_HOST_E_SINGULAR, 0, 0};
+        return false;
     }
     for (int i = 0; i < kSettleSteps; ++i) {
         move_limb(0.0, kStep_s);
     }
+    return true;
+}
+
+bool LimbNode::stand_on_body()
+{
+    is_on_body_ = true;
+    take_hold(INFINITY, {});
+    return limb_.settle(motors_rad(), 0.0, temp_degc(0.0), pressed_);
+}
+
+void LimbNode::start()
+{
     sample();
     (void)brace_app_start(app_.get(), &hal_);
-    return {};
 }
 
 // Stores the block through the controller's own store, so that its start finds what an update would have left.
@@ -160,11 +175,10 @@ void LimbNode::tick(std::uint64_t now_us)
     posix_.given_us = static_cast<std::uint32_t>(now_us);
     faults.step(1e-6 * static_cast<double>(now_us));
     follow_faults();
-    const int steps = std::max(1, static_cast<int>(std::ceil(dt_s / kStep_s - 1e-9)));
+    const int steps = is_on_body_ ? 0 : std::max(1, static_cast<int>(std::ceil(dt_s / kStep_s - 1e-9)));
     for (int i = 0; i < steps; ++i) {
         t_s += dt_s / steps;
-        setpoints.step(t_s, dt_s / steps, drive_);
-        move_limb(t_s, dt_s / steps);
+        move(t_s, dt_s / steps);
     }
     sample();
     serve_servos(now_us - static_cast<std::uint64_t>(1e6 * dt_s));
@@ -217,7 +231,7 @@ void LimbNode::follow_faults()
         posix_.bus->node[posix_.node].fault_bus_off = faults.is_on(BRACE_NODE_FAULT_BUS_OFF);
     }
     const bool tip_is_lost = faults.is_on(BRACE_NODE_FAULT_TIP_LOST);
-    if (tip_is_lost != tip_was_lost_) {
+    if (tip_is_lost != tip_was_lost_ && !is_on_body_) {
         tip_was_lost_ = tip_is_lost;
         take_hold(tip_is_lost ? 0.0 : hold_n_per_mm_, {});
     }
@@ -272,6 +286,12 @@ void LimbNode::follow_command(std::size_t joint, double dt_s)
         command.limit_n_mm = range;
     }
     motor_[joint].limit_n_mm = command.given ? std::min(range, command.limit_n_mm) : range;
+}
+
+void LimbNode::move(double t_s, double dt_s)
+{
+    setpoints.step(t_s, dt_s, drive_);
+    move_limb(t_s, dt_s);
 }
 
 void LimbNode::move_limb(double t_s, double dt_s)

@@ -24,16 +24,29 @@ public:
     LimbNode(const LimbNode &) = delete;
     LimbNode &operator=(const LimbNode &) = delete;
 
-    // Opens ports and memory, stores the block, starts the controller. bus may be null.
+    // Opens ports and memory, stores the block. bus may be null.
     brace_node_failure_t open(const brace_node_limb_t &limb, brace_posix_bus_t *bus);
+    // The tip is held where limb.press has it, and the motors come to rest. false: nothing yields in some direction.
+    bool stand_alone(const brace_node_limb_t &limb);
+    // The limb of a body: whoever calls move() says where the tip is held. false: as above.
+    bool stand_on_body();
+    void start(); // the controller
 
     std::uint64_t due_us() const { return due_us_; }
-    void tick(std::uint64_t now_us); // advances limb and controller from the last tick to now
+    void tick(std::uint64_t now_us); // advances limb (unless it is a body's) and controller from the last tick to now
     void poll();
     void restart(brace_reset_cause_t cause);
 
     void hold(double hold_n_per_mm, const brace_node_press_t &press);
     bool has_coxa_joint() const { return has_coxa_joint_; }
+
+    // One step of a limb of a body, dt_s at most kStep_s, its tip where stand_at() has it.
+    static constexpr double kStep_s = 1e-3; // longest step of the motors
+    void move(double t_s, double dt_s);
+    PressedLimb &limb() { return limb_; }
+    Eigen::Vector3d unloaded_tip_mm() const { return limb_.unloaded_tip_mm(motors_rad()); }
+    bool is_solved() const { return pressed_.solved; }
+    double motor_torque_n_mm(std::size_t joint) const { return motor_[joint].torque_n_mm; }
 
     Setpoints setpoints;
     Faults faults;
@@ -85,7 +98,7 @@ private:
     std::array<Command, 3> command_;
     std::array<brace_hal_joint_t, 3> sample_{};
     std::array<float, 2> force_sample_n_{};
-    bool tip_was_lost_ = false, has_crashed_ = false;
+    bool tip_was_lost_ = false, has_crashed_ = false, is_on_body_ = false;
 
     std::uint64_t now_us_ = 0, due_us_ = 0, ticks_ = 0;
     std::uint32_t watchdog_resets_ = 0;

@@ -1,84 +1,22 @@
-// The C interface of a node: its limbs, their bus, and their common time.
-#include <algorithm>
-#include <atomic>
+// The C interface of a node.
+#include "node/node.h"
+
 #include <cerrno>
 #include <cmath>
-#include <memory>
-#include <mutex>
 #include <new>
-#include <vector>
 
-#include "node/limb_node.h"
-#include "node/pace.h"
 #include "plant/model_keys.h"
 
+using brace::node::in_range;
 using brace::node::LimbNode;
-using brace::node::Pace;
+using brace::node::Robot;
 
-struct brace_node {
-    std::unique_ptr<brace_posix_bus_t> bus; // outlives the limbs on it
-    std::vector<std::unique_ptr<LimbNode>> limbs;
-    std::uint64_t now_us = 0;
-    Pace pace;
-    std::mutex lock; // held while a tick is under way
-    std::atomic<bool> stop{false};
-
-    ~brace_node()
-    {
-        limbs.clear();
-        if (bus) {
-            brace_posix_bus_close(bus.get());
-        }
-    }
-
-    LimbNode *limb(std::int32_t index) const
-    {
-        return index >= 0 && index < static_cast<std::int32_t>(limbs.size())
-                   ? limbs[static_cast<std::size_t>(index)].get()
-                   : nullptr;
-    }
-
-    std::uint64_t next_us() const
-    {
-        std::uint64_t next = UINT64_MAX;
-        for (const auto &limb : limbs) {
-            next = std::min(next, limb->due_us());
-        }
-        return next;
-    }
-
-    void poll()
-    {
-        if (bus) {
-            brace_posix_bus_poll(bus.get(), static_cast<std::uint32_t>(now_us));
-        }
-        for (const auto &limb : limbs) {
-            limb->poll();
-        }
-    }
-
-    // Runs all limbs that are due, and serves the outside before and after them. So an answer leaves with the tick that
-    // made it.
-    void advance_to(std::uint64_t time_us)
-    {
-        const std::lock_guard<std::mutex> held(lock);
-        now_us = time_us;
-        poll();
-        for (const auto &limb : limbs) {
-            if (limb->due_us() <= time_us) {
-                limb->tick(time_us);
-            }
-        }
-        poll();
-    }
-};
-
-namespace {
-
-bool in_range(double value, double low, double high)
+bool brace::node::in_range(double value, double low, double high)
 {
     return value >= low && value <= high;
 }
+
+namespace {
 
 bool is_sound(const brace_node_drive_t &drive)
 {
@@ -110,8 +48,8 @@ std::int32_t fault_of(const brace_node_limb_t &limb)
     return sound ? BRACE_HOST_OK : BRACE_HOST_E_RANGE;
 }
 
-brace_node_failure_t build(brace_node &node, const brace_node_limb_t *limbs, std::int32_t count, const char *can,
-                           std::uint64_t seed)
+brace_node_failure_t build(brace_node &node, const brace_node_limb_t *limbs, std::int32_t count,
+                           const brace_robot_t *body, const char *can, std::uint64_t seed)
 {
     for (std::int32_t i = 0; i < count; ++i) {
         if (const std::int32_t fault = fault_of(limbs[i]); fault != BRACE_HOST_OK) {
@@ -127,10 +65,24 @@ brace_node_failure_t build(brace_node &node, const brace_node_limb_t *limbs, std
     brace::rig::Noise seeds(seed);
     for (std::int32_t i = 0; i < count; ++i) {
         node.limbs.push_back(std::make_unique<LimbNode>(limbs[i], seeds.bits()));
-        brace_node_failure_t failure = node.limbs.back()->open(limbs[i], node.bus.get());
+        LimbNode &limb = *node.limbs.back();
+        brace_node_failure_t failure = limb.open(limbs[i], node.bus.get());
         if (failure.part != BRACE_NODE_PART_NONE && failure.detail != 0) {
             failure.limb = i;
             return failure;
+        }
+        if (!(body != nullptr ? limb.has_coxa_joint() && limb.stand_on_body() : limb.stand_alone(limbs[i]))) {
+            return {BRACE_NODE_PART_LIMB, BRACE_HOST_E_SINGULAR, i, 0};
+        }
+        if (body == nullptr) {
+            limb.start();
+        }
+    }
+    if (body != nullptr) {
+        node.robot = std::make_unique<Robot>(*body, node.limbs);
+        node.robot->put_down();
+        for (const auto &limb : node.limbs) {
+            limb->start();
         }
     }
     return {};
@@ -166,15 +118,15 @@ extern "C" void brace_node_limb_default(brace_node_limb_t *limb)
     }
 }
 
-extern "C" brace_node_t *brace_node_create(const brace_node_limb_t *limbs, int32_t count, const char *can,
-                                           uint64_t seed, brace_node_failure_t *failure)
+brace_node *brace::node::make_node(const brace_node_limb_t *limbs, std::int32_t count, const brace_robot_t *body,
+                                   const char *can, std::uint64_t seed, brace_node_failure_t *failure)
 {
     brace_node_failure_t found{BRACE_NODE_PART_LIMB, BRACE_HOST_E_RANGE, 0, 0};
     std::unique_ptr<brace_node> node;
     try {
         if (limbs != nullptr && count > 0 && count <= BRACE_NODE_LIMBS) {
             node = std::make_unique<brace_node>();
-            found = build(*node, limbs, count, can, seed);
+            found = build(*node, limbs, count, body, can, seed);
         }
     } catch (const std::bad_alloc &) {
         found = {BRACE_NODE_PART_MEMORY, BRACE_POSIX_E_SYSTEM, 0, ENOMEM};
@@ -183,6 +135,12 @@ extern "C" brace_node_t *brace_node_create(const brace_node_limb_t *limbs, int32
         *failure = found;
     }
     return found.part == BRACE_NODE_PART_NONE ? node.release() : nullptr;
+}
+
+extern "C" brace_node_t *brace_node_create(const brace_node_limb_t *limbs, int32_t count, const char *can,
+                                           uint64_t seed, brace_node_failure_t *failure)
+{
+    return brace::node::make_node(limbs, count, nullptr, can, seed, failure);
 }
 
 extern "C" void brace_node_destroy(brace_node_t *node)
@@ -256,7 +214,7 @@ extern "C" int32_t brace_node_posture(brace_node_t *node, int32_t limb, double a
         return BRACE_HOST_E_RANGE;
     }
     const std::lock_guard<std::mutex> held(node->lock);
-    one->setpoints.add(at_s, theta1_rad, theta2_rad);
+    one->setpoints.add(at_s, {std::nan(""), theta1_rad, theta2_rad});
     return BRACE_HOST_OK;
 }
 
@@ -264,7 +222,7 @@ extern "C" int32_t brace_node_contact(brace_node_t *node, int32_t limb, double h
                                       const brace_node_press_t *press)
 {
     LimbNode *one = node != nullptr ? node->limb(limb) : nullptr;
-    if (one == nullptr || press == nullptr || !(hold_n_per_mm >= 0.0) || !is_sound(*press)) {
+    if (one == nullptr || press == nullptr || node->robot || !(hold_n_per_mm >= 0.0) || !is_sound(*press)) {
         return BRACE_HOST_E_RANGE;
     }
     const std::lock_guard<std::mutex> held(node->lock);

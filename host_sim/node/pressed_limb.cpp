@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "effects/gravity.h"
 #include "effects/joint_zero_offset.h"
 #include "node/contact.h"
 
@@ -16,6 +17,8 @@ using Eigen::Vector3d;
 using plant::InPlane;
 using plant::InSpace;
 using plant::LimbState;
+
+constexpr double kLeast_rad = 1e-5; // turns of a limb's weight of some newtons by less than its ten thousandth part
 
 const Vector3d kSense = {1.0, 1.0, -1.0}; // of theta0, theta1 and theta2, counter-clockwise being positive
 
@@ -97,9 +100,40 @@ void PressedLimb::take_hold(const Vector3d &motor_rad, double hold_n_per_mm, con
     anchor_mm_ = about_yaw_axis(unbent_rad(motor_rad)[kCoxa]) * (tip_mm(motor_rad) + press_mm);
 }
 
+Vector3d PressedLimb::unloaded_tip_mm(const Vector3d &motor_rad) const
+{
+    return about_yaw_axis(unbent_rad(motor_rad)[kCoxa]) * tip_mm(motor_rad);
+}
+
+void PressedLimb::stand_at(const Vector3d &tip_mm, const Vector3d &down, bool follows)
+{
+    is_on_body_ = true;
+    follows_ = follows;
+    anchor_mm_ = tip_mm;
+    down_ = down;
+}
+
+// Weights pull where the body has turned them to. A smaller turn waits, for it costs a new structure.
+void PressedLimb::lean(double theta0_rad)
+{
+    const Vector3d down = about_yaw_axis(-theta0_rad) * down_;
+    if ((down - effects::gravity::down_in_space(model_)).squaredNorm() > kLeast_rad * kLeast_rad) {
+        model_.gravity.direction_rad = std::atan2(down.z(), down.x());
+        model_.gravity.lean_rad = std::atan2(down.y(), std::hypot(down.x(), down.z()));
+    }
+}
+
 bool PressedLimb::settle(const Vector3d &motor_rad, double t_s, double temp_degc, Pressed &pressed)
 {
     const Vector3d unbent = unbent_rad(motor_rad);
+    if (is_on_body_) {
+        lean(unbent[kCoxa]);
+        const Vector3d unloaded_mm = unloaded_tip_mm(motor_rad);
+        if (follows_) {
+            anchor_mm_ += unloaded_mm - unloaded_mm_;
+        }
+        unloaded_mm_ = unloaded_mm;
+    }
     const Vector3d held_mm = about_yaw_axis(-unbent[kCoxa]) * anchor_mm_ - tip_mm(motor_rad);
     const auto settle_in = [&](auto &state, auto world) {
         using World = decltype(world);
@@ -119,8 +153,15 @@ bool PressedLimb::settle(const Vector3d &motor_rad, double t_s, double temp_degc
             pressed.flank[static_cast<std::size_t>(joint)] = flank_that_carries(state.law(i), pressed.load_n_mm[joint]);
         }
         const plant::Vector<kJoints> sense = kSense.tail<kJoints>();
+        const plant::LimbHeld<kJoints> held = state.held();
         pressed.stiffness_n_mm_per_rad.bottomRightCorner<kJoints, kJoints>() =
-            -(sense.asDiagonal() * state.torque_per_motor_turn() * sense.asDiagonal());
+            -(sense.asDiagonal() * held.torque_n_mm_per_rad * sense.asDiagonal());
+        if constexpr (kJoints == 3) {
+            const Eigen::Matrix3d yaw = about_yaw_axis(unbent[kCoxa]);
+            const Vector3d hip_mm(model_.geometry.coxa_mm, 0.0, 0.0);
+            pull_ = {anchor_mm_, yaw * rest.force_n, yaw * held.stiffness_n_per_mm * yaw.transpose(),
+                     yaw * held.carried_n, yaw * (held.carried_n_mm + hip_mm.cross(held.carried_n))};
+        }
         return true;
     };
     if (auto *in_plane = std::get_if<LimbState<InPlane>>(&state_)) {

@@ -6,6 +6,7 @@
 #include <array>
 #include <variant>
 
+#include "node/pull.h"
 #include "plant/limb_state.h"
 
 namespace brace::node {
@@ -38,14 +39,27 @@ public:
     // Finds the rest state. False: nothing yields in some direction.
     bool settle(const Eigen::Vector3d &motor_rad, double t_s, double temp_degc, Pressed &pressed);
 
+    // A limb in space under a body (body.h). All in the frame of pull.h; stand_at() after take_hold().
+    // follows: the tip is off the ground, and goes where the motors move it.
+    void stand_at(const Eigen::Vector3d &tip_mm, const Eigen::Vector3d &down, bool follows);
+    Eigen::Vector3d unloaded_tip_mm(const Eigen::Vector3d &motor_rad) const;
+    const Pull &pull() const { return pull_; } // as settle() left it
+
 private:
     Eigen::Vector3d unbent_rad(const Eigen::Vector3d &motor_rad) const; // true joint angles, with nothing bent
     // From the yaw axis, in the limb's plane.
     Eigen::Vector3d tip_mm(const Eigen::Vector3d &motor_rad) const;
 
-    const plant::Model model_;
+    void lean(double theta0_rad);
+
+    plant::Model model_;
     std::variant<plant::LimbState<plant::InPlane>, plant::LimbState<plant::InSpace>> state_;
     Eigen::Vector3d anchor_mm_ = Eigen::Vector3d::Zero(); // where the contact stands, seen from the robot
+
+    bool is_on_body_ = false, follows_ = false;
+    Eigen::Vector3d down_ = Eigen::Vector3d::Zero();       // in the limb's frame
+    Eigen::Vector3d unloaded_mm_ = Eigen::Vector3d::Zero(); // the unloaded tip when it settled last
+    Pull pull_{};
 };
 
 } // namespace brace::node

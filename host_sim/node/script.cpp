@@ -1,16 +1,16 @@
 #include "node/script.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace brace::node {
 
 void Setpoints::start(const std::array<double, 3> &theta_rad)
 {
-    now_rad_ = theta_rad;
-    goal_rad_ = {theta_rad[1], theta_rad[2]};
+    now_rad_ = goal_rad_ = theta_rad;
 }
 
-void Setpoints::add(double at_s, double theta1_rad, double theta2_rad)
+void Setpoints::add(double at_s, const std::array<double, 3> &theta_rad)
 {
     if (!script_.empty()) {
         at_s = std::max(at_s, script_.back().at_s);
@@ -19,17 +19,20 @@ void Setpoints::add(double at_s, double theta1_rad, double theta2_rad)
         script_.clear();
         next_ = 0;
     }
-    script_.push_back({at_s, {theta1_rad, theta2_rad}});
+    script_.push_back({at_s, theta_rad});
 }
 
 void Setpoints::step(double t_s, double dt_s, const std::array<brace_node_drive_t, 3> &drive)
 {
     for (; next_ < script_.size() && script_[next_].at_s <= t_s; ++next_) {
-        goal_rad_ = script_[next_].theta_rad;
+        for (std::size_t i = 0; i < goal_rad_.size(); ++i) {
+            const double goal = script_[next_].theta_rad[i];
+            goal_rad_[i] = std::isnan(goal) ? goal_rad_[i] : goal;
+        }
     }
-    for (const int i : {0, 1}) {
-        const double most = dt_s * drive[i + 1].rate_rad_per_s;
-        now_rad_[i + 1] += std::clamp(goal_rad_[i] - now_rad_[i + 1], -most, most);
+    for (std::size_t i = 0; i < now_rad_.size(); ++i) {
+        const double most = dt_s * drive[i].rate_rad_per_s, left = goal_rad_[i] - now_rad_[i];
+        now_rad_[i] = std::fabs(left) <= most ? goal_rad_[i] : now_rad_[i] + std::copysign(most, left);
     }
 }
 

@@ -14,17 +14,17 @@ namespace brace::node {
 class Setpoints {
 public:
     void start(const std::array<double, 3> &theta_rad);
-    void add(double at_s, double theta1_rad, double theta2_rad);
+    void add(double at_s, const std::array<double, 3> &theta_rad); // NaN: that joint keeps its set-point
     void step(double t_s, double dt_s, const std::array<brace_node_drive_t, 3> &drive);
     const std::array<double, 3> &now_rad() const { return now_rad_; }
+    bool is_moving() const { return now_rad_ != goal_rad_; }
 
 private:
     struct Posture {
         double at_s;
-        std::array<double, 2> theta_rad;
+        std::array<double, 3> theta_rad;
     };
-    std::array<double, 3> now_rad_{};
-    std::array<double, 2> goal_rad_{};
+    std::array<double, 3> now_rad_{}, goal_rad_{};
     std::vector<Posture> script_;
     std::size_t next_ = 0;
 };

@@ -6,6 +6,7 @@
 
 #include "effects/contact_play.h"
 #include "effects/creep.h"
+#include "effects/gravity.h"
 #include "effects/memory.h"
 #include "plant/held.h"
 
@@ -42,10 +43,11 @@ bool LimbState<World>::move_to(double theta1_rad, double theta2_rad, const effec
 {
     bool same_limb = placed_, same_structure = placed_ && theta1_rad == theta1_rad_ && theta2_rad == theta2_rad_;
     Model now;
-    if (!placed_ || effects::Changes::act(model_)) {
+    const bool leans = placed_ && !effects::gravity::is_same(model_, now_); // its base was turned
+    if (!placed_ || leans || effects::Changes::act(model_)) {
         now = effects::limb_now(model_, conditions);
         same_limb = placed_ && effects::is_same(now, now_);
-        same_structure = same_structure && (same_limb || effects::is_same_but_for_springs(now, now_));
+        same_structure = same_structure && !leans && (same_limb || effects::is_same_but_for_springs(now, now_));
     }
     if (placed_ && effects::creep::acts(now_)) {
         let_creep(conditions.t_s - t_s_);
@@ -365,11 +367,12 @@ template <class World> auto LimbState<World>::end_hold() -> LimbRest<N>
     return rest;
 }
 
-template <class World> auto LimbState<World>::torque_per_motor_turn() const -> Mat
+template <class World> auto LimbState<World>::held() const -> LimbHeld<N>
 {
     std::array<JointHinge, N> joint{};
-    for (std::size_t k = 0; k < N; ++k) {
-        joint[k].compliance_rad_per_n_mm = law_[k].compliance_rad_per_n_mm;
+    for (std::size_t k = 0; k < N; ++k) { // its spring bears what the joint bears
+        const double compliance = law_[k].compliance_rad_per_n_mm;
+        joint[k] = {compliance, turn_of(k) - compliance * rest_.torque_n_mm[k]};
     }
     const bool small = displacements_ == Displacements::small;
     typename World::Condensed springs;
@@ -381,7 +384,16 @@ template <class World> auto LimbState<World>::torque_per_motor_turn() const -> M
     for (std::size_t k = 0; k < N; ++k) {
         lever.col(static_cast<Eigen::Index>(k)) = tangent.lever_mm[k];
     }
-    return tangent.torque_n_mm_per_rad - lever.transpose() * compliance.inverse() * lever;
+    LimbHeld<N> held;
+    held.stiffness_n_per_mm = compliance.inverse();
+    held.torque_n_mm_per_rad = tangent.torque_n_mm_per_rad - lever.transpose() * held.stiffness_n_per_mm * lever;
+    held.carried_n = rest_.shape.force_n + weight_n_;
+    held.carried_n_mm = Vec::Zero();
+    if constexpr (N == 3) {
+        const Vec root_mm = structure_.root_mm + structure_.base_mm_per_n.cwiseProduct(held.carried_n);
+        held.carried_n_mm = springs.moment_n_mm() + root_mm.cross(held.carried_n);
+    }
+    return held;
 }
 
 template class LimbState<InPlane>;

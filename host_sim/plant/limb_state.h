@@ -48,6 +48,14 @@ template <int N> struct LimbRest {
     bool solved;
 };
 
+// How a limb whose tip is held answers small changes, its gaps closed and its joints no more than springs.
+template <int N> struct LimbHeld {
+    Matrix<N> torque_n_mm_per_rad;  // torques on the joints by the angles of their motors
+    Matrix<N> stiffness_n_per_mm;   // force by the tip's place
+    Vector<N> carried_n;            // tip force and weights together: what the limb brings to its base
+    Vector<N> carried_n_mm;         // in space: their moment about the femur joint's unloaded place
+};
+
 template <class World> class LimbState {
     static constexpr int N = World::kAxes;
     using Vec = Vector<N>;
@@ -89,8 +97,7 @@ public:
     const JointLaw &law(std::size_t joint) const { return law_[joint]; } // from the world's first joint on
     unsigned structures_found() const { return structures_found_; } // it grows as the structure becomes another
 
-    // How the torques on the joints follow the angles of their motors while the contact holds the tip, gaps closed.
-    Mat torque_per_motor_turn() const;
+    LimbHeld<N> held() const;
 
 private:
     // A rest state.

@@ -157,6 +157,7 @@ void SpaceCondensed::about(const SpaceStructure &structure, const std::array<Joi
             by_turn.col(k) += kept_by_axis + 0.5 * axis.cross(work.moment_n_mm);
         }
     }
+    moment_n_mm_ = work.moment_n_mm;
     work.compliance_mm_per_n.diagonal() += structure.base_mm_per_n;
     work.tip_mm += structure.base_mm_per_n.cwiseProduct(work.force_n);
     tangent_ = {work.tip_mm,

@@ -28,6 +28,9 @@ public:
 
     const Tangent<3> &tangent() const { return tangent_; }
 
+    // Of the tip force and the weights, about where the first body begins; all springs at rest.
+    const Eigen::Vector3d &moment_n_mm() const { return moment_n_mm_; }
+
     // Where the limb comes to rest under a change. shape: the one that it was linearised about.
     void follow(const Change<3> &change, const SpaceShape &shape, Followed &followed) const;
 
@@ -48,6 +51,7 @@ private:
     std::array<Hinge, kMostSpaceBodies> hinge_;
     std::array<int, kMostSpaceBodies> body_of_; // of each hinge
     Tangent<3> tangent_;
+    Eigen::Vector3d moment_n_mm_;
 };
 
 } // namespace brace::plant

@@ -79,6 +79,8 @@ private:
     {
         if (structure_.body_count > 0) {
             end(at_mm);
+        } else {
+            structure_.root_mm = at_mm;
         }
         at_mm_ = at_mm;
         ++structure_.body_count;

@@ -33,6 +33,7 @@ struct SpaceStructure {
     int body_count;
     std::array<SpaceBody, kMostSpaceBodies> body;
     std::array<int, 3> joint_body;
+    Eigen::Vector3d root_mm; // where the first body begins
     Eigen::Vector3d base_mm_per_n;
     Eigen::Vector3d down; // a unit vector
     double reach_mm;
