@@ -44,9 +44,11 @@ class Advance(Protocol):
     def __call__(self, done: int, doing: str = "") -> None: ...
 
 
-def add_model(parser: argparse.ArgumentParser, meaning: str = "the limb model") -> None:
+def add_model(
+    parser: argparse._ActionsContainer, meaning: str = "the limb model", required: bool = True
+) -> None:
     """--model limb.toml"""
-    parser.add_argument("--model", type=path, required=True, metavar="LIMB.toml", help=meaning)
+    parser.add_argument("--model", type=path, required=required, metavar="LIMB.toml", help=meaning)
 
 
 def add_json(parser: argparse.ArgumentParser) -> None:

@@ -8,10 +8,11 @@ import math
 import re
 import signal
 import sys
+from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
-from brace.cli import common, sim_values
+from brace.cli import common, sim_stance_options, sim_values
 from brace.cli.bus_options import Ended, ended_by_signal, key_of
 from brace.cli.options import Subcommands, refused
 from brace.cli.subcommands import SUBCOMMANDS
@@ -21,6 +22,9 @@ from brace.sim import spec
 if TYPE_CHECKING:
     from brace.model import LimbModel
     from brace.sim.node import LimbSetup, Node
+    from brace.sim.robot import Robot
+
+    AnyNode = TypeVar("AnyNode", bound=Node)
 
 CAN_PORT = 29536
 MODBUS_PORT = 1502
@@ -41,7 +45,14 @@ def add(commands: Subcommands) -> None:
         "in space.",
         epilog=f"Faults: {', '.join(spec.FAULTS)}; values: current_offset in N mm, force_offset in N, tick_late in ms.",
     )
-    common.add_model(parser, "what the controllers believe; and what is true, without --plant")
+    limbs = parser.add_mutually_exclusive_group(required=True)
+    common.add_model(limbs, "what the controllers believe; and what is true, without --plant", required=False)
+    limbs.add_argument(
+        "--stance",
+        type=common.path,
+        metavar="STANCE.toml",
+        help="instead of --model: all limbs of a stance under one body, each with its own controller",
+    )
     parser.add_argument("--plant", type=common.path, metavar="TRUE.toml", help="the true limb")
     parser.add_argument("--limbs", type=common.count(1, 16), default=1, metavar="N", help="default 1")
     parser.add_argument(
@@ -142,6 +153,7 @@ def add(commands: Subcommands) -> None:
     parser.add_argument(
         "--servos-hold", action="store_true", help="switches the torque of real servos on, where they stand"
     )
+    sim_stance_options.add(parser)
     common.add_json(parser)
     parser.set_defaults(run=run)
 
@@ -157,13 +169,23 @@ def _servo_ids(text: str) -> tuple[int, int, int]:
 
 def run(arguments: argparse.Namespace) -> int:
     """Executes the subcommand."""
-    from brace.model import load_limb
-
     if arguments.fast and arguments.seconds is None:
         raise UsageError("--fast without --seconds", why="it would never end", next_step="add --seconds 10")
+    sim_stance_options.refuse_mixture(arguments)
+    return _run_stance(arguments) if arguments.stance is not None else _run_alone(arguments)
+
+
+def _run_alone(arguments: argparse.Namespace) -> int:
+    from brace.model import load_limb
+    from brace.sim.node import Node
+
     model = load_limb(arguments.model)
     plant = load_limb(arguments.plant) if arguments.plant else model
-    with _make_node(arguments, model, plant) as node:
+
+    def made(can: str, modbus: str) -> Node:
+        return Node(_setups(arguments, _alike(arguments, model, plant), modbus), can, arguments.seed)
+
+    with _make_node(arguments, made) as node:
         if (arguments.press_across or arguments.theta0) and not node.has_coxa_joint():
             raise UsageError(
                 "--press-across and --theta0 are of a limb with a coxa joint",
@@ -175,28 +197,58 @@ def run(arguments: argparse.Namespace) -> int:
             node.add_fault(fault)
         for posture in arguments.posture[1:]:
             node.add_posture(posture)
-        # Signals are caught before anyone can know that this command runs. Ctrl-C sets `ended` and raises nothing, because
-        # Python may lose an exception that a handler raises inside an import.
-        with ended_by_signal(signal.SIGTERM, signal.SIGINT) as ended:
-            _say_ready(arguments, node)
-            (_run_fast if arguments.fast else _run_in_real_time)(arguments, node, ended)
-            node.stop()
-            _say_end(arguments, node)
+        return _run_to_the_end(arguments, node)
+
+
+def _run_stance(arguments: argparse.Namespace) -> int:
+    from brace.cli import sim_stance
+    from brace.sim.robot import Robot
+
+    stance = sim_stance.read(arguments)
+    arguments.limbs = len(stance.names)
+    body = stance.body
+
+    def made(can: str, modbus: str) -> Robot:
+        setups = _setups(arguments, stance.limbs, modbus)
+        for setup in setups:
+            setup.drive["servo_n_mm_per_rad"] = sim_stance.SERVO_N_MM_PER_RAD
+        return Robot(body, setups, can, arguments.seed)
+
+    with _make_node(arguments, made) as robot:
+        stance.happen(robot, arguments.payload, arguments.move, arguments.lift)
+        for fault in arguments.fault:
+            robot.add_fault(fault)
+        with sim_stance.Watch(robot, arguments.truth, arguments.json) as watch:
+            return _run_to_the_end(arguments, robot, robot, watch.look)
+
+
+def _run_to_the_end(
+    arguments: argparse.Namespace, node: Node, robot: Robot | None = None, look: Callable[[], None] = lambda: None
+) -> int:
+    """robot: the node, where its limbs are a robot's. look: called often."""
+    # Signals are caught before anyone can know that this command runs. Ctrl-C sets `ended` and raises nothing, because
+    # Python may lose an exception that a handler raises inside an import.
+    with ended_by_signal(signal.SIGTERM, signal.SIGINT) as ended:
+        _say_ready(arguments, node)
+        (_run_fast if arguments.fast else _run_in_real_time)(arguments, node, ended, look)
+        node.stop()
+        look()
+        _say_end(arguments, node, robot)
     return EXIT_INTERRUPTED if ended.by == signal.SIGINT else EXIT_OK
 
 
 # ------------------------------------------------------------------------------------------------ making
 
 
-def _make_node(arguments: argparse.Namespace, model: LimbModel, plant: LimbModel) -> Node:
-    """The node; a default port that is taken is left for any free one."""
-    from brace.sim.node import Node, PortBusy
+def _make_node(arguments: argparse.Namespace, made: Callable[[str, str], AnyNode]) -> AnyNode:
+    """The node, by its CAN and Modbus URLs; a default port that is taken is left for any free one."""
+    from brace.sim.node import PortBusy
 
     can = "slcan:pty" if arguments.can == "pty" else arguments.can or f"tcp://127.0.0.1:{CAN_PORT}"
     modbus = arguments.modbus or f"modbus-tcp://127.0.0.1:{MODBUS_PORT}"
     for _ in range(3):
         try:
-            return Node(_setups(arguments, model, plant, modbus), can, arguments.seed)
+            return made(can, modbus)
         except PortBusy as busy:
             if busy.url == can and arguments.can is None:
                 _say_taken(busy.url)
@@ -222,9 +274,8 @@ def _usual_posture(model: LimbModel) -> spec.Posture:
     return spec.Posture(angles[0], angles[1], 0.0)
 
 
-def _setups(arguments: argparse.Namespace, model: LimbModel, plant: LimbModel, modbus: str) -> list[LimbSetup]:
-    from brace.sim.node import LimbSetup
-
+def _alike(arguments: argparse.Namespace, model: LimbModel, plant: LimbModel) -> list[spec.OneLimb]:
+    """--limbs of them."""
     first = arguments.posture[0] if arguments.posture else _usual_posture(model)
     base = arguments.node or int(model.number("controller.node_id")) or 1
     if base + arguments.limbs - 1 > 127:
@@ -233,15 +284,22 @@ def _setups(arguments: argparse.Namespace, model: LimbModel, plant: LimbModel, m
             why="CAN nodes are 1 to 127",
             next_step=f"--node {128 - arguments.limbs}",
         )
+    theta_rad = (arguments.theta0, first.theta1_rad, first.theta2_rad)
+    return [spec.OneLimb(model, plant, base + limb, theta_rad) for limb in range(arguments.limbs)]
+
+
+def _setups(arguments: argparse.Namespace, limbs: Sequence[spec.OneLimb], modbus: str) -> list[LimbSetup]:
+    from brace.sim.node import LimbSetup
+
     ports = _serial_ports(arguments.serial)
     setups = []
-    for limb in range(arguments.limbs):
-        changes: dict[str, float] = {"controller.node_id": base + limb}
+    for limb, one in enumerate(limbs):
+        changes: dict[str, float] = {"controller.node_id": one.node}
         setup = LimbSetup(
-            model,
-            plant,
+            one.believed,
+            one.plant,
             changes,
-            theta_rad=(arguments.theta0, first.theta1_rad, first.theta2_rad),
+            theta_rad=one.theta_rad,
             hold_n_per_mm=arguments.contact,
             press_mm=arguments.press,
             press_y_mm=arguments.press_across,
@@ -323,23 +381,25 @@ def _give_modbus(setup: LimbSetup, url: str, limb: int) -> None:
 # ----------------------------------------------------------------------------------------------- running
 
 
-def _run_fast(arguments: argparse.Namespace, node: Node, ended: Ended) -> None:
+def _run_fast(arguments: argparse.Namespace, node: Node, ended: Ended, look: Callable[[], None]) -> None:
     with common.progress("simulating", int(arguments.seconds)) as advance:
         done = 0.0
         while done < arguments.seconds and not ended.is_set():
             part = min(_FAST_SLICE_S, arguments.seconds - done)
             node.step(part)
+            look()
             done += part
             advance(int(done))
 
 
-def _run_in_real_time(arguments: argparse.Namespace, node: Node, ended: Ended) -> None:
+def _run_in_real_time(arguments: argparse.Namespace, node: Node, ended: Ended, look: Callable[[], None]) -> None:
     from brace.sim.status import LiveLine
 
     line = LiveLine()
     try:
         node.start(arguments.seconds if arguments.seconds is not None else math.inf, arguments.speed)
         while not ended.is_set() and not node.wait(_POLL_S):
+            look()
             if line.wanted:
                 stats = node.stats()
                 line.show(stats["time_us"] * 1e-6, [node.state(i) for i in range(arguments.limbs)], stats)
@@ -375,25 +435,37 @@ def _emit_event(event: str, data: dict[str, object]) -> None:
 
 
 def _say_ready(arguments: argparse.Namespace, node: Node) -> None:
-    limbs = [
-        {"limb": limb + 1, "node": node.state(limb)["node"], **_places(node, limb)}
+    limbs: list[dict[str, object]] = [
+        {
+            "limb": limb + 1,
+            **({"name": node.names[limb]} if node.names else {}),
+            "node": node.state(limb)["node"],
+            **_places(node, limb),
+        }
         for limb in range(arguments.limbs)
     ]
     if arguments.json:
         _emit_event("ready", {"seed": arguments.seed, "limbs": limbs})
         return
     for entry in limbs:
-        places = ", ".join(f"{name} {place}" for name, place in entry.items() if name not in ("limb", "node"))
-        _emit_now(f"limb {entry['limb']}: node {entry['node']}, {places or 'no ports'}")
+        places = ", ".join(f"{name} {place}" for name, place in entry.items() if name not in ("limb", "name", "node"))
+        called = f" ({entry['name']})" if node.names else ""
+        _emit_now(f"limb {entry['limb']}{called}: node {entry['node']}, {places or 'no ports'}")
 
 
-def _say_end(arguments: argparse.Namespace, node: Node) -> None:
+def _say_end(arguments: argparse.Namespace, node: Node, robot: Robot | None) -> None:
     from brace.sim.status import line_of
 
     states = [node.state(limb) for limb in range(arguments.limbs)]
     if arguments.json:
         entries = [{**state, "truth": node.truth(limb)} for limb, state in enumerate(states)]
-        _emit_event("end", {"limbs": entries, **node.stats()})
+        whole = {"truth": robot.robot_truth()} if robot else {}
+        _emit_event("end", {"limbs": entries, **whole, **node.stats()})
         return
     for state in states:
         _emit_now(line_of(state))
+    if robot:
+        from brace.cli.sim_stance import end_lines
+
+        for line in end_lines(robot.robot_truth()):
+            _emit_now(line)

@@ -1,4 +1,5 @@
-"""Values that `brace sim` takes: faults, postures, the contact. Each refusal says what would do."""
+"""Values that `brace sim` takes: faults, postures, the contact, what happens to a stance. Each refusal says what would
+do."""
 
 from __future__ import annotations
 
@@ -7,7 +8,7 @@ import re
 
 from brace.cli.options import angle, flexion, number, refused
 from brace.ground.errors import did_you_mean
-from brace.sim.spec import FAULTS, JOINTS, Fault, Posture
+from brace.sim.spec import FAULTS, JOINTS, Fault, Lift, Move, Payload, Posture
 
 _FAULT = re.compile(
     r"(?P<name>[a-z_]+)(?::(?P<where>[^=@]*))?(?:=(?P<value>[^@]*))?(?:@(?P<at>[^+]*)(?:\+(?P<time>.*))?)?"
@@ -74,6 +75,37 @@ def posture(text: str) -> Posture:
     if len(parts) != 2:
         raise refused(f"{text!r} is no posture", "the form is THETA1,THETA2[@SECONDS], in rad", "OPTION 1.0,1.4@2.5")
     return Posture(angle(parts[0]), flexion(parts[1]), _seconds(at) if at else 0.0)
+
+
+def payload(text: str) -> Payload:
+    """1.5, 1.5@3 or 1.5@3+2"""
+    factor, _, when = text.partition("@")
+    at, _, ramp = when.partition("+")
+    return Payload(number(factor), _seconds(at) if at else 0.0, _seconds(ramp) if ramp else 0.0)
+
+
+def move(text: str) -> Move:
+    """front left:0,0.02,0@3"""
+    limb, colon, rest = text.rpartition(":")
+    by, _, at = rest.partition("@")
+    parts = by.split(",")
+    if not colon or not limb or len(parts) != 3:
+        raise refused(
+            f"{text!r} is no move of a limb",
+            "the form is LIMB:COXA,FEMUR,TIBIA[@SECONDS], by how much each set-point moves, in rad",
+            "OPTION 2:0,0.02,0@3",
+        )
+    coxa, femur, tibia = (angle(part) for part in parts)
+    return Move(limb, (coxa, femur, tibia), _seconds(at) if at else 0.0)
+
+
+def lift(text: str) -> Lift:
+    """front left@3 or front left@3+2"""
+    limb, _, when = text.partition("@")
+    at, _, time = when.partition("+")
+    if not limb:
+        raise refused(f"{text!r} names no limb", "the form is LIMB[@SECONDS[+DURATION]]", "OPTION 2@3+1")
+    return Lift(limb, _seconds(at) if at else 0.0, _seconds(time) if time else math.inf)
 
 
 def contact(text: str) -> float:

@@ -42,7 +42,7 @@ FIRMWARE_HEADERS = (
     "stance.h",
 )
 HOST_HEADER = "brace_host.h"
-NODE_HEADER = "brace_node.h"  # the controller and its limb in one process
+NODE_HEADERS = ("brace_node.h", "brace_robot.h", "brace/status_text.h")  # controllers and limbs in one process
 SERVOS_HEADER = "brace_servos.h"
 _HEADER_FOLDERS = (
     "firmware/core/include",
@@ -144,8 +144,7 @@ def _headers() -> tuple[list[Path], list[Path]]:
 def _node_headers() -> tuple[list[Path], list[Path]]:
     """The same for the controller in this process; a world of its own, which other commands need not read."""
     _, folders = _headers()
-    names = (NODE_HEADER, "brace/status_text.h")
-    return [root for name in names for folder in folders if (root := folder / name).is_file()], folders
+    return [root for name in NODE_HEADERS for folder in folders if (root := folder / name).is_file()], folders
 
 
 def _refuse_stale(library_path: Path, headers: list[Path], folders: list[Path]) -> None:

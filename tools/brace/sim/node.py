@@ -8,7 +8,7 @@ import threading
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import NotRequired, TypedDict
+from typing import NotRequired, Self, TypedDict
 
 from brace.ground.errors import BadFileError, BraceError, NoDeviceError, UsageError
 from brace.model import LimbModel
@@ -106,24 +106,29 @@ class PortBusy(NoDeviceError):
 class Node:
     """Limbs and their controllers. Close it, or use it in a `with`."""
 
+    names: tuple[str, ...] = ()  # of the limbs, where they have some
+
     def __init__(self, limbs: Sequence[LimbSetup], can: str | None = "none", seed: int = 0) -> None:
         self.native = node_library()
         self._setups = list(limbs)
         # set at the end of a run; a Ctrl-C within Thread.join would have Python 3.11 call a running thread ended
         self._over: threading.Event | None = None
         self._ended = threading.Event()
-        ffi, lib = self.native.ffi, self.native.lib
+        ffi = self.native.ffi
         keep: list[CData] = []
         structs = ffi.new("brace_node_limb_t[]", len(limbs))
         for struct, setup in zip(structs, limbs, strict=True):
             self._fill(struct, setup, keep)
         failure = ffi.new("brace_node_failure_t *")
         url = ffi.NULL if can is None else can.encode()
-        self._node = lib.brace_node_create(structs, len(limbs), url, seed, failure)
+        self._node = self._create(structs, url, seed, failure)
         if self._node == ffi.NULL:
             raise self._refusal(failure, can)
 
     # ------------------------------------------------------------------------------------------- making
+
+    def _create(self, structs: CData, can: CData, seed: int, failure: CData) -> CData:
+        return self.native.lib.brace_node_create(structs, len(structs), can, seed, failure)
 
     def _fill(self, struct: CData, setup: LimbSetup, keep: list[CData]) -> None:
         ffi, lib = self.native.ffi, self.native.lib
@@ -194,7 +199,7 @@ class Node:
             self.native.lib.brace_node_destroy(self._node)
             self._node = self.native.ffi.NULL
 
-    def __enter__(self) -> Node:
+    def __enter__(self) -> Self:
         return self
 
     def __exit__(self, *_: object) -> None:

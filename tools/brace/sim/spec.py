@@ -3,6 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from brace.model import LimbModel
 
 JOINTS = ("coxa", "femur", "tibia")
 FAULTS = {  # name as in brace_node.h: whether it is a joint's, unit of its value, value unless given
@@ -31,6 +35,43 @@ class Fault:
     value: float
     at_s: float
     for_s: float  # inf: for good
+
+
+@dataclass(frozen=True)
+class Payload:
+    """The payload's factor from a time on, reached within another."""
+
+    factor: float
+    at_s: float
+    ramp_s: float
+
+
+@dataclass(frozen=True)
+class Move:
+    """A limb's set-points moved from a time on; the limb by its name, or by its number from 1."""
+
+    limb: str
+    by_rad: tuple[float, float, float]
+    at_s: float
+
+
+@dataclass(frozen=True)
+class Lift:
+    """A limb's foot off the ground from a time on, for a while; the limb as of Move."""
+
+    limb: str
+    at_s: float
+    for_s: float  # inf: for good
+
+
+@dataclass(frozen=True)
+class OneLimb:
+    """A limb, its controller's CAN node, and where it stands: coxa, femur, tibia."""
+
+    believed: LimbModel
+    plant: LimbModel
+    node: int
+    theta_rad: tuple[float, float, float]
 
 
 @dataclass(frozen=True)
