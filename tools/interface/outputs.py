@@ -26,6 +26,7 @@ from interface.python_messages import frames_module
 from interface.python_names import names_module
 from interface.questions import Question, load_questions, questions_header, questions_source
 from interface.registers import measured_module, registers, registers_csv, registers_module
+from interface.servo_table import servo_table
 
 PROJECT = Path(__file__).resolve().parents[2]
 DICTIONARY = PROJECT / "firmware" / "interface" / "dictionary.toml"
@@ -74,6 +75,7 @@ def outputs(
         "docs/limb-keys.md": keys_page(dictionary),
         "host_sim/api/brace_plant_model.h": model_header(dictionary),
         "host_sim/plant/model_key_table.h": key_table(dictionary),
+        "hal/dynamixel/src/dxl_model_table.h": servo_table(PROJECT / "tools" / "brace" / "data" / "servos.toml"),
     }
 
 

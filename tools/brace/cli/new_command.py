@@ -23,8 +23,8 @@ NEEDED = {  # option: what is asked, and an example
     "tibia": ("the tibia's length (knee axis to tip)", "313.5"),
     "femur_link": ("what the femur is", "'tube 20 16 aluminium'"),
     "tibia_link": ("what the tibia is", "'rod 12 cfrp'"),
-    "femur_joint": ("the stiffness of the femur's joint, or unknown", "'60 N m/rad'"),
-    "tibia_joint": ("the stiffness of the knee, or unknown", "'60 N m/rad'"),
+    "femur_joint": ("the stiffness of the femur's joint, a servo's name, or unknown", "'60 N m/rad'"),
+    "tibia_joint": ("the stiffness of the knee, a servo's name, or unknown", "'60 N m/rad'"),
 }
 OPTIONAL = {
     "femur_play": ("full play of the femur's gear, or unknown", "20arcmin"),
@@ -44,7 +44,7 @@ def add(commands: Subcommands) -> None:
         description="Asks for what is known of a limb, or takes it as options, and writes a commented limb.toml; "
         "says which "
         "K to expect, how far it may be off, and what is only a guess. Without a terminal nothing is asked. "
-        f"A link is {LINK_FORMS}. A joint is its stiffness in N m/rad, rigid, or unknown.",
+        f"A link is {LINK_FORMS}. A joint is its stiffness in N m/rad, a servo's name, rigid, or unknown.",
         epilog="Exit codes: 0 written, 2 something is missing or not possible, 3 the URDF cannot be read.",
     )
     parser.add_argument("--out", type=common.path, required=True, metavar="LIMB.toml", help="the file to write")
@@ -64,7 +64,11 @@ def add(commands: Subcommands) -> None:
                             "distance of the yaw axis, for a limb in space")  # fmt: skip
     for name in (*PLANE, "coxa"):
         parser.add_argument(f"--{name}-link", metavar="LINK", help=f"what the {name} is")
-        parser.add_argument(f"--{name}-joint", metavar="STIFFNESS", help="60, '60 N m/rad', rigid, unknown")
+        parser.add_argument(
+            f"--{name}-joint",
+            metavar="STIFFNESS",
+            help="60, '60 N m/rad', XM430-W350, 'MX-106 P1200 14.8V' (servo, gain, supply), rigid, unknown",
+        )
         parser.add_argument(f"--{name}-play", metavar="ANGLE", help="full play: 20arcmin, 0.3deg, none")
         parser.add_argument(f"--{name}-travel", metavar="ANGLE", nargs=2, help="from and to: -60deg 90deg")
     common.add_json(parser)
@@ -222,6 +226,8 @@ def _expected(known: Known, model: object) -> dict[str, object]:
 
 
 def _text(known: Known, reported: dict[str, object]) -> str:
+    from brace.newlimb.describe import play_rad
+
     rel = 100 * float(str(reported["compliance_rel"]))
     entries = [
         f"k_{entry} {reported[f'k_{entry}_n_per_mm']:.3g} +- {reported[f'sigma_k_{entry}_n_per_mm']:.2g}"
@@ -233,8 +239,8 @@ def _text(known: Known, reported: dict[str, object]) -> str:
         + (
             "".join(
                 f"\n  while the play of the {name} is open, K is smaller: brace k shows how much"
-                for name in known.plays_rad
-                if known.plays_rad[name]
+                for name in known.joints
+                if play_rad(known, name)
             )
         )  # fmt: skip
     )

@@ -45,13 +45,35 @@ def compliance_rel(known: Known) -> float:
     return max([LEAST_REL, *(rel for size, rel in parts if size > SHARE * total)])
 
 
+def play_rad(known: Known, name: str) -> float | None:
+    """A joint's play: as it was said, else its servo's by the manual, else None."""
+    held = known.joints[name].held
+    said = known.plays_rad.get(name)
+    return held.servo.play_rad if said is None and held else said
+
+
 def guesses(known: Known) -> list[str]:
-    """What nobody said, one sentence each."""
+    """What nobody said or measured, one sentence each."""
     told = list(known.notes)
+    for name, joint in known.joints.items():
+        if joint.held and joint.held.servo.fit:
+            told.append(
+                f"joint.{name}: {joint.words}, by others' measurements of this servo ({joint.held.servo.source}), +- "
+                f"{100 * joint.sigma_rel:.0f} %; proportional to gain and supply"
+            )
+        elif joint.held:
+            told.append(
+                f"joint.{name}: {joint.words} is a guess, +- {100 * joint.sigma_rel:.0f} %, from the stall torque in "
+                f"the manual ({joint.held.servo.source}); proportional to gain and supply; a joint test measures it "
+                "(docs/joint-tests.md)"
+            )
+        elif joint.guessed:
+            told.append(f"joint.{name}: {joint.words} is a guess; a joint test measures it (docs/joint-tests.md)")
     told += [
-        f"joint.{name}: {joint.words} is a guess; a joint test measures it (docs/joint-tests.md)"
+        f"play of {name}: {joint.held.servo.play_arcmin:g} arcmin, by the manual of {joint.held.servo.name}; a worn "
+        "gear has more"
         for name, joint in known.joints.items()
-        if joint.guessed
+        if joint.held and known.plays_rad.get(name) is None
     ]
     for name, link in known.links.items():
         if link.is_beam:
@@ -59,7 +81,7 @@ def guesses(known: Known) -> list[str]:
                 f"link.{name}: {link.words}, computed as a beam, +- {100 * link.sigma_rel:.0f} %; glue and screws make "
                 "it softer, and are not counted"
             )
-    unsaid = [name for name in known.joints if known.plays_rad.get(name) is None]
+    unsaid = [name for name in known.joints if play_rad(known, name) is None]
     if unsaid:
         told.append(f"play of {' and '.join(unsaid)}: not given, so none is counted; gears have 1 to 60 arcmin")
     free = [name for name in known.joints if name not in known.travels_rad]
@@ -94,14 +116,13 @@ def text(known: Known) -> str:
     for name, joint in known.joints.items():
         lines += ["", f"[joint.{name}]  # {joint.words}{', A GUESS' if joint.guessed else ''}"]
         lines.append(f"compliance_rad_per_n_mm = {joint.compliance_rad_per_n_mm:.6g}")
-        play = known.plays_rad.get(name)
+        play = play_rad(known, name)
         if play is None:
             lines.append("# gap_rad = 0.0  # the full play was not said: 20 arcmin are 0.00582 rad")
         else:
             lines.append(f"gap_rad = {play:.6g}  # {math.degrees(play) * 60:.3g} arcmin of play")
-    for name, (low, high) in known.travels_rad.items():
-        lines += ["", f"[motor.{name}]  # travel {math.degrees(low):.4g} to {math.degrees(high):.4g} deg"]
-        lines += [f"angle_min_rad = {low:.6g}", f"angle_max_rad = {high:.6g}"]
+    for name in known.joints:
+        lines += _motor(known, name)
     if known.down:
         lines += ["", "[gravity]  # down as the robot stands, with the coxa joint at zero"]
         lines += [f"direction_rad = {known.down[0]!r}", f"lean_rad = {known.down[1]!r}"]
@@ -115,6 +136,27 @@ def text(known: Known) -> str:
         f"gain_rel = {ASSUMED['uncertainty.gain_rel']!r}",
     ]
     return "\n".join(lines) + "\n"
+
+
+def _motor(known: Known, name: str) -> list[str]:
+    """The lines of [motor.*]: travel, and what is known of the servo."""
+    travel, held = known.travels_rad.get(name), known.joints[name].held
+    if travel is None and held is None:
+        return []
+    lines = ["", f"[motor.{name}]" + (f"  # {held.servo.name}: {held.servo.manual}" if held else "")]
+    if travel:
+        degrees = " to ".join(f"{math.degrees(end):.4g}" for end in travel)
+        lines += [f"angle_min_rad = {travel[0]:.6g}  # travel {degrees} deg", f"angle_max_rad = {travel[1]:.6g}"]
+    if held:
+        servo, stall_n_mm = held.servo, 1e3 * held.servo.stall_torque_n_m
+        lines += [
+            f"torque_range_n_mm = {stall_n_mm:g}  # stall torque at {servo.supply_v:g} V",
+            f"takeup_torque_n_mm = {stall_n_mm / 2:g}  # half of it",
+            f"angle_step_rad = {servo.angle_step_rad:.6g}  # {servo.steps_per_turn} steps a turn",
+            f"# friction: {servo.fit.source if servo.fit else 'A GUESS, between those of servos that were measured'}",
+            *(f"{key} = {value:g}" for key, value in servo.motor_friction.items()),
+        ]
+    return lines
 
 
 def model(known: Known, path: Path) -> LimbModel:

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from brace.ground.errors import UsageError, did_you_mean
 from brace.ground.units import unit_of
 from brace.model.assumed_trust import GUESSED_REL
+from brace.model.servos import Held, held
 from brace.newlimb import LINK_FORMS
 from brace.newlimb.beams import ALIASES, MATERIALS, Compliances, Material, of_modulus, round_beam
 
@@ -108,24 +109,26 @@ class Joint:
     sigma_rel: float
     words: str
     guessed: bool = False
+    held: Held | None = None  # the servo, where one is named
 
 
 def joint(text: str) -> Joint:
-    """60, '60 N m/rad', '1 N m/deg', '1.6e-5 rad/(N mm)', rigid, unknown."""
+    """60, '60 N m/rad', '1 N m/deg', '1.6e-5 rad/(N mm)', XM430-W350, 'MX-106 P1200 14.8V', rigid, unknown."""
     said = text.strip().lower()
+    if by_name := held(text):
+        stiffness = by_name.stiffness_n_m_per_rad
+        return Joint(1e-3 / stiffness, by_name.sigma_rel, by_name.words, by_name.servo.fit is None, by_name)
     if said == UNKNOWN:
         return Joint(1e-3 / GUESSED_N_M_PER_RAD, GUESSED_REL, f"a servo of {GUESSED_N_M_PER_RAD:g} N m/rad", True)
     if said == "rigid":
         return Joint(0.0, 0.0, "rigid")
     value, unit = _split(text, "'60 N m/rad', or: unknown")
-    unit = re.sub(r"[\s*\u00b7()]", "", unit).lower()
-    per_rad = {"": 1.0, "nm/rad": 1.0, "nmm/rad": 1e-3, "knm/rad": 1e3, "nm/deg": 180 / math.pi,
-               "nm/\u00b0": 180 / math.pi,
-               "nm/arcmin": 10800 / math.pi, "mnm/rad": 1e-3}  # fmt: skip
-    soft = {"rad/nmm": 1.0, "rad/nm": 1e-3, "deg/nm": math.pi / 180 * 1e-3, "arcmin/nm": math.pi / 10800 * 1e-3}
-    if unit not in per_rad and unit not in soft:
+    per_rad, is_compliance = _of_turning(unit) if unit else (1.0, False)
+    if per_rad is None:
         raise refusal(
-            f"{text!r}: its unit is not known", "N m/rad, N m/deg, N m/arcmin, rad/(N mm)", "e.g. '60 N m/rad'"
+            f"{text!r}: {unit!r} is no unit of a joint's stiffness",
+            "N m/rad, N m/deg, N m/arcmin, kgf cm/deg, ozf in/deg, or of its compliance: rad/(N mm), deg/(N m)",
+            "e.g. '60 N m/rad'; a servo's name, e.g. XM430-W350; or: unknown",
         )
     if value <= 0.0:
         raise refusal(
@@ -133,7 +136,7 @@ def joint(text: str) -> Joint:
             "it is above zero; a joint that does not yield is: rigid",
             "e.g. '60 N m/rad'",
         )
-    stiffness = value * per_rad[unit] if unit in per_rad else 1e-3 / (value * soft[unit])  # N m/rad
+    stiffness = 1.0 / (value * per_rad) if is_compliance else value * per_rad  # N m/rad
     low, high = STIFFNESS_N_M_PER_RAD
     if not low <= stiffness <= high:
         raise refusal(
@@ -142,6 +145,18 @@ def joint(text: str) -> Joint:
             "e.g. '60 N m/rad'; is the unit right?",
         )
     return Joint(1e-3 / stiffness, SAID_REL, f"{stiffness:.4g} N m/rad")
+
+
+def _of_turning(text: str) -> tuple[float | None, bool]:
+    """What turns a number in this unit into N m/rad, or rad/(N m) where it is one of compliance (then true); None: no
+    such unit."""
+    over, _, under = text.replace("(", " ").replace(")", " ").partition("/")
+    for torque_text, angle_text, is_compliance in ((over, under, False), (under, over, True)):
+        torque, angle = unit_of(torque_text.strip(), "torque"), unit_of(angle_text.strip(), "angle")
+        if torque and angle and (torque.quantity, angle.quantity) == ("torque", "angle"):
+            per = 1e-3 * torque.factor / angle.factor
+            return (1.0 / per if is_compliance else per), is_compliance
+    return None, False
 
 
 @dataclass(frozen=True)

@@ -12,21 +12,11 @@ import tty
 from collections.abc import Sequence
 
 from brace.ground.errors import UsageError
+from brace.model.servos import servos
 from brace.native import servos_library
 from brace.native.c_data import CData
 
-MODELS = {
-    "MX-106": 321,
-    "MX-64": 311,
-    "XM430-W350": 1020,
-    "XM430-W210": 1030,
-    "XM540-W270": 1120,
-    "XM540-W150": 1130,
-    "XH540-W270": 1100,
-    "XH540-W150": 1110,
-    "XH540-V270": 1140,
-    "XH540-V150": 1150,
-}
+MODELS = {name: servo.number for name, servo in servos().items()}
 _MOST_BYTES = 1024
 _WAIT_S = 0.001
 _MIDDLE_RAD = math.pi
