@@ -11,10 +11,10 @@ from scipy.spatial.transform import Rotation
 from truth import Siconos, payload, stand
 from world import Hidden, Stance, draw, write
 
-from brace.cli.sim_stance import SimulatedStance
 from brace.sim.node import LimbSetup
 from brace.sim.robot import Robot, RobotTruth
 from brace.sim.spec import JOINTS
+from brace.stance.simulated import SimulatedStance
 from brace.stance.stance_file import load_stance
 
 # Servos that hold their angles, without friction: the judge has none.

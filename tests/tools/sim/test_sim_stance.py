@@ -15,9 +15,9 @@ import numpy as np
 import pytest
 from command_bench import PROJECT, Outcome
 
-from brace.cli.sim_stance import SERVO_N_MM_PER_RAD, SimulatedStance
 from brace.sim.node import LimbSetup, Node
 from brace.sim.robot import Robot
+from brace.stance.simulated import SERVO_N_MM_PER_RAD, SimulatedStance
 from brace.stance.stance_file import load_stance
 
 EXAMPLE = PROJECT / "examples" / "stance"

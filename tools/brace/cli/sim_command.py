@@ -203,6 +203,7 @@ def _run_alone(arguments: argparse.Namespace) -> int:
 def _run_stance(arguments: argparse.Namespace) -> int:
     from brace.cli import sim_stance
     from brace.sim.robot import Robot
+    from brace.stance.simulated import SERVO_N_MM_PER_RAD
 
     stance = sim_stance.read(arguments)
     arguments.limbs = len(stance.names)
@@ -211,7 +212,7 @@ def _run_stance(arguments: argparse.Namespace) -> int:
     def made(can: str, modbus: str) -> Robot:
         setups = _setups(arguments, stance.limbs, modbus)
         for setup in setups:
-            setup.drive["servo_n_mm_per_rad"] = sim_stance.SERVO_N_MM_PER_RAD
+            setup.drive["servo_n_mm_per_rad"] = SERVO_N_MM_PER_RAD
         return Robot(body, setups, can, arguments.seed)
 
     with _make_node(arguments, made) as robot:

@@ -8,8 +8,8 @@ from pathlib import Path
 
 from brace.cli import common, sim_values
 from brace.ground.errors import UsageError
+from brace.sim.spec import LIFT_MM
 
-LIFT_MM = 20.0  # out of the ground
 # What is for limbs without a body, and what is for a stance: the option, and what it is when nobody gave it.
 _ALONE: dict[str, tuple[str, object]] = {
     "--plant": ("plant", None),

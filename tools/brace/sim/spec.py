@@ -9,6 +9,7 @@ if TYPE_CHECKING:
     from brace.model import LimbModel
 
 JOINTS = ("coxa", "femur", "tibia")
+LIFT_MM = 20.0  # a lifted foot, out of its ground
 FAULTS = {  # name as in brace_node.h: whether it is a joint's, unit of its value, value unless given
     "encoder_stuck": (True, "", 0.0),
     "sensor_dead": (True, "", 0.0),
