@@ -106,6 +106,24 @@ def test_the_loop_over_the_wire_mends_the_controller(demo: tuple[Path, str]) -> 
     assert turning[1] == pytest.approx(2.6 * turning[0]) and turning[2] == pytest.approx(turning[1], rel=0.05)
 
 
+def test_the_foot_that_slips_was_named_before(demo: tuple[Path, str]) -> None:
+    """The robot's mechanics share nothing with the statics that foretell it. Forces within 5 % of what the robot
+    weighs, which is what three times the sensors' noise at each foot leaves."""
+    out, text = demo
+    facts = json.loads((out / "facts.json").read_text())["robot"]
+    foretold, slipped = facts["foretold"], facts["slipped"]
+    assert slipped["limb"] == foretold["limb"]
+    assert foretold["low"] < slipped["factor"] < foretold["high"] < 1.2 * foretold["payload_factor"]
+    for step in facts["steps"]:
+        assert abs(step["margin_foretold_n"] - step["margin_true_n"]) < 0.5
+        assert (slipped["limb"] in step["slipped"]) == (step["payload_factor"] > slipped["factor"])
+    before, then, said = (np.array(facts[key]) for key in ("lifted_before_n", "lifted_true_n", "lifted_foretold_n"))
+    assert np.abs(then - before).max() > 5.0 and np.abs(then - said).max() < 0.05 * (40.0 + 4 * 3.3)
+    assert (out / "robot.png").read_bytes().startswith(PNG)
+    assert (out / "robot.csv").read_text().startswith("payload_factor,margin_foretold_n,margin_true_n,feet_slipped\n")
+    assert f"foretold: {foretold['limb']} slips first" in text
+
+
 def test_convexity_of_sequences() -> None:
     r_mm = np.array([0.0, 1.0, 3.0, 4.0])
     assert not bent_rows(r_mm, r_mm**2).any()

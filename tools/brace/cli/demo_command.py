@@ -24,7 +24,8 @@ def add(commands: Subcommands) -> None:
         description="Takes the paper's table as printed, finds its faults, identifies the limb, and draws the paper's "
                     "figures: eigenvalues over r, ellipses, the cyclic test with its zero-force shift, the choice of "
                     "stiffness; then has a simulated controller's own loading tests show what its model lacks, and "
-                    "mends it. Writes pictures, table.csv, limb.toml, wire/ and facts.json into --out.")
+                    "mends it; and hangs a payload on a simulated robot of four limbs until the foot slips that was "
+                    "named before. Writes pictures, tables, limb.toml, wire/ and facts.json into --out.")
     parser.add_argument("--out", type=common.path, default=Path("brace-demo"), metavar="DIR",
                         help="default: brace-demo")
     common.add_json(parser)

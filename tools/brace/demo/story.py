@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from brace.dataset.write import csv_text
-from brace.demo import contact, cyclic, paper_table, postures, weight, wire_loop
+from brace.demo import contact, cyclic, four_limbs, paper_table, postures, weight, wire_loop
 from brace.demo.band import band
 from brace.identify import report
 from brace.model import LimbModel, load_limb
@@ -19,6 +19,7 @@ from brace.plots.cyclic_plot import cyclic_figure
 from brace.plots.eigenvalue_plot import eigenvalue_figure
 from brace.plots.figure import png_bytes
 from brace.plots.limb_plot import ellipse_figure
+from brace.stance.picture import picture
 from brace.stiffness.at_rest import planar_limb
 from brace.stiffness.workspace import compute
 
@@ -59,6 +60,8 @@ def narrate(story: Story, advance: Advance) -> Iterator[str]:
     yield from _weight(story, load_limb(paper_table.DATA / "paper-limb.toml"))
     yield "8. The loop over the wire: a controller whose model lacks something, tested, diagnosed, mended -> wire/"
     yield from _wire(story)
+    yield "9. A robot on four limbs: the foot that will slip is named before it does -> robot.png, robot.csv"
+    yield from _robot(story)
 
 
 def _eigenvalues(story: Story, table: paper_table.PaperTable) -> Iterator[str]:
@@ -167,3 +170,33 @@ def _wire(story: Story) -> Iterator[str]:
                            "k_before_n_per_mm": turn.before, "k_after_n_per_mm": turn.after,
                            "k_true_n_per_mm": turn.truth, "off_before_ratio": turn.off(turn.before),
                            "off_after_ratio": turn.off(turn.after)}
+
+
+def _robot(story: Story) -> Iterator[str]:
+    scene = four_limbs.Scene()
+    first = scene.foretold.first_slip
+    yield (f"   hidden: footholds off by {four_limbs.OFFSET_MM:g} mm, zeros by {1e3 * four_limbs.ZERO_RAD:g} mrad, "
+           f"compliances by {100 * four_limbs.COMPLIANCE_REL:g} %; the tips' forces are read with "
+           f"{four_limbs.SENSOR_N:g} N before the payload")
+    yield (f"   foretold: {first.limb} slips first, at {first.payload_factor:.2f} times the payload "
+           f"({first.low:.2f} to {first.high:.2f} with 90 %)")
+    steps, slid = scene.hang_on()
+    story.files["robot.png"] = picture(scene.foretold)
+    story.files["robot.csv"] = four_limbs.table(steps).encode()
+    yield f"   payload   margin of {first.limb} [N]: foretold    true   has slipped"
+    for step in steps:
+        # a foot that has slipped has no margin but for rounding
+        foretold = "  none" if step.foretold_n is None else f"{abs(step.foretold_n):6.2f}"
+        indent = " " * (len(first.limb or "") + 18)
+        yield f"   {step.factor:7.2f}{indent}{foretold}  {abs(step.true_n):6.2f}   {', '.join(step.slid)}".rstrip()
+    yield "   no foot slipped" if slid is None else f"   {slid.limb} slipped at {slid.factor:.2f} times the payload"
+    lifted, before, then = scene.lift_one()
+    yield f"   {lifted.name} lifted, no payload; each foot presses [N]:   before  foretold    true"
+    for i, limb in enumerate(scene.stance.limbs):
+        presses = (before[i, 2], lifted.force_n[i, 2], then[i, 2])
+        yield f"     {limb.name:{len(lifted.name) + 46}} " + "{:9.2f} {:9.2f} {:7.2f}".format(*presses)
+    story.facts["robot"] = {
+        "foretold": first.as_json(), "slipped": None if slid is None else {"limb": slid.limb, "factor": slid.factor},
+        "steps": [{"payload_factor": step.factor, "margin_foretold_n": step.foretold_n, "margin_true_n": step.true_n,
+                   "slipped": list(step.slid)} for step in steps],
+        "lifted": lifted.name, "lifted_foretold_n": lifted.force_n, "lifted_true_n": then, "lifted_before_n": before}
