@@ -16,6 +16,8 @@ from brace.sim.spec import JOINTS
 from brace.stance.simulated import SimulatedStance
 from brace.stance.stance_file import Limb, load_stance
 
+_FRICTIONS = ("coulomb_n_mm", "coulomb_per_load_ratio")
+_LEAST_MM_PER_N = 0.01
 _COLUMNS = (
     "t_s,limb,fx_n,fy_n,fz_n,state,foot_x_mm,foot_y_mm,foot_z_mm,tau0_n_mm,tau1_n_mm,tau2_n_mm,payload_factor,"
     "body_x_mm,body_y_mm,body_z_mm,body_rx_rad,body_ry_rad,body_rz_rad"
@@ -37,6 +39,7 @@ def read(arguments: argparse.Namespace) -> SimulatedStance:
     for path, stance in ((arguments.stance, believed), (arguments.stance_plant, true)):
         for limb in stance.limbs:
             _refuse_rigid_across(limb, path)
+            _refuse_rigid_links(limb, path)
     return SimulatedStance(believed, true)
 
 
@@ -49,6 +52,22 @@ def _refuse_rigid_across(limb: Limb, path: Path | None) -> None:
             where=f"{limb.model.where()}, of {path}",
             why="a limb under a body needs a coxa joint that gives way, or links that do",
             next_step="give joint.coxa.compliance_rad_per_n_mm or link.femur.lateral_mm_per_n",
+        )
+
+
+def _refuse_rigid_links(limb: Limb, path: Path | None) -> None:
+    """host_sim/README.md says why."""
+    number = limb.model.number
+    rubs = any(number(f"joint.{joint}.{key}") > 0.0 for joint in JOINTS for key in _FRICTIONS)
+    if rubs and any(
+        sum(number(f"link.{link}.{way}_mm_per_n") for link in ("femur", "tibia")) < _LEAST_MM_PER_N
+        for way in ("bending", "lateral")
+    ):
+        raise BadFileError(
+            f"limb {limb.name!r} has joints that rub and links that hardly yield",
+            where=f"{limb.model.where()}, of {path}",
+            why=f"the robot's body needs links of at least {_LEAST_MM_PER_N:g} mm/N where friction may hold the joints",
+            next_step="give link.tibia.bending_mm_per_n and lateral_mm_per_n, or the friction to motor.*",
         )
 
 
