@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import csv
 import json
+import sys
 from pathlib import Path
 from types import TracebackType
 from typing import TextIO
@@ -108,7 +109,7 @@ class Watch:
             if self._file is not None:
                 csv.writer(self._file, lineterminator="\n").writerows(_rows(truth))
             if self._as_json and abs(truth["time_s"] - round(truth["time_s"])) < 1e-6:
-                common.emit(json.dumps(common.json_ready({"event": "truth", "truth": truth})))
+                _emit_now({"event": "truth", "truth": truth})
         if self._file is not None:
             self._file.flush()
         fall = None if self._has_fallen else self._robot.fall()
@@ -117,8 +118,14 @@ class Watch:
             words = _fall_words(fall)
             common.say(words)
             if self._as_json:
-                event = {"event": "fall", "time_s": fall.time_s, "states": fall.states, "message": words}
-                common.emit(json.dumps(common.json_ready(event)))
+                _emit_now({"event": "fall", "time_s": fall.time_s, "states": fall.states, "message": words})
+
+
+def _emit_now(event: dict[str, object]) -> None:
+    """A line that whoever waits for it gets at once."""
+    common.emit(json.dumps(common.json_ready(event)))
+    if sys.stdout is not None:
+        sys.stdout.flush()
 
 
 def _rows(truth: RobotTruth) -> list[list[object]]:
