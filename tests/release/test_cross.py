@@ -57,7 +57,9 @@ def test_a_package_is_of_one_processor(built: Path, tmp_path: Path) -> None:
     named = f"-Dbrace_DIR={tmp_path / 'prefix' / folder / 'cmake/brace'}"
     with pytest.raises(AssertionError, match=r"version: 0\.1\.\d+ \(aarch64\)"):
         output_of("cmake", "-S", tmp_path, "-B", tmp_path / "host", named)
-    flags = output_of("pkg-config", f"--with-path={tmp_path / 'prefix' / folder / 'pkgconfig'}", "--libs", "brace-client")
+    flags = output_of(
+        "pkg-config", f"--with-path={tmp_path / 'prefix' / folder / 'pkgconfig'}", "--libs", "brace-client"
+    )
     assert f"-L{tmp_path / 'prefix' / folder}/pkgconfig/../../../{folder}" in flags
 
 
