@@ -306,7 +306,7 @@ def test_set_points_raise_the_smallest_margin(brace: Callable[..., Outcome], sta
     assert all(abs(part) <= 2.0 + 1e-9 for limb in found["limbs"] for part in limb["tip_moves_mm"])
     world = believed(load_stance(stance))
     _, state = world.load(world.stand(), [world.payload])
-    statics = world.statics_at(state.force_n)
+    statics = world.statics_at(state)
     force, stiffness = statics.linear(state, [*world.weight, world.payload])
     chance = np.random.default_rng(3)
     for _ in range(2000):

@@ -140,7 +140,7 @@ class OverloadedError(NoStanceError):
 def answer(stance: Stance, measured: Measured | None = None, draws: int = DRAWS) -> Answer:
     """The stance under its payload, forces before it measured or not. Raises NoStanceError where what is believed has
     no equilibrium, OverloadedError where it has one without the payload; draws that have none are counted in a flag."""
-    middle = believed(stance)
+    middle = believed(stance, measured.sigma_n) if measured else believed(stance)
     standing = middle.stand(measured, measured.force_n if measured else None)
     slips = [_slip(middle, standing)]
     best, trouble = _outcome(middle, standing)
@@ -237,19 +237,12 @@ def _borne_share(world: World, standing: Standing) -> float:
 
 
 def _slip(world: World, standing: Standing) -> _Slip:
-    """The springs are those at the load that moves the foot."""
-    force, at = world.payload
-    statics, limb, factor = standing.statics, -1, np.inf
-    for _ in range(2 if np.any(force) else 0):
-        found = statics.first_slip(standing.state, [world.payload], FACTOR_MOST)
-        limb, factor = found.limb, found.factor
-        if limb < 0 or factor <= 0.0:
-            break
-        try:
-            statics, _ = world.load(standing, [(0.999 * factor * force, at)])
-        except NoStanceError:
-            break
-    return _Slip(limb, factor)
+    if not np.any(world.payload[0]):
+        return _Slip(-1, np.inf)
+    try:
+        return _Slip(*world.first_slip(standing, FACTOR_MOST))
+    except NoStanceError:
+        return _Slip(-1, np.inf)
 
 
 def _span(values: Iterable[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:

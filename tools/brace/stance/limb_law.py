@@ -13,8 +13,8 @@ from brace.stiffness.in_space_under_load import LoadedLimbInSpace
 
 JOINTS = ("coxa", "femur", "tibia")
 CLOSES_AT_N = 0.05  # a force at the tip that closes a joint's play from its middle to its end
-UNSURE_N = 0.6  # two sigma of a sensor of 0.3 N: below it nobody can tell on which side of its play a joint stands
-_PLACES = np.array([[0, 1, 2], [1, 3, 4], [2, 4, 5]])  # K's entries xx xy xz yy yz zz as a matrix
+UNSURE_N = 0.3  # one sigma of a sensor of a foot: below it nobody can tell on which side of its play a joint stands
+MATRIX = np.array([[0, 1, 2], [1, 3, 4], [2, 4, 5]])  # K's entries xx xy xz yy yz zz as a matrix
 
 
 @dataclass(frozen=True)
@@ -31,6 +31,33 @@ class GivesWayError(Exception):
     """A limb has no equilibrium under a force; the text says which."""
 
 
+@dataclass(frozen=True)
+class Shape:
+    """A limb at its angles; places in the body's frame. from_plane: 3 x 3, from its plane's frame (x outwards, y to the
+    left, z up) into the body's. turns: how the tip moves [mm/rad] in the plane's frame when coxa, femur or tibia turns
+    by its own angle, a row a joint."""
+
+    from_plane: np.ndarray
+    hip_mm: np.ndarray
+    knee_mm: np.ndarray
+    tip_mm: np.ndarray
+    turns: np.ndarray
+
+
+def shape_of(limb: Limb, model: LimbModel, theta_rad: np.ndarray) -> Shape:
+    """At true angles of coxa, femur and tibia, without load."""
+    sine, cosine = np.sin(theta_rad[0]), np.cos(theta_rad[0])
+    from_plane = limb.turn @ np.array([[cosine, -sine, 0.0], [sine, cosine, 0.0], [0.0, 0.0, 1.0]])
+    coxa, femur, tibia = (model.number(f"geometry.{link}_mm") for link in JOINTS)
+    raised, bent = theta_rad[1], theta_rad[1] - theta_rad[2]
+    hip = np.array([coxa, 0.0, 0.0])
+    thigh, shin = (size * np.array([np.cos(at), 0.0, np.sin(at)]) for size, at in ((femur, raised), (tibia, bent)))
+    tip = hip + thigh + shin
+    turns = np.array([[-tip[1], tip[0], 0.0], _turned(thigh + shin), -_turned(shin)])
+    hip_mm, knee_mm, tip_mm = (limb.mount_mm + from_plane @ place for place in (hip, hip + thigh, tip))
+    return Shape(from_plane, hip_mm, knee_mm, tip_mm, turns)
+
+
 class LimbLaw:
     """A limb at its commanded angles, with a model that may differ from the stance's own. closes_at_n: CLOSES_AT_N
     for a draw. UNSURE_N for the believed limb: its stiffness is then a mean over the joints' possible places in their
@@ -42,31 +69,22 @@ class LimbLaw:
         self._closes_at_n = closes_at_n
         self._limb, self._model, self._down = limb, model or limb.model, down
         true = limb.theta_rad + [self._model.number(f"joint.{joint}.zero_offset_rad") for joint in JOINTS]
-        yaw = np.array([[np.cos(true[0]), -np.sin(true[0]), 0.0], [np.sin(true[0]), np.cos(true[0]), 0.0], [0, 0, 1]])
-        self._from_plane = limb.turn @ yaw  # x outwards in the limb's plane, y to the left of it, z up
-        coxa, femur, tibia = (self._model.number(f"geometry.{link}_mm") for link in JOINTS)
-        thigh = femur * np.array([np.cos(true[1]), 0.0, np.sin(true[1])])
-        shin = tibia * np.array([np.cos(true[1] - true[2]), 0.0, np.sin(true[1] - true[2])])
-        tip = np.array([coxa, 0.0, 0.0]) + thigh + shin
-        self._knee_mm = self._in_body(tip - shin)
-        self._hip_mm = self._in_body(np.array([coxa, 0.0, 0.0]))
-        self.tip_mm = self._in_body(tip)
-        # how the tip moves when a joint turns by its own angle, in the plane's frame
-        self._turns = np.array([[-tip[1], tip[0], 0.0], _turned(thigh + shin), -_turned(shin)])
+        self.shape = shape_of(limb, self._model, true)
+        self._from_plane, self._turns, self.tip_mm = self.shape.from_plane, self.shape.turns, self.shape.tip_mm
+        gaps = np.array([self._model.number(f"joint.{joint}.gap_rad") for joint in JOINTS])
+        self._half_rad = np.maximum(0.5 * gaps, 0.0)
+        self.has_play = bool(np.any(self._half_rad))
         self._loaded = LoadedLimbInSpace(self._model.with_values(_gravity(self._from_plane.T @ down)))
-
-    def _in_body(self, in_plane_mm: np.ndarray) -> np.ndarray:
-        return np.asarray(self._limb.mount_mm + self._from_plane @ in_plane_mm)
 
     def points_mm(self) -> np.ndarray:
         """4 x 3: mount, hip, knee and tip, in the body's frame."""
-        return np.array([self._limb.mount_mm, self._hip_mm, self._knee_mm, self.tip_mm])
+        return np.array([self._limb.mount_mm, self.shape.hip_mm, self.shape.knee_mm, self.tip_mm])
 
     def weights(self) -> list[tuple[float, np.ndarray]]:
         """The limb's own weights [N] and where they act, in the body's frame."""
         femur, knee, tibia = (self._model.number(f"gravity.{part}") for part in ("femur_n", "knee_n", "tibia_n"))
-        middle = 0.5 * (self._hip_mm + self._knee_mm)
-        return [(femur, middle), (knee, self._knee_mm), (tibia, 0.5 * (self._knee_mm + self.tip_mm))]
+        hip, bend = self.shape.hip_mm, self.shape.knee_mm
+        return [(femur, 0.5 * (hip + bend)), (knee, bend), (tibia, 0.5 * (bend + self.tip_mm))]
 
     def turns_in_body(self) -> np.ndarray:
         """How the tip moves [mm/rad] in the body's frame when coxa, femur or tibia turn by their own angle: 3 x 3, a
@@ -88,7 +106,7 @@ class LimbLaw:
 
     def _weight_torques_n_mm(self) -> np.ndarray:
         up, left = self._from_plane[:, 2], self._from_plane[:, 1]
-        joints = ((up, self._limb.mount_mm, 0), (-left, self._hip_mm, 0), (left, self._knee_mm, 2))
+        joints = ((up, self._limb.mount_mm, 0), (-left, self.shape.hip_mm, 0), (left, self.shape.knee_mm, 2))
         weights = self.weights()
         return np.array(
             [
@@ -97,8 +115,16 @@ class LimbLaw:
             ]
         )
 
-    def spring(self, force_n: np.ndarray) -> Spring:
-        """At a force of the ground on the tip. Raises GivesWayError where the limb has no rest under it."""
+    def sides(self, force_n: np.ndarray) -> np.ndarray:
+        """How surely a force of the ground on the tip holds each joint on a side of its play: beyond 1 on its positive
+        side, below -1 on its negative one, between them in its play; infinite without play."""
+        loads = self.torques_n_mm(force_n)
+        closing = self._closes_at_n * np.abs(self._turns).sum(axis=1)
+        return np.where(self._half_rad > 0.0, loads / closing, np.inf)
+
+    def spring(self, force_n: np.ndarray, held: np.ndarray | None = None) -> Spring:
+        """At a force of the ground on the tip. held: the joints are taken to lie on these sides, -1, 0 or 1, whatever
+        the force says; None: where it holds them. Raises GivesWayError where the limb has no rest under it."""
         in_plane = self._from_plane.T @ force_n
         try:
             found = self._loaded.spring(self._limb.theta_rad, in_plane)
@@ -107,26 +133,26 @@ class LimbLaw:
         if found is None:
             raise GivesWayError(f"limb {self._limb.name!r} gives way: a link buckles or a joint turns too far")
         entries, moved_in_plane = found
-        k = self._from_plane @ entries[_PLACES] @ self._from_plane.T
+        k = self._from_plane @ entries[MATRIX] @ self._from_plane.T
         moved = self._from_plane @ moved_in_plane
-        return self._with_play(k, moved, in_plane)
+        if not self.has_play:
+            return Spring(k, moved, ())
+        sides = self.sides(force_n)
+        held = side_of(sides) if held is None else held
+        with_play = self._half_rad > 0.0
+        is_open = with_play & (held == 0.0)
+        at = np.where(is_open, np.where(with_play, sides, 0.0), held) * self._half_rad
+        in_body = self.turns_in_body()
+        moved = moved + at @ in_body
+        if np.any(is_open):
+            yields = self._half_rad[is_open] / (self._closes_at_n * np.abs(self._turns[is_open]).sum(axis=1))
+            k = np.linalg.inv(np.linalg.inv(k) + (in_body[is_open].T * yields) @ in_body[is_open])
+        return Spring(k, moved, tuple(joint for joint, one in zip(JOINTS, is_open, strict=True) if one))
 
-    def _with_play(self, k: np.ndarray, moved: np.ndarray, in_plane_n: np.ndarray) -> Spring:
-        """Each joint's play lies to the side that its load holds; within a small load it gives way like a soft
-        spring."""
-        compliance, is_open = np.linalg.inv(k), []
-        for joint, turn in zip(JOINTS, self._turns, strict=True):
-            half_rad = 0.5 * self._model.number(f"joint.{joint}.gap_rad")
-            if half_rad <= 0.0:
-                continue
-            load, closing = float(turn @ in_plane_n), self._closes_at_n * float(np.abs(turn).sum())
-            side = float(np.clip(load / closing, -1.0, 1.0))
-            in_body = self._from_plane @ turn
-            moved = moved + half_rad * side * in_body
-            if abs(side) < 1.0:
-                compliance = compliance + half_rad / closing * np.outer(in_body, in_body)
-                is_open.append(joint)
-        return Spring(np.linalg.inv(compliance) if is_open else k, moved, tuple(is_open))
+
+def side_of(sides: np.ndarray) -> np.ndarray:
+    """-1, 0 or 1 of each joint: the side of its play, 0 within it."""
+    return np.where(np.abs(sides) < 1.0, 0.0, np.sign(sides))
 
 
 def _turned(lever: np.ndarray) -> np.ndarray:

@@ -94,7 +94,7 @@ def _under_load(stance: Stance, measured: Measured | None) -> tuple[World, State
 
 def _linear(world: World, state: State) -> tuple[np.ndarray, np.ndarray]:
     """Forces (3 n) and how they change with the feet's places; a set-point that moves is a place that moves back."""
-    statics = world.statics_at(state.force_n)
+    statics = world.statics_at(state)
     return statics.linear(state, [*world.weight, world.payload])
 
 
@@ -165,7 +165,7 @@ def _executed(stance: Stance, world: World, state: State, way_mm: np.ndarray) ->
     shift = np.array([new.tip_mm - old.tip_mm for new, old in zip(after.laws, world.laws, strict=True)])
     after = replace(after, offset_mm=state.place_mm - shift, weight=(*after.weight, after.payload))
     standing = after.stand(near_n=state.force_n)
-    before, found = world.statics_at(state.force_n), standing.state
+    before, found = world.statics_at(state), standing.state
     return SetPoints(
         stance,
         np.array([limb.theta_rad for limb in limbs]),

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from brace.model import LIMB_KEYS, LimbModel
-from brace.stance.limb_law import JOINTS, UNSURE_N, GivesWayError, LimbLaw
+from brace.stance.limb_law import CLOSES_AT_N, JOINTS, UNSURE_N, GivesWayError, LimbLaw, side_of
 from brace.stance.stance_file import Limb, Stance
-from brace.stance.statics import E_LOOSE, OK, Contact, Force, State, Statics
+from brace.stance.statics import E_LOOSE, OK, SLIDE_STEPS, Contact, Force, Slip, State, Statics
 
 _YIELDS = tuple(
     key.name
@@ -19,6 +19,9 @@ _YIELDS = tuple(
 )
 _LENGTHS = tuple(f"geometry.{link}_mm" for link in JOINTS)
 _ROUNDS_MOST = 6
+_STEPS = 4  # in which a load comes where joints have play
+_TURNS_MOST = 40
+_SIDE_TOLERANCE = 1e-6  # of the load that closes a joint's play
 _SETTLED_SHARE = 1e-4  # of the load: forces that change by less between rounds are those of their own springs
 _PLACE_SD_OF_GAP = 1.0 / np.sqrt(12.0)  # where a joint stands in its play, if nothing says it
 
@@ -55,18 +58,71 @@ class World:
 
     def stand(self, measured: Measured | None = None, near_n: np.ndarray | None = None) -> Standing:
         """The body under its weight, its forces measured or not. near_n: what the forces may be."""
-        statics, forces = self._statics(), np.zeros((len(self.laws), 3)) if near_n is None else near_n
-        for _ in range(_ROUNDS_MOST):
-            self._set(statics, forces, is_payload=False)
-            state = statics.place(self.offset_mm)
-            if measured is not None:
-                state = statics.place(self._places(statics, state, measured))
-            status, share = statics.settle(state, self.weight, 1)
-            self._refuse(status, share, is_payload=False)
-            before, forces = forces, state.force_n
-            if self._is_settled(before, forces):
-                break
+        statics = self._statics()
+        near_n = np.zeros((len(self.laws), 3)) if near_n is None else near_n
+        if measured is not None:
+            state = self._step(statics, lambda: self._put_down(statics, measured), near_n, 1.0, is_payload=False)
+            return Standing(self, statics, state)
+        self._set(statics, near_n, False)
+        state = statics.place(self.offset_mm)
+        for share in self._shares():
+            loads = [(share * force, at) for force, at in self.weight]
+            near_n = state.force_n if share > self._shares()[0] else near_n
+            state = self._step(statics, _to(statics, state, loads, 1), near_n, share, is_payload=False)
         return Standing(self, statics, state)
+
+    def _shares(self) -> list[float]:
+        """Of a load, one after the other: what slides and what play opens hangs on the way there."""
+        return [1.0] if not self._has_play else [(done + 1) / _STEPS for done in range(_STEPS)]
+
+    @property
+    def _has_play(self) -> bool:
+        return any(law.has_play for law in self.laws)
+
+    def _put_down(self, statics: Statics, measured: Measured) -> tuple[State, int, float]:
+        """On the places that are most probable with the forces measured."""
+        state = statics.place(self._places(statics, statics.place(self.offset_mm), measured))
+        return state, *statics.settle(state, self.weight, 1)
+
+    def _step(
+        self,
+        statics: Statics,
+        step: Callable[[], tuple[State, int, float]],
+        near_n: np.ndarray,
+        share: float,
+        is_payload: bool,
+    ) -> State:
+        """Springs and joints' places in their play such that the forces that result are those they belong to. One joint
+        at a time changes its place, the one whose load says most that it lies elsewhere. share: of the load after the
+        step."""
+        forces, rounds = near_n, 0
+        changed = np.zeros((len(self.laws), len(JOINTS)), dtype=int)
+        held = [side_of(law.sides(force)) for law, force in zip(self.laws, forces, strict=True)]
+        for _ in range(_TURNS_MOST):
+            self._set(statics, forces, is_payload, held)
+            state, status, part = step()
+            if status != OK:
+                self._refuse(status, share - (1.0 - part) * self._shares()[0], is_payload)
+            elsewhere = self._elsewhere(_on_limbs_n(state, forces), held)
+            if elsewhere:
+                _, limb, joint, side = max(elsewhere, key=lambda one: (-changed[one[1], one[2]], one[0]))
+                changed[limb, joint] += 1
+                held[limb][joint] = 0.0 if changed[limb, joint] % 3 == 2 else side
+                continue
+            before, forces, rounds = forces, state.force_n, rounds + 1
+            if rounds == _ROUNDS_MOST or self._is_settled(before, forces):
+                break
+        return state
+
+    def _elsewhere(self, forces_n: np.ndarray, held: Sequence[np.ndarray]) -> list[tuple[float, int, int, float]]:
+        """The joints that do not lie where their load holds them: by how much, limb, joint, and where the load
+        holds it."""
+        found = []
+        for limb, (law, force, places) in enumerate(zip(self.laws, forces_n, held, strict=True)):
+            for joint, (side, place) in enumerate(zip(law.sides(force), places, strict=True)):
+                if np.isfinite(side) and (by := _beyond(side, place)) > _SIDE_TOLERANCE:
+                    found.append((by, limb, joint, float(side_of(side))))
+        return found
 
     def _places(self, statics: Statics, state: State, measured: Measured) -> np.ndarray:
         """Where the feet are, from what is known of their places and from their forces: the most probable."""
@@ -85,26 +141,93 @@ class World:
     ) -> tuple[Statics, State]:
         """The standing body under its weight and further forces, its springs those at the forces that result; near_n:
         what these may be."""
-        statics, guess = self._statics(), standing.state.force_n if near_n is None else near_n
-        for _ in range(_ROUNDS_MOST):
-            self._set(statics, guess, is_payload=True)
-            state = standing.state.copy()
-            status, share = statics.settle(state, [*self.weight, *forces])
-            self._refuse(status, share, is_payload=True)
-            before, guess = guess, state.force_n
-            if self._is_settled(before, guess):
-                break
+        statics, state = self._statics(), standing.state
+        near_n = state.force_n if near_n is None or self._has_play else near_n
+        for share in self._shares():
+            loads = [*self.weight, *((share * force, at) for force, at in forces)]
+            slide_steps = 2 if self._has_play else SLIDE_STEPS
+            state = self._step(statics, _to(statics, state, loads, slide_steps), near_n, share, is_payload=True)
+            near_n = state.force_n
         return statics, state
 
-    def statics_at(self, forces_n: np.ndarray) -> Statics:
-        """The springs those at these forces, a row a limb."""
-        statics = self._statics()
-        self._set(statics, forces_n, is_payload=True)
+    def first_slip(self, standing: Standing, most: float) -> tuple[int, float]:
+        """The first foot that moves when the payload grows, and its factor then; -1 and infinity: none up to `most`.
+        Feet stick until then, so the way there is straight from one joint that crosses its play to the next."""
+        force, at = self.payload
+        statics, near_n = self._statics(), standing.state.force_n
+        held = [side_of(law.sides(one)) for law, one in zip(self.laws, near_n, strict=True)]
+        here, done = standing.state.copy(), 0.0
+        for _ in range(_TURNS_MOST):
+            self._set(statics, near_n, True, held)
+            at_done = [*self.weight, (done * force, at)]
+            statics.settle(here, at_done, 1)
+            found = statics.first_slip(here, [self.payload], most - done)
+            way = min(0.999 * found.factor, 1.0)
+            if not way > 0.0:
+                break
+            there = here.copy()
+            statics.settle(there, [*at_done, (way * force, at)], 1)
+            now_n, then_n = _on_limbs_n(here, near_n), _on_limbs_n(there, near_n)
+            part, limb, joint, side = self._next_crossing(now_n, then_n - now_n, held)
+            if not part * way < found.factor:
+                break
+            held[limb][joint] = side
+            done += part * way
+            statics.settle(here, [*self.weight, (done * force, at)], 1)
+            near_n = now_n + part * (then_n - now_n)
+        if found.limb < 0:
+            return -1, np.inf
+        return self._at_its_load(statics, here, done, found, held)
+
+    def _at_its_load(
+        self, statics: Statics, here: State, done: float, found: Slip, held: Sequence[np.ndarray]
+    ) -> tuple[int, float]:
+        """Again with the springs at the load that moves the foot. here: the state at the factor `done`."""
+        force, at = self.payload
+        for _ in range(2):
+            if found.limb < 0 or found.factor <= 0.0:
+                break
+            forces, _ = statics.linear(here, [*self.weight, ((done + found.factor) * force, at)])
+            try:
+                self._set(statics, forces.reshape(-1, 3), True, held)
+            except NoStanceError:
+                break
+            found = statics.first_slip(here, [self.payload], 2.0 * found.factor + 1.0)
+        return found.limb, done + found.factor
+
+    def _next_crossing(
+        self, forces_n: np.ndarray, per_factor_n: np.ndarray, held: Sequence[np.ndarray]
+    ) -> tuple[float, int, int, float]:
+        """The joint that leaves its side, or closes, first: after which factor, limb, joint, and where it lies then."""
+        first = (np.inf, -1, -1, 0.0)
+        for limb, (law, force, grows, places) in enumerate(zip(self.laws, forces_n, per_factor_n, held, strict=True)):
+            now, then = law.sides(force), law.sides(force + grows)
+            for joint, place in enumerate(places):
+                slope = then[joint] - now[joint] if np.isfinite(now[joint]) else 0.0
+                if slope == 0.0 or place * slope > 0.0:
+                    continue
+                end = place if place else float(np.sign(slope))
+                first = min(first, (max((end - now[joint]) / slope, 0.0), limb, joint, 0.0 if place else end))
+        return first
+
+    def statics_at(self, state: State) -> Statics:
+        """The springs those at a state's forces."""
+        statics, forces = self._statics(), state.force_n
+        on_limbs = _on_limbs_n(state, forces)
+        held = [side_of(law.sides(force)) for law, force in zip(self.laws, on_limbs, strict=True)]
+        self._set(statics, forces, is_payload=True, held=held)
         return statics
 
-    def _set(self, statics: Statics, forces_n: np.ndarray, is_payload: bool) -> None:
+    def _set(
+        self,
+        statics: Statics,
+        forces_n: np.ndarray,
+        is_payload: bool,
+        held: Sequence[np.ndarray | None] | None = None,
+    ) -> None:
+        held = [None] * len(self.laws) if held is None else held
         try:
-            springs = [law.spring(force) for law, force in zip(self.laws, forces_n, strict=True)]
+            springs = [law.spring(*at) for law, *at in zip(self.laws, forces_n, held, strict=True)]
         except GivesWayError as error:
             raise NoStanceError(str(error), 0.0, is_payload) from None
         statics.set_springs(springs, forces_n)
@@ -132,6 +255,11 @@ class Measured:
     force_n: np.ndarray
     covariance_n2: tuple[np.ndarray, ...]
 
+    @property
+    def sigma_n(self) -> float:
+        """One sigma of a component, over all feet."""
+        return float(np.sqrt(np.mean([np.trace(one) / 3.0 for one in self.covariance_n2])))
+
     def with_noise(self, chance: np.random.Generator) -> Measured:
         """What else might have been measured."""
         noise = [chance.multivariate_normal(np.zeros(3), covariance) for covariance in self.covariance_n2]
@@ -147,9 +275,31 @@ class Standing:
     state: State
 
 
-def believed(stance: Stance) -> World:
-    """Every unknown at its most probable value."""
-    laws = tuple(LimbLaw(limb, stance.down, closes_at_n=UNSURE_N) for limb in stance.limbs)
+def _on_limbs_n(state: State, near_n: np.ndarray) -> np.ndarray:
+    """The feet's forces as the limbs have them, whose frames turn with the body; near_n: those of the springs."""
+    return np.asarray(state.force_n - np.cross(state.rotation_rad, near_n))
+
+
+def _to(
+    statics: Statics, state: State, loads: Sequence[Force], slide_steps: int
+) -> Callable[[], tuple[State, int, float]]:
+    """A step from a state to a load, to be taken again with other springs."""
+
+    def step() -> tuple[State, int, float]:
+        new = state.copy()
+        return new, *statics.settle(new, loads, slide_steps)
+
+    return step
+
+
+def _beyond(side: float, place: float) -> float:
+    """By how much a load says that a joint is not where it is taken to lie; negative: it is there."""
+    return 1.0 - place * side if place else abs(side) - 1.0
+
+
+def believed(stance: Stance, unsure_n: float = UNSURE_N) -> World:
+    """Every unknown at its most probable value. unsure_n: one sigma of what is known of a foot's force."""
+    laws = tuple(LimbLaw(limb, stance.down, closes_at_n=max(unsure_n, CLOSES_AT_N)) for limb in stance.limbs)
     offsets = np.array([limb.offset_mm for limb in stance.limbs])
     return _world(stance, laws, offsets, [limb.friction_ratio for limb in stance.limbs])
 
@@ -173,11 +323,11 @@ def _world(stance: Stance, laws: tuple[LimbLaw, ...], offset_mm: np.ndarray, fri
     )
     weight = [(stance.weight_n * stance.down, stance.com_mm)]
     weight += [(newton * stance.down, at) for law in laws for newton, at in law.weights() if newton > 0.0]
-    covariance = tuple(_place_covariance(limb, law) for limb, law in zip(stance.limbs, laws, strict=True))
+    covariance = tuple(place_covariance_mm2(limb, law) for limb, law in zip(stance.limbs, laws, strict=True))
     return World(laws, contacts, offset_mm, covariance, tuple(weight), (stance.payload_n, stance.payload_at_mm))
 
 
-def _place_covariance(limb: Limb, law: LimbLaw) -> np.ndarray:
+def place_covariance_mm2(limb: Limb, law: LimbLaw) -> np.ndarray:
     """Of a foothold, seen from where the tip is believed to be: its own, and those of zeros, lengths and play."""
     number = limb.model.number
     own = limb.offset_sd_mm**2 + number("uncertainty.length_mm") ** 2

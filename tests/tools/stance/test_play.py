@@ -1,0 +1,75 @@
+"""Play of a stance's joints is solved to its end: the forces are those that belong to where the joints lie."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from brace.stance.limb_law import JOINTS
+from brace.stance.stance_file import Stance, load_stance
+from brace.stance.statics import SLIDES, State
+from brace.stance.world import Measured, NoStanceError, Standing, World, believed, drawn
+
+EXAMPLE = load_stance(Path(__file__).parents[3] / "examples/stance/stance.toml")
+EXACT_N2 = (1e-6 * np.eye(3),) * 4
+
+
+def _with_play(gap_rad: float, **known: float) -> Stance:
+    values = {f"joint.{joint}.gap_rad": gap_rad for joint in JOINTS}
+    values |= {f"uncertainty.{key}": value for key, value in known.items()}
+    limbs = (replace(limb, friction_ratio=1.5, model=limb.model.with_values(values)) for limb in EXAMPLE.limbs)
+    return replace(EXAMPLE, limbs=tuple(limbs))
+
+
+def _draws(stance: Stance, count: int) -> list[tuple[World, Standing, State]]:
+    """Worlds whose feet hold, how they stand, and the state under the payload."""
+    chance, middle = np.random.default_rng(8), believed(stance)
+    found: list[tuple[World, Standing, State]] = []
+    while len(found) < count:
+        world = drawn(stance, middle, chance)
+        try:
+            standing = world.stand()
+            _, state = world.load(standing, [world.payload])
+        except NoStanceError:
+            continue
+        if SLIDES not in standing.state.contact + state.contact:
+            found.append((world, standing, state))
+    return found
+
+
+@pytest.mark.parametrize("gap_rad", [0.002, 0.006, 0.02])
+def test_forces_are_those_of_their_own_springs(gap_rad: float) -> None:
+    """One more step from the answer, with the springs and sides that it says, changes nothing."""
+    settled = []
+    for world, _, state in _draws(_with_play(gap_rad), 10):
+        before_n = state.force_n
+        world.statics_at(state).settle(state, [*world.weight, world.payload], 1)
+        settled.append(float(np.abs(state.force_n - before_n).max()) < 0.05)
+    assert np.mean(settled) >= 0.9  # 0.4 before joints changed their places one at a time
+
+
+def test_exact_forces_before_the_payload_say_what_it_changes() -> None:
+    """A sensor without noise and limbs that are known: only a joint within its play leaves a doubt."""
+    stance = _with_play(0.006, compliance_rel=0.0, length_mm=0.0, angle_rad=0.003)
+    middle = believed(stance, unsure_n=0.0)
+    errors = []
+    for _, standing, under in _draws(stance, 12):
+        measured = Measured(standing.state.force_n, EXACT_N2)
+        here = middle.stand(measured, measured.force_n)
+        _, state = middle.load(here, [middle.payload])
+        errors += list(np.abs((state.force_n - here.state.force_n) - (under.force_n - measured.force_n)).max(axis=1))
+    size_n = float(np.linalg.norm(stance.payload_n))
+    assert np.mean(np.array(errors) < 0.05 * size_n) > 0.85
+
+
+def test_the_first_slip_lies_where_the_loaded_feet_say() -> None:
+    """Followed from crossing to crossing, and found by loads one after the other."""
+    for world, standing, _ in _draws(replace(_with_play(0.006), payload_n=np.array([6.0, 0.0, -3.0])), 4):
+        limb, factor = world.first_slip(standing, 20.0)
+        if limb < 0:
+            continue
+        force, at = world.payload
+        statics, before = world.load(standing, [(0.97 * factor * force, at)])
+        margins = [statics.margin_n(i, one) for i, one in enumerate(before.force_n)]
+        assert not any(before.contact) and int(np.argmin(margins)) == limb
+        assert margins[limb] < 0.06 * factor * float(np.linalg.norm(force)) + 0.05
