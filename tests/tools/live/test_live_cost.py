@@ -19,7 +19,7 @@ from brace.bus.watch import RATE_S, Watch
 from brace.ground.errors import NoDeviceError
 from brace.live.feed import Feed
 from brace.live.server import UPDATES_PER_S
-from brace.live.thinning import thinned
+from brace.bus.thinning import thinned
 from brace.model import load_limb
 from brace.wire.frames import MESSAGES
 

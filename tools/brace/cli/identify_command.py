@@ -54,14 +54,14 @@ def add(commands: Subcommands) -> None:
     )
     parser.add_argument(
         "--sigma",
-        type=common.positive_stiffness,
+        type=common.positive,
         default=0.3,
         metavar="N_PER_MM",
         help="tables: one sigma of an entry of K, absolute part (default 0.3 N/mm)",
     )
     parser.add_argument(
         "--sigma-rel",
-        type=common.ratio,
+        type=common.number,
         default=0.1,
         metavar="RATIO",
         help="tables: relative part (default 0.1)",

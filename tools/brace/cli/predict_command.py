@@ -25,7 +25,7 @@ def add(commands: Subcommands) -> None:
     )
     parser.add_argument(
         "--tip-height-mm",
-        type=common.length,
+        type=common.number,
         metavar="MM",
         help="stiffness tables that give r alone: height of the tip; default: the one that fits best",
     )

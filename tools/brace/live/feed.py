@@ -22,7 +22,7 @@ from brace.bus.watch import NodeState, Watch
 from brace.ground.errors import BraceError
 from brace.live.card import Card, card_from, card_of
 from brace.live.limb_view import limb_numbers, limb_words
-from brace.live.thinning import thinned
+from brace.bus.thinning import thinned
 from brace.model import LimbModel
 
 _AS_TEXT = json.JSONEncoder(allow_nan=False, check_circular=False, separators=(",", ":")).encode
