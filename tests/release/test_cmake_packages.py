@@ -71,7 +71,7 @@ def test_find_package(target: Target, tmp_path: Path) -> None:
         assert str(PROJECT) not in text and str(tmp_path) not in text
     if target is HOST:
         limb = PROGRAM.parent / "bare_loop"
-        files = [PROGRAM / "k.c", limb / "limb.c", f"-I{limb}"]
+        files: list[Path | str] = [PROGRAM / "k.c", limb / "limb.c", f"-I{limb}"]
         by_pkg_config(files, tmp_path / "prefix", "brace-core", tmp_path / "by_pkg_config")
         check_k(target, tmp_path / "by_pkg_config")
         no_such_component(tmp_path)
