@@ -16,6 +16,7 @@ constexpr double kDrag = 1.0;             // of a foot that moves, in its limb's
 constexpr double kAlone = 0.1;            // share of D that is there in directions in which no foot holds the body
 constexpr double kMostMove_mm = 2.0;      // of the body in one step
 constexpr double kMostTurn_rad = 0.01;
+constexpr double kRounding_mm = 1e-12; // a body that moves less rests
 constexpr double kOnTheGround_mm = 1e-9;  // a gap that is less is rounding
 
 Matrix3d crossed(const Vector3d &a)
@@ -200,8 +201,8 @@ void Body::step(double dt_s, double share, double payload_factor, const std::arr
     Vector6 move = resists.solve(pushed);
     move *= std::min({1.0, kMostMove_mm / std::max(move.head<3>().norm(), 1e-300),
                       kMostTurn_rad / std::max(move.tail<3>().norm(), 1e-300)});
-    if (has_fallen_) {
-        return;
+    if (has_fallen_ || (move.head<3>().norm() < kRounding_mm && move.tail<3>().norm() * lever_mm_ < kRounding_mm)) {
+        return; // the limbs find the rest that they know
     }
     moved_mm_ += move.head<3>();
     const Vector3d turn_rad = move.tail<3>();

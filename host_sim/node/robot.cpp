@@ -16,11 +16,11 @@ constexpr std::uint64_t kStep_us = 1000;
 constexpr std::uint64_t kLog_us = 10000;
 constexpr std::size_t kLogRows = 2000;
 
-// A body that has an equilibrium is there within some time constants once nothing moves its limbs and loads; one that
-// is still unbalanced after 75 of them goes on moving.
+// A body that has an equilibrium comes near it once nothing moves its limbs and loads; one whose forces are not halfway
+// balanced after 75 time constants goes on moving.
 constexpr double kUnbalanced = 0.01, kPatience_s = 75.0 * Body::kTau_s;
 constexpr double kFar_mm = 150.0, kFar_rad = 0.5; // no limb of some hundred mm holds a body that went so far
-constexpr double kGivesWay_s = 0.02;              // a limb without a rest for so long lets its foot go
+constexpr double kGivesWay_s = 0.02; // a limb without a rest for so long lets its foot go
 
 Vector3d vector_of(const double *numbers)
 {
@@ -170,7 +170,11 @@ void Robot::watch(double dt_s, bool is_calm)
         }
         is_on_ground = is_on_ground || !body_.is_off_ground(i);
     }
-    calm_unbalanced_s_ = is_calm && body_.unbalanced() > kUnbalanced ? calm_unbalanced_s_ + dt_s : 0.0;
+    calm_unbalanced_s_ += dt_s;
+    if (!is_calm || body_.unbalanced() <= kUnbalanced || body_.unbalanced() < 0.5 * last_unbalanced_) {
+        calm_unbalanced_s_ = 0.0;
+        last_unbalanced_ = body_.unbalanced();
+    }
     const bool is_far = body_.moved_mm().norm() > kFar_mm || body_.turned_rad().norm() > kFar_rad;
     if (fallen_s_ < 0.0) {
         if (calm_unbalanced_s_ > kPatience_s || is_far || !is_on_ground) {

@@ -63,7 +63,8 @@ private:
     std::array<bool, kMostFeet> is_lost_{}, is_released_{};
     std::array<double, kMostFeet> unsolved_s_{};
 
-    double calm_unbalanced_s_ = 0.0, fallen_s_ = -1.0;
+    double calm_unbalanced_s_ = 0.0, last_unbalanced_ = 0.0; // how long it has not halved, and since which value
+    double fallen_s_ = -1.0;
     std::array<Contact, kMostFeet> before_fall_{};
     std::vector<brace_robot_truth_t> log_; // a ring
     std::size_t log_begin_ = 0, log_count_ = 0;

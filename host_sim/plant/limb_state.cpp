@@ -18,6 +18,7 @@ constexpr double kStopCompliance = 1e-8;   // a rigid joint's stop behind its ba
 constexpr double kRigidCompliance = 1e-9;  // a structure that is rigid in one direction while its joints stick
 constexpr double kSmallestShare = 1e-12;   // the same for a tangent that is only read
 // Shares of the smallest eigenvalue in the largest.
+constexpr double kStuckShare = 0.1; // of a spring's compliance that is left where friction holds the joint
 constexpr double kNothingYields = 1e-15; // in some direction
 constexpr double kIsRigid = 1e-12;       // in some direction, while joints stick
 
@@ -357,6 +358,9 @@ template <class World> auto LimbState<World>::end_hold() -> LimbRest<N>
     if (is_new_ && solved && !remembers()) {
         known_.add(search_.target_mm(), search_.free_axis(), rest_);
     }
+    for (std::size_t k = 0; k < N; ++k) {
+        is_stuck_[k] = rubs(law_[k]) && rest_.instant_rad[k] == before_rad_[k];
+    }
     before_rad_ = rest_.instant_rad;
     const Vec carried_n = rest_.shape.force_n + weight_n_;
     LimbRest<N> rest{rest_.shape.force_n, rest_.instant_rad, rest_.torque_n_mm,
@@ -374,24 +378,34 @@ template <class World> auto LimbState<World>::held() const -> LimbHeld<N>
         const double compliance = law_[k].compliance_rad_per_n_mm;
         joint[k] = {compliance, turn_of(k) - compliance * rest_.torque_n_mm[k]};
     }
-    const bool small = displacements_ == Displacements::small;
+    const typename World::Condensed::Shape unbent{};
+    const auto &shape = displacements_ == Displacements::small ? unbent : rest_.shape;
     typename World::Condensed springs;
-    springs.about(structure_, joint, small ? typename World::Condensed::Shape{} : rest_.shape);
+    springs.about(structure_, joint, shape);
     const Tangent<N> &tangent = springs.tangent();
-    Mat compliance = tangent.compliance_mm_per_n;
-    compliance.diagonal().array() += contact_mm_per_n_ + kSmallestShare * compliance.trace();
+    const auto in_series = [&](Mat mm_per_n) {
+        mm_per_n.diagonal().array() += contact_mm_per_n_ + kSmallestShare * mm_per_n.trace();
+        return mm_per_n;
+    };
     Mat lever;
     for (std::size_t k = 0; k < N; ++k) {
         lever.col(static_cast<Eigen::Index>(k)) = tangent.lever_mm[k];
     }
     LimbHeld<N> held;
-    held.stiffness_n_per_mm = compliance.inverse();
+    held.stiffness_n_per_mm = in_series(tangent.compliance_mm_per_n).inverse();
     held.torque_n_mm_per_rad = tangent.torque_n_mm_per_rad - lever.transpose() * held.stiffness_n_per_mm * lever;
     held.carried_n = rest_.shape.force_n + weight_n_;
     held.carried_n_mm = Vec::Zero();
     if constexpr (N == 3) {
         const Vec root_mm = structure_.root_mm + structure_.base_mm_per_n.cwiseProduct(held.carried_n);
         held.carried_n_mm = springs.moment_n_mm() + root_mm.cross(held.carried_n);
+    }
+    if (std::any_of(is_stuck_.begin(), is_stuck_.end(), [](bool is_stuck) { return is_stuck; })) {
+        for (std::size_t k = 0; k < N; ++k) { // seen from the tip, a joint that friction holds hardly yields
+            joint[k].compliance_rad_per_n_mm *= is_stuck_[k] ? kStuckShare : 1.0;
+        }
+        springs.about(structure_, joint, shape);
+        held.stiffness_n_per_mm = in_series(springs.tangent().compliance_mm_per_n).inverse();
     }
     return held;
 }

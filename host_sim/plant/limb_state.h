@@ -51,7 +51,7 @@ template <int N> struct LimbRest {
 // How a limb whose tip is held answers small changes, its gaps closed and its joints no more than springs.
 template <int N> struct LimbHeld {
     Matrix<N> torque_n_mm_per_rad;  // torques on the joints by the angles of their motors
-    Matrix<N> stiffness_n_per_mm;   // force by the tip's place
+    Matrix<N> stiffness_n_per_mm;   // force by the tip's place; joints that friction holds hardly yield
     Vector<N> carried_n;            // tip force and weights together: what the limb brings to its base
     Vector<N> carried_n_mm;         // in space: their moment about the femur joint's unloaded place
 };
@@ -154,6 +154,7 @@ private:
     Vec origin_mm_ = Vec::Zero(); // from where displacements count
     Vec tip_mm_ = Vec::Zero(); // where the contact has dragged the tip
     std::array<double, N> before_rad_{}; // rest_.instant_rad at the last reading
+    std::array<bool, N> is_stuck_{}; // friction held the joint at the last reading
     std::array<double, N> delayed_rad_{}; // creep
     double creep_dt_s_ = -1.0, creep_approach_ = 0.0;
 };

@@ -228,6 +228,25 @@ void test_the_rest_of_feet_that_stick_has_no_pace(void)
     }
 }
 
+// Joints whose own friction holds them make limbs many times as stiff: the body finds its rest all the same.
+void test_joints_that_rub_do_not_shake_the_body(void)
+{
+    for (const double link_mm_per_n : {0.05, 0.005}) {
+        Stance stance(kCorners, 2.0);
+        for (brace_node_limb_t &limb : stance.limbs) {
+            for (int i = 0; i < 3; ++i) {
+                limb.plant.joint[i].coulomb_n_mm = 100.0;
+                limb.plant.link[i].bending_mm_per_n = limb.plant.link[i].lateral_mm_per_n = link_mm_per_n;
+            }
+        }
+        stance.push({4.0, 1.0, -2.0}, {20.0, -10.0, 30.0});
+        const Node node = stance.made();
+        balanced(stance, after(node, 0.3));
+        (void)brace_robot_payload(node.get(), 0.4, 2.0, 0.3);
+        balanced(stance, after(node, 1.5));
+    }
+}
+
 // A foothold that is higher bears more, and the body tilts.
 void test_a_higher_foothold_bears_more(void)
 {
@@ -568,6 +587,7 @@ int main(void)
     RUN_TEST(test_the_ground_bears_the_weight_of_all);
     RUN_TEST(test_the_same_robot_twice_is_the_same);
     RUN_TEST(test_the_rest_of_feet_that_stick_has_no_pace);
+    RUN_TEST(test_joints_that_rub_do_not_shake_the_body);
     RUN_TEST(test_a_higher_foothold_bears_more);
     RUN_TEST(test_a_foot_beyond_its_cone_slides_and_rests_on_it);
     RUN_TEST(test_what_slid_remembers_and_what_sticks_does_not);

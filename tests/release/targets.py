@@ -1,4 +1,4 @@
-"""The five machines on which somebody may want K, and how a program runs on each."""
+"""The six machines on which somebody may want K, and how a program runs on each."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ import pytest
 
 PROJECT = Path(__file__).resolve().parents[2]
 EXAMPLES = PROJECT / "examples"
-TOOLCHAINS = PROJECT / "firmware" / "boards" / "toolchain"
+BOARDS = "firmware/boards/toolchain/"
 REFERENCE_K = (3.96389818, -0.63872477, 0.42806022)  # docs/physics.md, k_xx k_xz k_zz [N/mm]
 # brace/planar.h promises each entry within 2e-6 of lambda_max, here 4.08 N/mm; five digits are printed.
 TOLERANCE_N_PER_MM = 2e-6 * 4.08 + 0.5e-5
@@ -23,7 +23,7 @@ _EMULATED = ("-display", "none", "-monitor", "none", "-serial", "null", "-charde
 
 @dataclass(frozen=True)
 class Target:
-    """A machine; `toolchain` is a file of firmware/boards/toolchain, `emulator` what stands before a program's name."""
+    """A machine; `toolchain` is its toolchain file, `emulator` what stands before a program's name."""
 
     name: str
     compiler: str
@@ -45,9 +45,11 @@ ARM = ("qemu-system-arm", *_EMULATED)
 TARGETS = (
     Target("host-gcc", "gcc"),
     Target("host-clang", "clang"),
-    Target("m4f", "arm-none-eabi-gcc", "cortex-m4f", (*ARM, "-machine", "mps2-an386", "-kernel")),
-    Target("m3", "arm-none-eabi-gcc", "cortex-m3", (*ARM, "-machine", "mps2-an385", "-kernel")),
-    Target("riscv32", "riscv64-unknown-elf-gcc", "riscv32",
+    Target("aarch64", "aarch64-linux-gnu-gcc", "tools/client/cmake/aarch64-linux-gnu.cmake",
+           ("qemu-aarch64-static", "-L", "/usr/aarch64-linux-gnu")),
+    Target("m4f", "arm-none-eabi-gcc", f"{BOARDS}cortex-m4f.cmake", (*ARM, "-machine", "mps2-an386", "-kernel")),
+    Target("m3", "arm-none-eabi-gcc", f"{BOARDS}cortex-m3.cmake", (*ARM, "-machine", "mps2-an385", "-kernel")),
+    Target("riscv32", "riscv64-unknown-elf-gcc", f"{BOARDS}riscv32.cmake",
            ("qemu-system-riscv32", *_EMULATED, "-machine", "virt", "-cpu", "rv32", "-bios", "none", "-kernel")),
 )  # fmt: skip
 

@@ -8,14 +8,15 @@ import shutil
 import sys
 import tarfile
 import time
-import tomllib
 from pathlib import Path
 
 import pytest
 from targets import PROJECT, output_of
 
 sys.path.insert(0, str(PROJECT / "tools"))
-from release import requirements, source  # noqa: E402
+from release import source  # noqa: E402
+from release.about import About, about  # noqa: E402
+from release.python_packages import long_description  # noqa: E402
 
 EPOCH_S = 1_700_000_000
 HERE = source.Source(PROJECT, "0" * 40, EPOCH_S, source.version_of(PROJECT))
@@ -58,16 +59,22 @@ def test_sums_are_what_sha256sum_reads(tmp_path: Path) -> None:
     ]  # fmt: skip
 
 
-def test_the_pinned_packages_are_those_that_the_command_needs() -> None:
-    """Otherwise: .venv/bin/python tools/release/requirements.py."""
-    wanted = tomllib.loads((PROJECT / "tools" / "pyproject.toml").read_text())["project"]["dependencies"]
-    pinned = {package.name: package.version for package in requirements.read()}
-    assert len(pinned) > len(wanted)
-    for text in wanted:
-        name, _, least = text.partition(">=")
-        assert name in pinned, f"{name} is not in tools/release/requirements.txt"
-        numbers = [tuple(map(int, re.findall(r"\d+", version)[:2])) for version in (pinned[name], least)]
-        assert numbers[0] >= numbers[1]
+def test_one_author_and_one_address() -> None:
+    """tools/pyproject.toml says them; the packages that ROS reads cannot ask it."""
+    ours = about(PROJECT)
+    assert {"Homepage", "Source", "Documentation", "Changelog", "Issues"} <= ours.urls.keys()
+    for path in (PROJECT / "tools" / "client" / "ros2").glob("*/package.xml"):
+        assert f'<maintainer email="{ours.email}">' in path.read_text(), path
+    filled_in = About("brace", "1", "", "us", "us@robots.org", {"Source": "https://robots.org"}, (), ())
+    assert not filled_in.has_placeholders
+
+
+def test_the_long_description_has_no_link_to_a_file_beside_it() -> None:
+    text = long_description(HERE)
+    targets = re.findall(r"\]\(([^)]+)\)", text)
+    assert len(targets) > 50 and all(target.startswith(("https://", "#")) for target in targets)
+    home = about(PROJECT).urls["Source"]
+    assert f"({home}/raw/main/docs/monitor.png)" in text and f"({home}/blob/main/docs/design.md)" in text
 
 
 def test_bill_of_materials(tmp_path: Path) -> None:
@@ -84,7 +91,7 @@ def test_bill_of_materials(tmp_path: Path) -> None:
     bill = json.loads(text)
     assert bill["metadata"]["component"]["name"] == "brace"
     names = {part["name"] for part in bill["components"]}
-    assert {"eigen", "newlib", "numpy", "scipy"} <= names and len(names) == len(requirements.read()) + 3
+    assert {"eigen", "newlib", "numpy", "scipy"} <= names and len(names) == len(about(PROJECT).needs) + 3
 
 
 @pytest.mark.parametrize("zone", ["America/Los_Angeles", "Asia/Tokyo"])
@@ -123,35 +130,22 @@ def test_the_source_distribution_has_what_its_build_needs(tmp_path: Path) -> Non
     with tarfile.open(made) as tar:
         names = {name.partition("/")[2] for name in tar.getnames()}
     assert {"LICENSE", "brace/data/paper-limb.toml", "native/CMakeLists.txt", "native/firmware/core/cmake/package.cmake",
-            "native/host_sim/CMakeLists.txt", "native/hal/posix/include/brace_hal_posix.h"} <= names  # fmt: skip
+            "native/host_sim/CMakeLists.txt", "native/tools/stance/src/stance.cpp",
+            "README.md", "brace/docs/errors.md", "native/hal/posix/include/brace_hal_posix.h"} <= names  # fmt: skip
     assert not any(name.startswith(("native/tests", "native/firmware/boards")) for name in names)
 
 
-def test_the_debian_package_has_the_pages_that_messages_name(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    pytest.importorskip("argparse_manpage")
-    from release.debian import _documents
-
+def test_what_is_installed_has_the_pages_that_messages_name(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A wheel has docs/ inside; the source distribution puts it there."""
     from brace.ground import errors
 
-    folder = tmp_path / "share" / "doc" / "brace"
-    _documents(HERE, folder)
     named = {name for path in (PROJECT / "tools" / "brace").rglob("*.py")
              for name in re.findall(r"docs/([a-z-]+\.md)", path.read_text())}  # fmt: skip
-    assert "errors.md" in named and named <= {path.name for path in (folder / "docs").iterdir()}
+    assert "errors.md" in named and named <= {path.name for path in (PROJECT / "docs").iterdir()}
+    assert errors._INSTALLED == PROJECT / "tools" / "brace" / "docs"
+    folder = tmp_path / "brace"
+    (folder / "docs").mkdir(parents=True)
     error = errors.UsageError("what", next_step="docs/errors.md and docs/security.md say why")
     assert error.render().endswith("try: docs/errors.md and docs/security.md say why")  # in the project
     monkeypatch.setattr(errors, "_INSTALLED", folder / "docs")
     assert error.render().endswith(f"try: {folder}/docs/errors.md and {folder}/docs/security.md say why")
-
-
-def test_the_debian_package_does_not_know_where_its_wheels_lay(tmp_path: Path) -> None:
-    pytest.importorskip("argparse_manpage")
-    from release.debian import _forget_where_from
-
-    about = tmp_path / "numpy-2.dist-info"
-    about.mkdir()
-    (about / "direct_url.json").write_text('{"url": "file:///somewhere"}')
-    (about / "RECORD").write_text("numpy/__init__.py,sha256=a,1\nnumpy-2.dist-info/direct_url.json,sha256=b,2\n")
-    _forget_where_from(tmp_path)
-    assert [path.name for path in about.iterdir()] == ["RECORD"]
-    assert (about / "RECORD").read_text() == "numpy/__init__.py,sha256=a,1\n"

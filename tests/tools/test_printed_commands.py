@@ -107,6 +107,7 @@ ONLY_PARSED = {  # page, and how the commands begin: why
     ("README.md", "sim"): "runs until it is ended; tests/socketcan/test_readme_lines.py",
     ("README.md", "query"): "tests/socketcan/test_readme_lines.py",
     ("README.md", "monitor"): "tests/socketcan/test_readme_lines.py",
+    ("README.md", "export"): "tests/tools/new/test_exported_c.py",
     ("README.md", "flash"): "needs the firmware's images; test_flash.py",
     ("calibrate.md", ""): "test_pages_commands.py",
     ("datasets.md", "import"): "test_pages_commands.py",

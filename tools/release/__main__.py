@@ -1,8 +1,8 @@
 """./dev release [--out dist]: everything that a release has, from the last commit, the same bytes each time.
 
-    brace-V-py3-none-linux_x86_64.whl   the brace command with the native library inside
+    brace-V-py3-none-manylinux_2_34_*.whl  the brace command with the native library inside, for x86_64 and aarch64
     brace-V.tar.gz                      its source distribution
-    brace_V_amd64.deb                   command and C libraries for Debian 12, with all that they need
+    libbrace-dev_V_*.deb                C libraries, headers and man pages for amd64 and arm64
     firmware/                           images with their sums
     brace_core.h, brace_core.c          the core as two files
     brace.dbc, brace_fd.dbc, modbus.csv what is on the wires
@@ -59,7 +59,10 @@ def main(arguments: list[str] | None = None) -> int:
 def make(source: Source, work: Path, dist: Path) -> None:
     """All files, into an emptied folder."""
     from release import bill_of_materials, debian, images, python_packages, two_files
+    from release.about import about
 
+    if about(source.folder).has_placeholders:
+        print("release: an address in tools/pyproject.toml is still to be filled in", file=sys.stderr)
     began = time.monotonic()
 
     def step(name: str) -> None:
@@ -76,20 +79,18 @@ def make(source: Source, work: Path, dist: Path) -> None:
     for name in TO_BEGIN_WITH:
         shutil.copy(source.folder / "tools" / "brace" / "data" / name, dist)
     bill_of_materials.write(source, dist)
-    step("source distribution and wheel")
+    step("source distribution")
     sdist = python_packages.source_distribution(source, work, dist)
-    wheel = python_packages.wheel(source, sdist, work, dist)
+    for machine in python_packages.MACHINES:
+        step(f"wheel for {machine}")
+        python_packages.wheel(source, sdist, machine, work, dist)
     step("firmware images")
     images.images(source, work, dist)
-    step("Debian package")
-    debian.package(source, wheel, work, _cache(work), dist)
+    for machine in python_packages.MACHINES:
+        step(f"Debian package for {machine}")
+        debian.package(source, machine, work, dist)
     (dist / "SHA256SUMS").write_text(sums(dist))
     step(f"done: {dist}")
-
-
-def _cache(work: Path) -> Path:
-    """Where downloaded wheels are kept: beside the other downloads of ./dev."""
-    return work.parent.parent / ".cache" / "release-wheels"
 
 
 if __name__ == "__main__":

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
+import re
 import uuid
 from datetime import datetime, timezone
 from pathlib import Path
 
 from cyclonedx.contrib.license.factories import LicenseFactory
-from cyclonedx.model import HashAlgorithm, HashType, Property
+from cyclonedx.model import Property
 from cyclonedx.model.bom import Bom
 from cyclonedx.model.component import Component, ComponentType
 from cyclonedx.output import make_outputter
 from cyclonedx.schema import OutputFormat, SchemaVersion
 from packageurl import PackageURL
-from release import requirements
+from release.about import about
 from release.source import ReleaseError, Source, run
 
 # Compiled into what is released: Debian package, licence, where it ends up.
@@ -37,15 +38,13 @@ def bill_of_materials(source: Source) -> str:
     )
     parts = [_compiled_in(package, licences) for package in COMPILED_IN] + [
         Component(
-            name=package.name,
-            version=package.version,
+            name=(name := re.split(r"[<>=;\[ ]", package)[0]),
             type=ComponentType.LIBRARY,
-            bom_ref=f"pypi-{package.name}",
-            purl=PackageURL("pypi", name=package.name, version=package.version),
-            hashes=[HashType(alg=HashAlgorithm.SHA_256, content=package.sha256)],
-            properties=[Property(name="in", value="Debian package; the wheel asks pip for it")],
+            bom_ref=f"pypi-{name}",
+            purl=PackageURL("pypi", name=name),
+            properties=[Property(name="in", value=f"not in a file of this release; the wheel asks pip for {package}")],
         )
-        for package in requirements.read()
+        for package in about(source.folder).needs
     ]
     bom = Bom(components=parts)
     bom.metadata.component = brace

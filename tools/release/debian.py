@@ -1,129 +1,98 @@
-"""The Debian package, for Debian 12 on amd64: the `brace` command with all that it needs, and the C libraries.
+"""The Debian packages of the C libraries, one for each architecture: core, controller, client, headers, man pages.
 
-The command's Python packages lie in /usr/lib/brace and nobody else sees them, because Debian 12's own numpy, scipy and
-others are older than Brace needs. requirements.txt pins them.
+They depend on no Python. The `brace` command is a Python package: pip or pipx installs it.
 """
 
 from __future__ import annotations
 
 import gzip
 import shutil
-import sys
 from pathlib import Path
 
-from brace.cli.completion_command import SHELLS, completion
-from release import man_pages, requirements
+from release import man_pages
+from release.about import about
+from release.python_packages import MACHINES
 from release.source import Source, fresh, run, set_times
 
-ARCHITECTURE = "amd64"
-COMMAND = """#!/usr/bin/python3 -I
-import sys
-
-sys.path.insert(0, "/usr/lib/brace")
-from brace.cli import main
-
-sys.exit(main())
-"""
-CONTROL = """Package: brace
+PACKAGE = "libbrace-dev"
+ARCHITECTURES = {"x86_64": "amd64", "aarch64": "arm64"}
+PARTS = ("core", "app", "client")
+CONTROL = """Package: {package}
+Source: brace
 Version: {version}
 Architecture: {architecture}
-Maintainer: The Brace authors <brace@localhost>
+Multi-Arch: same
+Maintainer: {author} <{email}>
+Homepage: {homepage}
 Installed-Size: {kilobytes}
-Depends: python3 (>= 3.11), python3 (<< 3.12), libc6 (>= 2.36), libstdc++6 (>= 12)
-Recommends: can-utils, libmodbus5
-Suggests: cmake, pkg-config, libmodbus-dev
-Section: science
+Recommends: libc6-dev
+Suggests: cmake, pkgconf, libmodbus-dev, can-utils
+Section: libdevel
 Priority: optional
-Description: stiffness at the tip of a climbing robot's limb
- The command brace computes the stiffness of a limb, identifies it from
- measurements, finds what a model lacks, and talks to the limb's controller
- over CAN and Modbus. The C libraries brace-core, brace-app and brace-client
- compute it in programs of your own and read it from a controller.
+Description: stiffness at the tip of a climbing robot's limb, C libraries
+ The libraries brace-core and brace-app compute the stiffness of a limb in
+ programs and controllers of your own; brace-client reads it from a limb's
+ controller over CAN and Modbus. The command brace, to which the man pages
+ belong, is a Python package: pipx install brace.
 """
-COMPLETIONS = {
-    "bash": "usr/share/bash-completion/completions/brace",
-    "zsh": "usr/share/zsh/vendor-completions/_brace",
-    "fish": "usr/share/fish/vendor_completions.d/brace.fish",
-}
 COPYRIGHT = """Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.0/
 Upstream-Name: Brace
 
 Files: *
-Copyright: 2026 The Brace authors
+Copyright: 2026 {author}
 License: Apache-2.0
  On Debian systems the text is in /usr/share/common-licenses/Apache-2.0.
-
-Files: usr/lib/brace/*
-Copyright: the authors of each package
-License: each package's own, in its folder *.dist-info
 """
 
 
-def package(source: Source, wheel: Path, work: Path, cache: Path, dist: Path) -> Path:
-    """brace_<version>_amd64.deb. `cache` keeps the wheels of requirements.txt from one run to the next."""
-    root = fresh(work / "debian")
-    _python(wheel, requirements.fetched(cache), root / "usr" / "lib" / "brace", source)
-    _libraries(source, work, root)
-    _write(root / "usr/bin/brace", COMMAND).chmod(0o755)
-    for shell in SHELLS:
-        _write(root / COMPLETIONS[shell], completion(shell) + "\n")
+def package(source: Source, machine: str, work: Path, dist: Path) -> Path:
+    """libbrace-dev_<version>_<architecture>.deb"""
+    root = fresh(work / f"debian-{machine}")
+    _libraries(source, machine, work / f"libraries-{machine}", root / "usr")
     man_pages.write(root / "usr/share/man/man1", source.version)
     for page in sorted((root / "usr/share/man/man1").iterdir()):
         _compressed(page)
-    _documents(source, root / "usr/share/doc/brace")
-    _control(root, source)
+    _documents(source, root / "usr/share/doc" / PACKAGE)
+    _control(root, source, machine)
     set_times(root, source.epoch_s)
-    out = dist / f"brace_{source.version}_{ARCHITECTURE}.deb"
-    build = ("dpkg-deb", "--root-owner-group", "-Zzstd", "-z9", "--threads-max=1", "--build", root, out)
+    out = dist / f"{PACKAGE}_{source.version}_{ARCHITECTURES[machine]}.deb"
+    # xz, because Debian's dpkg reads zstd only from Debian 12 on, and a Jetson's Ubuntu is older
+    build = ("dpkg-deb", "--root-owner-group", "-Zxz", "-z9", "--threads-max=1", "--build", root, out)
     run(*build, environment=source.environment)
     return out
 
 
 def _documents(source: Source, folder: Path) -> None:
-    """What a person reads. brace/ground/errors.py says in messages where the pages lie."""
-    _write(folder / "copyright", COPYRIGHT)
+    """What a person reads, and programs to begin with."""
+    _write(folder / "copyright", COPYRIGHT.format(author=about(source.folder).author))
     _compressed(_write(folder / "changelog", (source.folder / "CHANGELOG.md").read_text()))
     shutil.copytree(source.folder / "examples", folder / "examples")
     shutil.copytree(source.folder / "docs", folder / "docs", ignore=shutil.ignore_patterns("*.json", "*.toml"))
-    for name in ("paper-limb.toml", "paper-rig.toml"):
-        shutil.copy(source.folder / "tools" / "brace" / "data" / name, folder)
 
 
-def _python(wheel: Path, wheels: Path, folder: Path, source: Source) -> None:
-    """The command and its packages, compiled, so that nobody needs the right to write there."""
-    install = (sys.executable, "-m", "pip", "install", "--quiet", "--no-deps", "--no-compile", "--no-index")
-    chosen = (*requirements.WHEELS, "--target", folder)
-    run(*install, *chosen, wheel, *sorted(wheels.glob("*.whl")), environment=source.environment)
-    shutil.rmtree(folder / "bin", ignore_errors=True)
-    shutil.rmtree(folder / "share", ignore_errors=True)
-    _forget_where_from(folder)
-    # No time is in a compiled file, so the same sources give the same bytes.
-    compile_all = ("-m", "compileall", "-q", "--invalidation-mode", "unchecked-hash")
-    run("/usr/bin/python3", *compile_all, "-s", folder, "-p", "/usr/lib/brace", folder, environment=source.environment)
+def _libraries(source: Source, machine: str, build: Path, prefix: Path) -> None:
+    """The C libraries and their packages for CMake and pkg-config, in the folder of the architecture."""
+    cache = ["-DCMAKE_BUILD_TYPE=Release", "-DBRACE_TESTS=OFF", "-DBRACE_HOST_SIM=OFF"]
+    cache.append(f"-DCMAKE_INSTALL_LIBDIR=lib/{machine}-linux-gnu")
+    environment = dict(source.environment)
+    if MACHINES[machine]:
+        cache.append(f"-DCMAKE_TOOLCHAIN_FILE={source.folder / MACHINES[machine]}")
+        # A static library links nothing, and the headers of libmodbus are the same for every architecture.
+        environment["PKG_CONFIG_LIBDIR"] = run("pkg-config", "--variable", "pc_path", "pkg-config").strip()
+    run("cmake", "-G", "Ninja", "-S", source.folder, "-B", build, *cache, environment=environment)
+    libraries = ("brace_app", "brace_hal_selftest", "brace_hal_dynamixel", "brace_client")  # app needs the core's
+    run("cmake", "--build", build, "--target", *libraries, environment=environment)
+    for part in PARTS:
+        run("cmake", "--install", build, "--prefix", prefix, "--component", part)
 
 
-def _forget_where_from(folder: Path) -> None:
-    """pip notes the folder of this machine that a wheel came from, and that note's sum."""
-    for note in folder.glob("*.dist-info/direct_url.json"):
-        note.unlink()
-        record = note.with_name("RECORD")
-        lines = record.read_text().splitlines(keepends=True)
-        record.write_text("".join(line for line in lines if "direct_url.json" not in line))
-
-
-def _libraries(source: Source, work: Path, root: Path) -> None:
-    """The C libraries and their packages for CMake and pkg-config."""
-    build = work / "host"
-    cache = ("-DCMAKE_BUILD_TYPE=Release", "-DBRACE_TESTS=OFF", "-DBRACE_HOST_SIM=OFF", "-DCMAKE_INSTALL_LIBDIR=lib")
-    run("cmake", "-G", "Ninja", "-S", source.folder, "-B", build, *cache, environment=source.environment)
-    run("cmake", "--build", build, environment=source.environment)
-    for part in ("core", "app", "client"):
-        run("cmake", "--install", build, "--prefix", root / "usr", "--component", part)
-
-
-def _control(root: Path, source: Source) -> None:
+def _control(root: Path, source: Source, machine: str) -> None:
     kilobytes = sum(path.stat().st_size for path in root.rglob("*") if path.is_file()) // 1024
-    text = CONTROL.format(version=source.version, architecture=ARCHITECTURE, kilobytes=kilobytes)
+    ours = about(source.folder)
+    text = CONTROL.format(
+        package=PACKAGE, version=source.version, architecture=ARCHITECTURES[machine], kilobytes=kilobytes,
+        author=ours.author, email=ours.email, homepage=ours.urls["Homepage"],
+    )  # fmt: skip
     _write(root / "DEBIAN/control", text)
 
 

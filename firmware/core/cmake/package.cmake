@@ -43,6 +43,16 @@ function(brace_part part)
     endif()
     write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/brace-config-version.cmake VERSION ${BRACE_VERSION}
         COMPATIBILITY SameMinorVersion)
+    # It compares the sizes of pointers. Two processors of 64 bits are told apart by their names.
+    file(READ ${BRACE_PACKAGE_FILES}/processor.cmake of_the_user)
+    include(${BRACE_PACKAGE_FILES}/processor.cmake)
+    file(APPEND ${CMAKE_CURRENT_BINARY_DIR}/brace-config-version.cmake "
+${of_the_user}
+if(\"\${brace_processor} ${brace_processor}\" MATCHES \"^(x86_64 aarch64|aarch64 x86_64)$\")
+    set(PACKAGE_VERSION \"\${PACKAGE_VERSION} (${brace_processor})\")
+    set(PACKAGE_VERSION_UNSUITABLE TRUE)
+endif()
+")
     install(FILES ${BRACE_PACKAGE_FILES}/brace-config.cmake ${CMAKE_CURRENT_BINARY_DIR}/brace-config-version.cmake
         DESTINATION ${BRACE_PACKAGE_DIR} COMPONENT ${part})
     brace_pkg_config(${part} "${arg_TARGETS}" "${cflags}" "${arg_NEEDS}")

@@ -170,6 +170,9 @@ def test_the_load_across_the_plane_is_sent_and_kept(
     given = ("--press=1,-4", "--press-across", "8", "--can", "tcp://127.0.0.1:0", "--modbus", "none")
     with running(limb, *given) as (_, ready):
         url = ready["limbs"][0]["can"]
+        for _ in range(100):  # the controller finds K without the load some ticks after it has seen the load
+            if "unloaded_k_across_n_per_mm" in json.loads(brace("query", "--bus", url, "--json").out)["load"]:
+                break
         lines = brace("monitor", "--bus", url, "--seconds", 0.8, "--json").out.splitlines()
         text = brace("monitor", "--bus", url, "--seconds", 0.8).out.splitlines()[-1]
         log = tmp_path / "a.log"

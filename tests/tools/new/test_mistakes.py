@@ -186,7 +186,8 @@ def test_commas_between_the_numbers_of_a_link(brace: Brace, tmp_path: Path, link
 
 
 def test_a_limb_without_its_option(brace: Brace, tmp_path: Path) -> None:
-    readable(brace("k", limb(tmp_path), *POSTURE), 2, "required: --model", f"try: --model {tmp_path / 'limb.toml'}")
+    way = f"try: brace k --model {tmp_path / 'limb.toml'}"
+    readable(brace("k", limb(tmp_path), *POSTURE), 2, "required: --model", way)
 
 
 def test_a_bus_with_a_single_colon(brace: Brace) -> None:

@@ -193,6 +193,21 @@ def test_what_needs_a_stance(brace: Callable[..., Outcome], stance: Path, tmp_pa
     assert across.code == 3 and "does not yield across its plane" in across.err
 
 
+def test_joints_that_rub_need_links_that_yield(brace: Callable[..., Outcome], stance: Path, tmp_path: Path) -> None:
+    limb = (tmp_path / "limb.toml").read_text()
+    rubs = limb + "".join(f"[motor.{joint}]\nfriction_per_load_ratio = 0.2\n" for joint in ("coxa", "femur", "tibia"))
+    for joint in ("coxa", "femur", "tibia"):
+        rubs = rubs.replace(f"[joint.{joint}]", f"[joint.{joint}]\ncoulomb_n_mm = 100.0\ncoulomb_per_load_ratio = 0.2")
+    (tmp_path / "limb.toml").write_text(rubs)
+    run = ("sim", "--stance", stance, *NO_PORTS, "--payload", "3@0.2+0.5", "--payload", "0@1+0.5", "--json")
+    (end,) = events(brace(*run, "--seconds", 2), "end")
+    assert end["truth"]["unbalanced_ratio"] < 1e-6  # it stands, and finds its rest
+    rigid = [line for line in rubs.splitlines() if not line.startswith(("bending", "lateral"))]
+    (tmp_path / "limb.toml").write_text("\n".join(rigid) + "\n")
+    refused = brace(*run, "--seconds", 0.1)
+    assert refused.code == 3 and "joints that rub and links that hardly yield" in refused.err
+
+
 def test_a_body_costs_less_than_half_of_what_its_limbs_do() -> None:
     """At rest, in one run, each the best of many short parts: a busy machine slows some."""
     stance = SimulatedStance(believed := load_stance(EXAMPLE / "stance.toml"), believed)

@@ -11,7 +11,25 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
-from brace.cli.options import angle, count, flexion, number, path, positive
+from brace.cli.options import (
+    angle,
+    count,
+    duration,
+    flexion,
+    force,
+    length,
+    moment,
+    number,
+    path,
+    positive_force,
+    positive_length,
+    positive_ratio,
+    positive_stiffness,
+    ratio,
+    stiffness,
+    temperature,
+    weight,
+)
 from brace.cli.streams import emit, is_quiet
 from brace.cli.streams import say as _say
 
@@ -23,15 +41,26 @@ __all__ = [
     "add_model",
     "angle",
     "count",
+    "duration",
     "emit",
     "flexion",
+    "force",
     "json_ready",
+    "length",
+    "moment",
     "number",
     "path",
-    "positive",
+    "positive_force",
+    "positive_length",
+    "positive_ratio",
+    "positive_stiffness",
     "print_json",
     "progress",
+    "ratio",
     "say",
+    "stiffness",
+    "temperature",
+    "weight",
 ]
 
 PROGRESS_AFTER_S = 2.0

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import argparse
 import math
-from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from brace.cli import common
 from brace.cli.bus_options import add_bus, controller
-from brace.cli.options import Subcommands, refused
+from brace.cli.options import Quantity, Subcommands, at_most_a_turn, refused
 from brace.cli.subcommands import SUBCOMMANDS
 
 if TYPE_CHECKING:
@@ -45,23 +44,22 @@ def add(commands: Subcommands) -> None:
     parser.set_defaults(run=run)
 
 
-def _within(key: str) -> Callable[[str], float]:
+def _within(key: str) -> Quantity:
     """An angle in a parameter's range."""
 
-    def angle(text: str) -> float:
+    def check(value_rad: float, text: str, has_unit: bool) -> None:
         from brace.wire.names import PARAMETERS
 
-        value = common.angle(text)
+        at_most_a_turn(value_rad, text, has_unit)
         parameter = next(parameter for parameter in PARAMETERS if parameter.key == key)
-        if not parameter.low <= value <= parameter.high:
+        if not parameter.low <= value_rad <= parameter.high:
             raise refused(
-                f"{text} rad is outside {parameter.low:.4f} to {parameter.high:.4f}",
+                f"{value_rad:.6g} rad is outside {parameter.low:.4f} to {parameter.high:.4f}",
                 f"{key} has this range",
                 "the same direction by another full turn",
             )
-        return value
 
-    return angle
+    return Quantity("angle", "-90deg", check=check)
 
 
 def run(arguments: argparse.Namespace) -> int:

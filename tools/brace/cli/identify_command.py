@@ -54,14 +54,14 @@ def add(commands: Subcommands) -> None:
     )
     parser.add_argument(
         "--sigma",
-        type=common.positive,
+        type=common.positive_stiffness,
         default=0.3,
         metavar="N_PER_MM",
         help="tables: one sigma of an entry of K, absolute part (default 0.3 N/mm)",
     )
     parser.add_argument(
         "--sigma-rel",
-        type=common.number,
+        type=common.ratio,
         default=0.1,
         metavar="RATIO",
         help="tables: relative part (default 0.1)",

@@ -37,13 +37,13 @@ def add(commands: Subcommands) -> None:
     parser.add_argument("--theta0", type=common.angle, metavar="RAD", help="coxa yaw: K in space (3x3)")
     parser.add_argument("--theta1", type=common.angle, metavar="RAD", help="femur angle from +x")
     parser.add_argument("--theta2", type=common.flexion, metavar="RAD", help="knee flexion, 0 is straight")
-    parser.add_argument("--r", type=common.positive, metavar="MM", help="tip distance, instead of the angles")
+    parser.add_argument("--r", type=common.positive_length, metavar="MM", help="tip distance, instead of the angles")
     parser.add_argument("--phi", type=common.angle, metavar="RAD", help="tip direction from +x, with --r")
     parser.add_argument("--knee", choices=("up", "down"), help="which posture reaches (r, phi); default up")
     k_load.add_load(parser)
     parser.add_argument(
         "--temp",
-        type=common.number,
+        type=common.temperature,
         metavar="DEGC",
         help="the joints' temperature, of every row with --csv; default: thermal.reference_degc of the model",
     )
@@ -125,7 +125,8 @@ def _check_one_posture(arguments: argparse.Namespace) -> None:
         raise UsageError(
             "no posture is given",
             why="K depends on it",
-            next_step="--theta1 RAD --theta2 RAD, or --r MM --phi RAD [--knee up|down], or --csv IN --out OUT",
+            next_step=f"brace k --model {arguments.model} --theta1 0.5 --theta2 1.2, or --r 400mm --phi -30deg, or "
+            "--csv IN --out OUT",
         )
     if given.keys() & {"theta1", "theta2"} and given.keys() & {"r", "phi"}:
         raise UsageError(

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import argparse
 
-from brace.cli.options import OptionParser, number, refused
+from brace.cli.options import OptionParser, force
 from brace.ground.errors import UsageError
-from brace.ground.units import FORCE_MOST_N
 
 SOFTENED = 3.0  # of the buckling factor: below it a limb is much softer than without load, and a controller flags its K
 
@@ -18,14 +17,6 @@ def add_load(parser: OptionParser, in_space: bool = True) -> None:
     if in_space:
         parser.add_argument("--fy", type=force, metavar="N", help="across the plane, to the left; only with --theta0")
     parser.add_argument("--fz", type=force, metavar="N", help="upwards in the plane")
-
-
-def force(text: str) -> float:
-    """A force [N] on the tip."""
-    value = number(text)
-    if abs(value) > FORCE_MOST_N:
-        raise refused(f"{text} N is no force on a tip", f"it lies within +-{FORCE_MOST_N:g} N", "OPTION 10")
-    return value
 
 
 def fill_in(arguments: argparse.Namespace) -> None:

@@ -22,7 +22,7 @@ def add(commands: Subcommands) -> None:
         epilog="Exit codes: 0 every joint is back, 4 no answer or not in time, 5 the device refuses, 6 another "
         "dictionary.",
     )
-    parser.add_argument("--wait", type=common.positive, default=WAIT_S, metavar="S", help=f"default {WAIT_S:g}")
+    parser.add_argument("--wait", type=common.duration, default=WAIT_S, metavar="S", help=f"default {WAIT_S:g}")
     add_bus(parser)
     common.add_json(parser)
     parser.set_defaults(run=run)

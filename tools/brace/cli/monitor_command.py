@@ -37,7 +37,7 @@ def add(commands: Subcommands) -> None:
         epilog="Exit codes: 0, 4 nothing heard, 5 the last K is not valid, 6 another dictionary, 130 Ctrl-C.",
     )
     add_bus(parser)
-    parser.add_argument("--seconds", type=common.positive, metavar="S", help="how long; default until Ctrl-C")
+    parser.add_argument("--seconds", type=common.duration, metavar="S", help="how long; default until Ctrl-C")
     parser.add_argument(
         "--web",
         nargs="?",

@@ -5,9 +5,11 @@ from __future__ import annotations
 import argparse
 import math
 import re
+import shlex
 import shutil
 import sys
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn, TypeAlias, cast
@@ -15,10 +17,9 @@ from typing import TYPE_CHECKING, Any, NoReturn, TypeAlias, cast
 from brace.cli.streams import emit, say
 from brace.ground.errors import UsageError, did_you_mean
 from brace.ground.slips import slip
+from brace.ground.units import FORCE_MOST_N, OWN, UNITS, amount, unit_of
 
 _FULL_TURN_RAD = 2 * math.pi
-_WITH_UNIT = re.compile(r"\s*([-+]?[\d.]+(?:e[-+]?\d+)?)\s*(?:(deg|degrees?|\u00b0)|rad)\s*", re.IGNORECASE)
-
 
 if TYPE_CHECKING:
     Subcommands: TypeAlias = "argparse._SubParsersAction[OptionParser]"
@@ -79,9 +80,24 @@ class OptionParser(argparse.ArgumentParser):
         unknown = [text for text in self._given if self._is_unknown_option(text)]
         if unknown:
             raise self._unknown(unknown)
-        model = next((text for text in self._given if text.endswith(".toml")), "")
-        forgotten = bool(model) and "--model" in message and "--model" in self._option_string_actions
-        raise self._refusal("", message, way=f"--model {model}; {self.prog} --help has the rest" if forgotten else "")
+        raise self._refusal("", message, way=self._completed(self._given))
+
+    def _completed(self, given: Sequence[str]) -> str:
+        """The command line with a value for everything that must be there and is not."""
+        model = next((text for text in given if text.endswith(".toml")), "")
+        words, missing = list(given), []
+        for action in self._actions:
+            names = [text.partition("=")[0] for text in given]
+            if not action.required or any(option in names for option in action.option_strings):
+                continue
+            if "--model" in action.option_strings and model:  # the file was named, its option was not
+                words[words.index(model):words.index(model)] = ["--model"]
+                continue
+            if action.option_strings:
+                missing += [action.option_strings[0], *_example_of(action)]
+            elif not any(not text.startswith("-") for text in given):
+                missing += _example_of(action)
+        return " ".join([self.prog, *(shlex.quote(word) for word in words), *missing])
 
     def _check_value(self, action: argparse.Action, value: object) -> None:
         """argparse calls this for each value of an option with choices."""
@@ -102,7 +118,9 @@ class OptionParser(argparse.ArgumentParser):
             return super()._match_argument(action, arg_strings_pattern)
         except argparse.ArgumentError as error:
             what = f"a value is missing, or there are too many ({error.message})"
-            raise self._refusal(_name_of(action), what, "the option takes a value") from None
+            option = action.option_strings[0] if action.option_strings else ""
+            way = " ".join(["e.g.", option, *_example_of(action)]).replace("  ", " ")
+            raise self._refusal(_name_of(action), what, "the option takes a value", way) from None
 
     def _print_message(self, message: str, file: object = None) -> None:  # --help, --version; a lost one is an error
         if message and (file is None or file is sys.stdout):
@@ -158,58 +176,153 @@ def _help_columns() -> int:
     return shutil.get_terminal_size().columns - 2
 
 
+_EXAMPLES = {"LIMB.toml": "limb.toml", "RIG.toml": "rig.toml", "URL": "can0", "DIR": "out", "JOINT+|JOINT-": "femur+"}
+
+
+def _example_of(action: argparse.Action) -> list[str]:
+    """Values that an option or argument may have: a quantity's example, else its metavar."""
+    shown = action.metavar if isinstance(action.metavar, tuple) else (action.metavar or action.dest.upper(),)
+    shown = tuple(_EXAMPLES.get(name, name) for name in shown)
+    if isinstance(action.type, Quantity):
+        return [action.type.example] * len(shown)
+    if action.choices is not None:
+        return [str(next(iter(action.choices)))]
+    return list(shown)
+
+
 def _name_of(action: argparse.Action) -> str:
     """The option's name as argparse writes it."""
     return argparse.ArgumentError(action, "").argument_name or ""
 
 
-def number(text: str) -> float:
-    """A finite number; -0 is 0."""
+def number(text: str, example: str = "1.25") -> float:
+    """A finite number; -0 is 0. A refusal shows the example."""
     try:
         value = float(text) if "_" not in text else math.nan
     except ValueError:
         why, meant = slip(text)
         if meant:
             raise refused(f"{text!r} is not a number", why, f"OPTION {meant}") from None
-        raise refused(f"{text!r} is not a number", "a plain number is wanted", "e.g. OPTION 1.25") from None
+        raise refused(f"{text!r} is not a number", "a number is wanted", f"e.g. OPTION {example}") from None
     if not math.isfinite(value):
-        raise refused(f"{text!r} is not a finite number", "nothing follows from it", "e.g. OPTION 1.25")
+        raise refused(f"{text!r} is not a finite number", "nothing follows from it", f"e.g. OPTION {example}")
     return value + 0.0
 
 
-def angle(text: str) -> float:
-    """An angle of at most a full turn either way [rad]; rad where no unit is said."""
-    said = _WITH_UNIT.fullmatch(text)
-    value = number(said[1] if said else text)
-    if said and said[2]:
-        value = math.radians(value)
-    if abs(value) > _FULL_TURN_RAD + 1e-5:
+# --- numbers with units -----------------------------------------------------------------------------------------------
+
+Check: TypeAlias = Callable[[float, str, bool], None]  # value, the text, whether it says its unit; raises RefusedValue
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """The type of an option that takes a number with a unit; without one it is in ours. Called by argparse."""
+
+    of: str  # as in brace.ground.units, or "ratio"
+    example: str  # a value with its unit
+    least: float = -math.inf
+    most: float = math.inf
+    is_positive: bool = False  # above zero
+    check: Check | None = None
+
+    @property
+    def units(self) -> dict[str, tuple[float, float]]:
+        """Factor and offset of each unit's name."""
+        if self.of == "ratio":
+            return {"": (1.0, 0.0), "%": (0.01, 0.0)}
+        return {unit.text: (unit.factor, unit.offset) for unit in UNITS.values() if unit.quantity == self.of}
+
+    @property
+    def own(self) -> str:
+        """The unit of a number without one."""
+        return OWN.get(self.of, "")
+
+    def __call__(self, text: str) -> float:
+        found = amount(text)
+        if found is None or not found[1]:
+            value, has_unit = number(text, self.example), False
+        else:
+            factor, offset = self._unit(text, found[1])
+            value, has_unit = factor * found[0] + offset + 0.0, True
+        if not math.isfinite(value):
+            raise refused(f"{text!r} is not a finite number", "nothing follows from it", f"e.g. OPTION {self.example}")
+        if self.is_positive and value <= 0.0:
+            raise refused(f"{text!r} is not positive", "it must be above zero", f"e.g. OPTION {self.example}")
+        if not self.least <= value <= self.most:
+            raise refused(
+                f"{text!r} is {value:.6g} {self.own}".rstrip() + ", out of range",
+                f"{_a(self.of)} of {self.least:g} to {self.most:g} {self.own}".rstrip() + " is wanted",
+                f"e.g. OPTION {self.example}",
+            )
+        if self.check is not None:
+            self.check(value, text, has_unit)
+        return value
+
+    def _unit(self, text: str, unit_text: str) -> tuple[float, float]:
+        """Factor and offset."""
+        if self.of == "ratio" and unit_text in self.units:
+            return self.units[unit_text]
+        if re.match(r",\d", unit_text):
+            pointed = text.replace(",", ".")
+            raise refused(f"{text!r} is not a number", "the decimal sign is a point", f"OPTION {pointed}")
+        unit = unit_of(unit_text, self.of)
+        if unit is not None and unit.quantity == self.of:
+            return unit.factor, unit.offset
+        known = ", ".join(name for name in self.units if name)
         raise refused(
-            f"{value:.6g} rad is more than a full turn",
-            "it may turn once" if said else "an angle is in rad, not in degrees, where its unit is not said",
-            "e.g. OPTION 57deg" if said else f"OPTION {math.radians(value):.6g} if {text} are degrees",
+            f"{text!r} is {_a(unit.quantity)}" if unit else f"{text!r} is not a number with a unit of {self.of}",
+            f"{_a(self.of)} is wanted, in {known}; a number without a unit is "
+            + (f"in {self.own}" if self.own else "the ratio itself: 0.5 is 50%"),
+            f"OPTION {self.example}",
         )
-    return value
 
 
-def flexion(text: str) -> float:
-    """A knee angle [rad], from folded one way to folded the other."""
-    value = angle(text)
-    if abs(value) > math.pi + 1e-5:
+def _a(noun: str) -> str:
+    return f"{'an' if noun[0] in 'aeiou' else 'a'} {noun}"
+
+
+def at_most_a_turn(value_rad: float, text: str, has_unit: bool) -> None:
+    """Refuses an angle beyond a full turn either way."""
+    if abs(value_rad) > _FULL_TURN_RAD + 1e-5:
         raise refused(
-            f"{value:.6g} rad is beyond the folded knee",
+            f"{value_rad:.6g} rad is more than a full turn",
+            "it may turn once" if has_unit else "an angle is in rad, not in degrees, where its unit is not said",
+            "e.g. OPTION 57deg" if has_unit else f"OPTION {math.radians(value_rad):.6g} if {text} are degrees",
+        )
+
+
+def _at_most_folded(value_rad: float, text: str, has_unit: bool) -> None:
+    at_most_a_turn(value_rad, text, has_unit)
+    if abs(value_rad) > math.pi + 1e-5:
+        raise refused(
+            f"{value_rad:.6g} rad is beyond the folded knee",
             "the knee's angle lies in [-pi, pi] rad, 0 is straight",
             "OPTION 3.14159 for the folded knee",
         )
-    return value
 
 
-def positive(text: str) -> float:
-    """A finite number above zero."""
-    value = number(text)
-    if value <= 0:
-        raise refused(f"{text!r} is not positive", "it must be above zero", "e.g. OPTION 1.25")
-    return value
+def _on_a_tip(value_n: float, text: str, has_unit: bool) -> None:
+    if abs(value_n) > FORCE_MOST_N:
+        raise refused(
+            f"{text} is no force on a tip" if has_unit else f"{text} N is no force on a tip",
+            f"it lies within +-{FORCE_MOST_N:g} N", "OPTION 10N",
+        )  # fmt: skip
+
+
+angle = Quantity("angle", "57deg", check=at_most_a_turn)  # at most a full turn either way
+flexion = Quantity("angle", "57deg", check=_at_most_folded)  # of a knee, from folded one way to folded the other
+force = Quantity("force", "10N", check=_on_a_tip)  # on the tip
+weight = Quantity("force", "10N")  # kg and lb are weights here
+positive_force = Quantity("force", "10N", is_positive=True)
+length = Quantity("length", "1.5mm")
+positive_length = Quantity("length", "1.5mm", is_positive=True)
+duration = Quantity("time", "2s", is_positive=True)
+moment = Quantity("time", "2s", least=0.0)  # since the start
+stiffness = Quantity("stiffness", "1.5N/mm")
+positive_stiffness = Quantity("stiffness", "1.5N/mm", is_positive=True)
+temperature = Quantity("temperature", "30degC")
+ratio = Quantity("ratio", "50%")
+positive_ratio = Quantity("ratio", "50%", is_positive=True)
 
 
 def count(low: int, high: int) -> Callable[[str], int]:

@@ -13,6 +13,7 @@ from brace.cli.k_load import SOFTENED
 from brace.cli.options import Subcommands
 from brace.cli.subcommands import SUBCOMMANDS
 from brace.ground.errors import BraceError, UsageError
+from brace.ground.units import G_M_PER_S2
 
 if TYPE_CHECKING:
     from brace.model import LimbModel
@@ -36,33 +37,33 @@ def add(commands: Subcommands) -> None:
     )
     common.add_model(parser)
     where = parser.add_argument_group("where the tip may stand [mm], x outwards, z up, from the femur axis")
-    span = functools.partial(where.add_argument, type=common.number, nargs=2, metavar=("LOW", "HIGH"))
+    span = functools.partial(where.add_argument, type=common.length, nargs=2, metavar=("LOW", "HIGH"))
     span("--x", help="default: from 0 as far as it reaches")
     span("--z", help="default: as far as it reaches")
     where.add_argument("--knee", choices=("up", "down", "either"), default="either", help="default either")
     contact = parser.add_argument_group("contact and payload")
-    contact.add_argument("--payload", type=common.number, metavar="N", help="weight that the foot carries")
+    contact.add_argument("--payload", type=common.weight, metavar="N", help="weight that the foot carries; 10N, 1kg")
     contact.add_argument(
-        "--friction", type=common.positive, metavar="MU", help="of the surface: the foot must not slide"
+        "--friction", type=common.positive_ratio, metavar="MU", help="of the surface: the foot must not slide"
     )
     contact.add_argument(
         "--normal", type=common.angle, default=math.pi / 2, metavar="RAD",
         help="direction out of the surface, towards the limb; default pi/2, a floor; pi is a wall ahead",
     )  # fmt: skip
     contact.add_argument(
-        "--bears", type=common.number, default=0.0, metavar="MM",
+        "--bears", type=common.length, default=0.0, metavar="MM",
         help="error of position, in any direction, that must not let it slide; default 0",
     )  # fmt: skip
     demands = parser.add_argument_group("demands")
-    for option, unit, meaning in (
-        ("--lambda-min", "N_PER_MM", "stiffness at least, in any direction"),
-        ("--lambda-max", "N_PER_MM", "stiffness at most, in any direction"),
-        ("--sag-most", "MM", "under the payload"),
-        ("--press-most", "N", "against the surface, beside the payload"),
+    for option, kind, unit, meaning in (
+        ("--lambda-min", common.positive_stiffness, "N_PER_MM", "stiffness at least, in any direction"),
+        ("--lambda-max", common.positive_stiffness, "N_PER_MM", "stiffness at most, in any direction"),
+        ("--sag-most", common.positive_length, "MM", "under the payload"),
+        ("--press-most", common.positive_force, "N", "against the surface, beside the payload"),
     ):
-        demands.add_argument(option, type=common.positive, metavar=unit, help=meaning)
+        demands.add_argument(option, type=kind, metavar=unit, help=meaning)
     demands.add_argument(
-        "--k", type=common.number, nargs=3, metavar=("XX", "XZ", "ZZ"), help="the K that is wanted [N/mm]"
+        "--k", type=common.stiffness, nargs=3, metavar=("XX", "XZ", "ZZ"), help="the K that is wanted [N/mm]"
     )
     parser.add_argument(
         "--prefer", choices=("firm", "soft", "steady", "light", "k"),
@@ -110,12 +111,12 @@ def run(arguments: argparse.Namespace) -> int:
             where=str(arguments.model),
             why="the tip's places lie beyond the links, the joints' travel ([motor.*] angle_min_rad, angle_max_rad) "
             "keeps it away, or no rest was found there under the load",
-            next_step="a wider --x or --z; brace map draws what the limb reaches",
+            next_step="a wider --x or --z; brace map draws what the limb reaches" + _lighter(wish.payload_n),
         )
     reach = model.number("geometry.femur_mm") + model.number("geometry.tibia_mm")
     best = found.best(prefer, arguments.count, APART_RATIO * reach)
     if not best:
-        raise _nothing(found, str(arguments.model))
+        raise _nothing(found, str(arguments.model), wish.payload_n)
     postures = [
         {name: float(column[index]) for name, column in found.columns.items()} | {"knee": str(found.knee[index])}
         for index in best
@@ -137,6 +138,11 @@ def run(arguments: argparse.Namespace) -> int:
         for line in (*_lines(number, posture, wish), *_play_lines(model, posture, play)):
             common.emit(line)
     return 0
+
+
+def _lighter(payload_n: float) -> str:
+    """What else to try where there is a payload; in kg too, because newtons are taken for them."""
+    return f"; or a --payload below {payload_n:g}N, the weight of {payload_n / G_M_PER_S2:.3g} kg" if payload_n else ""
 
 
 def _without_travel(model: LimbModel) -> list[str]:
@@ -224,7 +230,7 @@ def _preference(arguments: argparse.Namespace) -> str:
     return "firm"
 
 
-def _nothing(found: Plan, model: str) -> BraceError:
+def _nothing(found: Plan, model: str, payload_n: float) -> BraceError:
     """No posture satisfies all: how many each demand leaves, and how far it can be met."""
     each = (f"{demand.words}: {demand.satisfied.sum()} of {found.count} postures, the best {demand.best:.4g}"
             for demand in found.demands)  # fmt: skip
@@ -232,7 +238,7 @@ def _nothing(found: Plan, model: str) -> BraceError:
         "no posture satisfies all demands",
         where=model,
         why="; ".join(each),
-        next_step="a wider --x or --z, or less of the demand that the fewest satisfy",
+        next_step="a wider --x or --z, or less of the demand that the fewest satisfy" + _lighter(payload_n),
     )
 
 
@@ -249,7 +255,8 @@ def _lines(number: int, p: Mapping[str, float | str], wish: Wish) -> list[str]:
     if factor < SOFTENED:
         lines.append(f"   the load makes it much softer: buckling factor {factor:.2g}")
     if wish.payload_n:
-        lines.append(f"   {wish.payload_n:g} N let it sag by {p['sag_mm']:.3g} mm")
+        kg = wish.payload_n / G_M_PER_S2
+        lines.append(f"   {wish.payload_n:g} N let it sag by {p['sag_mm']:.3g} mm; they are the weight of {kg:.3g} kg")
     if wish.friction_ratio is not None:
         lines.append(
             f"   press with {p['press_n']:.3g} N: force on the foot ({p['force_x_n']:.3g}, {p['force_z_n']:.3g}) N, "

@@ -25,7 +25,7 @@ def add(commands: Subcommands) -> None:
     )
     parser.add_argument(
         "--tip-height-mm",
-        type=common.number,
+        type=common.length,
         metavar="MM",
         help="stiffness tables that give r alone: height of the tip; default: the one that fits best",
     )

@@ -38,28 +38,28 @@ def add(commands: Subcommands) -> None:
     parser.add_argument("--theta1", type=common.angle, metavar="RAD", help="true femur angle; with --theta2")
     parser.add_argument("--theta2", type=common.flexion, metavar="RAD", help="true knee angle")
     parser.add_argument(
-        "--x", type=common.number, metavar="MM", help="tip outwards from the femur axis; with --z"
+        "--x", type=common.length, metavar="MM", help="tip outwards from the femur axis; with --z"
     )
-    parser.add_argument("--z", type=common.number, metavar="MM", help="tip above the femur axis")
+    parser.add_argument("--z", type=common.length, metavar="MM", help="tip above the femur axis")
     parser.add_argument("--knee", choices=("up", "down"), help="for --x --z; default up")
     parser.add_argument(
-        "--fx", type=common.number, metavar="N", help="force of the ground on the tip there, outwards; with --fz"
+        "--fx", type=common.force, metavar="N", help="force of the ground on the tip there, outwards; with --fz"
     )
-    parser.add_argument("--fz", type=common.number, metavar="N", help="the same upwards")
+    parser.add_argument("--fz", type=common.force, metavar="N", help="the same upwards")
     parser.add_argument(
-        "--fy", type=common.number, metavar="N", help="the same across the limb's plane, to the left; with --theta0"
+        "--fy", type=common.force, metavar="N", help="the same across the limb's plane, to the left; with --theta0"
     )
     parser.add_argument(
         "--load",
         nargs=2,
-        type=common.number,
+        type=common.force,
         metavar=("FX", "FZ"),
         help="how far the tip yields to a force [N]",
     )
     parser.add_argument(
         "--sag",
         nargs=2,
-        type=common.number,
+        type=common.length,
         metavar=("DX", "DZ"),
         help="what force a displacement meets [mm]",
     )

@@ -43,7 +43,7 @@ def add(commands: Subcommands) -> None:
         metavar="FILE",
         help=".log, .mcap; with --loading-test a folder",
     )
-    parser.add_argument("--seconds", type=common.positive, metavar="S", help="how long; default until Ctrl-C")
+    parser.add_argument("--seconds", type=common.duration, metavar="S", help="how long; default until Ctrl-C")
     parser.add_argument("--loading-test", action="store_true", help="start one, wait for it, fetch it")
     parser.add_argument(
         "--axis", choices=("x", "z", "both"), default="both", help="of the loading test; default both"
@@ -52,10 +52,10 @@ def add(commands: Subcommands) -> None:
         "--steps", type=common.count(2, 60), default=6, metavar="N", help="to each side; default 6"
     )
     parser.add_argument(
-        "--step-mm", type=common.positive, default=0.5, metavar="MM", help="of the tip; default 0.5"
+        "--step-mm", type=common.positive_length, default=0.5, metavar="MM", help="of the tip; default 0.5"
     )
     parser.add_argument(
-        "--dwell-s", type=common.positive, default=0.1, metavar="S", help="at each step; default 0.1"
+        "--dwell-s", type=common.duration, default=0.1, metavar="S", help="at each step; default 0.1"
     )
     parser.add_argument(
         "--add",

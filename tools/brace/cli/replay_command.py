@@ -29,7 +29,7 @@ def add(commands: Subcommands) -> None:
     )
     parser.add_argument("--node", type=common.count(1, 127), metavar="N", help="only this node's frames")
     parser.add_argument(
-        "--speed", type=common.positive, default=1.0, metavar="F", help="with --bus: times faster; default 1"
+        "--speed", type=common.positive_ratio, default=1.0, metavar="F", help="with --bus: times faster; default 1"
     )
     common.add_json(parser)
     parser.set_defaults(run=run, seconds=None)

@@ -80,11 +80,11 @@ def add(commands: Subcommands) -> None:
         help="the controllers are guarded by this key, 32 hexadecimal digits: commands need it (docs/security.md)",
     )
     parser.add_argument("--seed", type=common.count(0, 2**63 - 1), default=0, help="of the noise; default 0")
-    parser.add_argument("--seconds", type=common.positive, metavar="S", help="how long; default until Ctrl-C")
+    parser.add_argument("--seconds", type=common.duration, metavar="S", help="how long; default until Ctrl-C")
     pace = parser.add_mutually_exclusive_group()
     pace.add_argument("--realtime", action="store_true", help="in step with the clock (default)")
     pace.add_argument(
-        "--speed", type=common.positive, default=1.0, metavar="X", help="so many times faster than the clock"
+        "--speed", type=common.positive_ratio, default=1.0, metavar="X", help="so many times faster than the clock"
     )
     pace.add_argument("--fast", action="store_true", help="as fast as possible; needs --seconds")
     parser.add_argument(
@@ -119,7 +119,7 @@ def add(commands: Subcommands) -> None:
     )
     parser.add_argument(
         "--press-across",
-        type=common.number,
+        type=common.length,
         default=0.0,
         metavar="Y",
         help="the same across the limb's plane [mm], of a limb with a coxa joint",

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import csv
 import json
+import sys
 from pathlib import Path
 from types import TracebackType
 from typing import TextIO
@@ -16,6 +17,8 @@ from brace.sim.spec import JOINTS
 from brace.stance.simulated import SimulatedStance
 from brace.stance.stance_file import Limb, load_stance
 
+_FRICTIONS = ("coulomb_n_mm", "coulomb_per_load_ratio")
+_LEAST_MM_PER_N = 0.01
 _COLUMNS = (
     "t_s,limb,fx_n,fy_n,fz_n,state,foot_x_mm,foot_y_mm,foot_z_mm,tau0_n_mm,tau1_n_mm,tau2_n_mm,payload_factor,"
     "body_x_mm,body_y_mm,body_z_mm,body_rx_rad,body_ry_rad,body_rz_rad"
@@ -37,6 +40,7 @@ def read(arguments: argparse.Namespace) -> SimulatedStance:
     for path, stance in ((arguments.stance, believed), (arguments.stance_plant, true)):
         for limb in stance.limbs:
             _refuse_rigid_across(limb, path)
+            _refuse_rigid_links(limb, path)
     return SimulatedStance(believed, true)
 
 
@@ -49,6 +53,22 @@ def _refuse_rigid_across(limb: Limb, path: Path | None) -> None:
             where=f"{limb.model.where()}, of {path}",
             why="a limb under a body needs a coxa joint that gives way, or links that do",
             next_step="give joint.coxa.compliance_rad_per_n_mm or link.femur.lateral_mm_per_n",
+        )
+
+
+def _refuse_rigid_links(limb: Limb, path: Path | None) -> None:
+    """host_sim/README.md says why."""
+    number = limb.model.number
+    rubs = any(number(f"joint.{joint}.{key}") > 0.0 for joint in JOINTS for key in _FRICTIONS)
+    if rubs and any(
+        sum(number(f"link.{link}.{way}_mm_per_n") for link in ("femur", "tibia")) < _LEAST_MM_PER_N
+        for way in ("bending", "lateral")
+    ):
+        raise BadFileError(
+            f"limb {limb.name!r} has joints that rub and links that hardly yield",
+            where=f"{limb.model.where()}, of {path}",
+            why=f"the robot's body needs links of at least {_LEAST_MM_PER_N:g} mm/N where friction may hold the joints",
+            next_step="give link.tibia.bending_mm_per_n and lateral_mm_per_n, or the friction to motor.*",
         )
 
 
@@ -89,7 +109,7 @@ class Watch:
             if self._file is not None:
                 csv.writer(self._file, lineterminator="\n").writerows(_rows(truth))
             if self._as_json and abs(truth["time_s"] - round(truth["time_s"])) < 1e-6:
-                common.emit(json.dumps(common.json_ready({"event": "truth", "truth": truth})))
+                _emit_now({"event": "truth", "truth": truth})
         if self._file is not None:
             self._file.flush()
         fall = None if self._has_fallen else self._robot.fall()
@@ -98,8 +118,14 @@ class Watch:
             words = _fall_words(fall)
             common.say(words)
             if self._as_json:
-                event = {"event": "fall", "time_s": fall.time_s, "states": fall.states, "message": words}
-                common.emit(json.dumps(common.json_ready(event)))
+                _emit_now({"event": "fall", "time_s": fall.time_s, "states": fall.states, "message": words})
+
+
+def _emit_now(event: dict[str, object]) -> None:
+    """A line that whoever waits for it gets at once."""
+    common.emit(json.dumps(common.json_ready(event)))
+    if sys.stdout is not None:
+        sys.stdout.flush()
 
 
 def _rows(truth: RobotTruth) -> list[list[object]]:

@@ -6,7 +6,7 @@ from __future__ import annotations
 import math
 import re
 
-from brace.cli.options import angle, flexion, number, refused
+from brace.cli.options import angle, flexion, length, moment, number, ratio, refused, stiffness
 from brace.ground.errors import did_you_mean
 from brace.sim.spec import FAULTS, JOINTS, Fault, Lift, Move, Payload, Posture
 
@@ -37,8 +37,8 @@ def fault(text: str) -> Fault:
         value = number(found["value"])
     if value is None:
         raise refused(f"{text!r} has no value", f"{name} needs one, in {unit}", f"OPTION {name}:femur=500@2+1")
-    at_s = _seconds(found["at"]) if found["at"] is not None else 0.0
-    for_s = _seconds(found["time"]) if found["time"] is not None else math.inf
+    at_s = moment(found["at"]) if found["at"] is not None else 0.0
+    for_s = moment(found["time"]) if found["time"] is not None else math.inf
     return Fault(tuple(FAULTS).index(name), limb, joint, value, at_s, for_s)
 
 
@@ -61,27 +61,20 @@ def _where(name: str, text: str | None, of_joint: bool) -> tuple[int | None, int
     return (int(limb_text) - 1 if limb_text else None), (JOINTS.index(joint_text) if of_joint else 0)
 
 
-def _seconds(text: str) -> float:
-    value = number(text)
-    if value < 0:
-        raise refused(f"{text} s is before the start", "times count from the start", "OPTION ...@2.0+1.5")
-    return value
-
-
 def posture(text: str) -> Posture:
     """1.0,1.4 or 1.0,1.4@2.5"""
     angles, _, at = text.partition("@")
     parts = angles.split(",")
     if len(parts) != 2:
         raise refused(f"{text!r} is no posture", "the form is THETA1,THETA2[@SECONDS], in rad", "OPTION 1.0,1.4@2.5")
-    return Posture(angle(parts[0]), flexion(parts[1]), _seconds(at) if at else 0.0)
+    return Posture(angle(parts[0]), flexion(parts[1]), moment(at) if at else 0.0)
 
 
 def payload(text: str) -> Payload:
     """1.5, 1.5@3 or 1.5@3+2"""
     factor, _, when = text.partition("@")
     at, _, ramp = when.partition("+")
-    return Payload(number(factor), _seconds(at) if at else 0.0, _seconds(ramp) if ramp else 0.0)
+    return Payload(ratio(factor), moment(at) if at else 0.0, moment(ramp) if ramp else 0.0)
 
 
 def move(text: str) -> Move:
@@ -96,7 +89,7 @@ def move(text: str) -> Move:
             "OPTION 2:0,0.02,0@3",
         )
     coxa, femur, tibia = (angle(part) for part in parts)
-    return Move(limb, (coxa, femur, tibia), _seconds(at) if at else 0.0)
+    return Move(limb, (coxa, femur, tibia), moment(at) if at else 0.0)
 
 
 def lift(text: str) -> Lift:
@@ -105,7 +98,7 @@ def lift(text: str) -> Lift:
     at, _, time = when.partition("+")
     if not limb:
         raise refused(f"{text!r} names no limb", "the form is LIMB[@SECONDS[+DURATION]]", "OPTION 2@3+1")
-    return Lift(limb, _seconds(at) if at else 0.0, _seconds(time) if time else math.inf)
+    return Lift(limb, moment(at) if at else 0.0, moment(time) if time else math.inf)
 
 
 def contact(text: str) -> float:
@@ -114,9 +107,9 @@ def contact(text: str) -> float:
         return math.inf
     if text == "free":
         return 0.0
-    kind, _, stiffness = text.partition(":")
+    kind, _, of_wall = text.partition(":")
     if kind == "wall":
-        value = number(stiffness)
+        value = stiffness(of_wall)
         if value > 0:
             return value
     raise refused(
@@ -131,4 +124,4 @@ def pair_mm(text: str) -> tuple[float, float]:
     parts = text.split(",")
     if len(parts) != 2:
         raise refused(f"{text!r} is no pair", "the form is X,Z in mm", "OPTION 1.0,2.0")
-    return number(parts[0]), number(parts[1])
+    return length(parts[0]), length(parts[1])

@@ -85,7 +85,7 @@ def _add_load(actions: Subcommands) -> None:
     )
     parser.add_argument(
         "--measured-sd",
-        type=common.positive,
+        type=common.positive_force,
         default=SENSOR_SD_N,
         metavar="N",
         help=f"one sigma of a measured force's components; default {SENSOR_SD_N:g}",
@@ -117,7 +117,9 @@ def _add_lift(actions: Subcommands) -> None:
 
 def _add_measured(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--measured", type=common.path, metavar="CSV", help="forces before the payload, as for load")
-    parser.add_argument("--measured-sd", type=common.positive, default=SENSOR_SD_N, metavar="N", help="as for load")
+    parser.add_argument(
+        "--measured-sd", type=common.positive_force, default=SENSOR_SD_N, metavar="N", help="as for load"
+    )
 
 
 def _add_set(actions: Subcommands) -> None:
@@ -138,7 +140,7 @@ def _add_set(actions: Subcommands) -> None:
     )
     parser.add_argument("--wanted", type=common.path, metavar="CSV", help="with --for forces: limb,fx_n,fy_n,fz_n")
     parser.add_argument(
-        "--travel", type=common.positive, default=5.0, metavar="MM", help="most way in x, y and z; default 5"
+        "--travel", type=common.positive_length, default=5.0, metavar="MM", help="most way in x, y and z; default 5"
     )
     _add_measured(parser)
     common.add_json(parser)

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from brace.bus.taking_up import Flank
 
 WAIT_S = 30.0
+_CALLED = {"yaw": "coxa", "hip": "femur", "knee": "tibia", "ankle": "tibia", "coxa": "coxa", "tibia": "tibia"}
 
 
 def add(commands: Subcommands) -> None:
@@ -30,7 +31,7 @@ def add(commands: Subcommands) -> None:
         "flanks", type=_flank, nargs="+", metavar="JOINT+|JOINT-", help="femur+ tibia-, say: + turns as the angle grows"
     )
     parser.add_argument(
-        "--wait", type=common.positive, default=WAIT_S, metavar="S", help=f"for each joint; default {WAIT_S:g}"
+        "--wait", type=common.duration, default=WAIT_S, metavar="S", help=f"for each joint; default {WAIT_S:g}"
     )
     add_bus(parser)
     common.add_json(parser)
@@ -43,10 +44,11 @@ def _flank(text: str) -> Flank:
 
     joint, sign = text[:-1].lower(), text[-1:]
     if joint not in TAKE_UPS or sign not in "+-":
+        meant, side = _CALLED.get(text.rstrip("+-").lower(), "femur"), sign if sign in ("+", "-") else "+"
         raise refused(
             f"{text!r} does not name a side of a joint's backlash",
-            f"the joints are {', '.join(TAKE_UPS)}, and each has a side + and a side -",
-            "brace take-up femur+ tibia-",
+            f"the joints are {', '.join(TAKE_UPS)} (the tibia's is the knee), and each has a side + and a side -",
+            f"brace take-up {meant}{side}",
         )
     return Flank(joint, 1 if sign == "+" else -1)
 

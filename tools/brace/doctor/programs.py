@@ -31,6 +31,7 @@ _WIRE = (
     ("socat", "socat", "-V"),
 )
 _REQUIREMENT = re.compile(r"([A-Za-z0-9_.-]+)\s*>=\s*([\d.]+)")
+_FOR_OLDER_PYTHON = re.compile(r"python_version *< *[\"']3\.(\d+)")
 
 
 def _install(package: str) -> str:
@@ -82,11 +83,12 @@ def _newlib() -> Finding:
 def python_packages(machine: Machine) -> Iterator[Finding]:
     """Python itself, and what pyproject.toml asks for."""
     version = ".".join(map(str, sys.version_info[:3]))
-    good = sys.version_info >= (3, 11)
-    yield Finding("tools", "Python", OK if good else OLD, version, "" if good else "Python 3.11 or newer")
+    good = sys.version_info >= (3, 10)
+    yield Finding("tools", "Python", OK if good else OLD, version, "" if good else "Python 3.10 or newer")
     for requirement in metadata.requires("brace") or []:
         asked = _REQUIREMENT.match(requirement)
-        if asked is None or "extra ==" in requirement:
+        older = _FOR_OLDER_PYTHON.search(requirement)
+        if asked is None or "extra ==" in requirement or (older and sys.version_info >= (3, int(older[1]))):
             continue
         name, least = asked.groups()
         try:

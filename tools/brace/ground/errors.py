@@ -20,7 +20,7 @@ EXIT_VERSION = 6
 EXIT_NOT_VERIFIED = 7
 EXIT_INTERRUPTED = 130
 
-_INSTALLED = Path(__file__).resolve().parents[4] / "share" / "doc" / "brace" / "docs"  # the Debian package's
+_INSTALLED = Path(__file__).resolve().parents[1] / "docs"  # a wheel has the pages inside
 _PAGE = re.compile(r"(?<![\w/])docs/(?=[a-z-]+\.md\b)")
 
 

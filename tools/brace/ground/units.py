@@ -89,7 +89,14 @@ TWO_MEANINGS: dict[str, tuple[str, ...]] = {
     "grad": ("deg", "gon"), "nm": ("nm", "N m"), "'": ("arcmin", "ft"), '"': ("in", "arcsec"), "mil": ("mil", "mrad"),
     "mils": ("mil", "mrad"),
 }  # fmt: skip
+_AMOUNT = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*")
 _JOINTS_OF_UNITS = re.compile(r"[\u00b7\u22c5*.\u2219\u2022_ -]+")
+
+
+def amount(text: str) -> tuple[float, str] | None:
+    """A number and the text of its unit, which may be empty; None where no number comes first."""
+    found = _AMOUNT.fullmatch(text)
+    return (float(found[1]), found[2]) if found else None
 
 
 def meanings_of(text: str) -> tuple[Unit, ...]:

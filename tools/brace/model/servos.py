@@ -12,12 +12,12 @@ from __future__ import annotations
 
 import math
 import re
-import tomllib
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
 from brace.ground.errors import UsageError, did_you_mean
+from brace.toml.parser import tomllib
 
 LIST = Path(__file__).resolve().parents[1] / "data" / "servos.toml"
 FIT_REL, MANUAL_REL = 0.15, 0.4

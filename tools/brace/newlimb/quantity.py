@@ -8,13 +8,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from brace.ground.errors import UsageError, did_you_mean
-from brace.ground.units import unit_of
+from brace.ground.units import amount, unit_of
 from brace.model.assumed_trust import GUESSED_REL
 from brace.model.servos import Held, held
 from brace.newlimb import LINK_FORMS
 from brace.newlimb.beams import ALIASES, MATERIALS, Compliances, Material, of_modulus, round_beam
 
-_NUMBER = re.compile(r"\s*([-+]?\d*\.?\d+(?:[eE][-+]?\d+)?)\s*(.*?)\s*")
 _COMMA = re.compile(r"(?<![\d.])(\d+),(\d+)(?![\d.])")
 UNKNOWN = "unknown"
 LENGTH_MM = (10.0, 3000.0)  # of a link
@@ -31,12 +30,12 @@ def refusal(what: str, why: str, way: str) -> UsageError:
 
 def _split(text: str, example: str) -> tuple[float, str]:
     """A number and its unit's text; a refusal shows `example`."""
-    match = _NUMBER.fullmatch(text)
-    if match and match.group(2).startswith(","):
+    found = amount(text)
+    if found and found[1].startswith(","):
         raise refusal(f"{text!r} has a decimal comma", "the decimal sign is a point", text.replace(",", "."))
-    if not match:
+    if not found:
         raise refusal(f"{text!r} is not a number with a unit", "a number comes first", f"e.g. {example}")
-    return float(match.group(1)), match.group(2)
+    return found
 
 
 def _no_angle(text: str, unit_text: str) -> str:

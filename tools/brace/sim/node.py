@@ -8,7 +8,7 @@ import threading
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import NotRequired, Self, TypedDict
+from typing import TypedDict, TypeVar
 
 from brace.ground.errors import BadFileError, BraceError, NoDeviceError, UsageError
 from brace.model import LimbModel
@@ -24,6 +24,7 @@ MODES = tuple(name.lower() for name in codes.MODE.names)
 FAULT_BITS = tuple(name.lower() for name in codes.FAULT.names)
 ORIGINS = tuple(name.lower() for name in codes.PARAMETER_ORIGIN.names)
 PLAY_STATES = tuple(name.lower() for name in codes.PLAY.names)
+Same = TypeVar("Same", bound="Node")
 SERIAL_PORTS = {"console": 0, "modbus": 1, "slcan": 2, "modbus_tcp": 3}
 _SLICE_S = 0.001  # of the wall clock, where the limbs run at a speed of their own
 E_URL, E_IN_USE, E_NO_DEVICE, E_NO_CAN, E_DENIED, E_SYSTEM, E_SIZE = range(-1, -8, -1)
@@ -70,10 +71,15 @@ class LimbSetup:
     drive: dict[str, float] = field(default_factory=dict)  # members of brace_node_drive_t, of all joints
 
 
-class LimbState(TypedDict):
+class _LimbInSpace(TypedDict, total=False):
+    """What only a limb with a coxa joint has."""
+
+    space: dict[str, object]  # K in space
+
+
+class LimbState(_LimbInSpace):
     """A tick as the controller reports it; None: K is not valid."""
 
-    space: NotRequired[dict[str, object]]  # K in space, of a limb with a coxa joint
     limb: int  # from 1
     node: int
     sequence: int
@@ -199,7 +205,7 @@ class Node:
             self.native.lib.brace_node_destroy(self._node)
             self._node = self.native.ffi.NULL
 
-    def __enter__(self) -> Self:
+    def __enter__(self: Same) -> Same:
         return self
 
     def __exit__(self, *_: object) -> None:

@@ -269,4 +269,4 @@ def _day(start_s: float) -> str | None:
     """The moment of a clock that counts from 1970; None for one that counts from a start."""
     if start_s < 1e8:
         return None
-    return datetime.datetime.fromtimestamp(start_s, datetime.UTC).strftime("%Y-%m-%d %H:%M:%S UTC")
+    return datetime.datetime.fromtimestamp(start_s, datetime.timezone.utc).strftime("%Y-%m-%d %H:%M:%S UTC")
