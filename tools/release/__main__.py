@@ -5,6 +5,7 @@
     libbrace-dev_V_*.deb                C libraries, headers and man pages for amd64 and arm64
     firmware/                           images with their sums
     brace_core.h, brace_core.c          the core as two files
+    brace-core-V.zip                    the same for PlatformIO, Arduino, ESP-IDF, Zephyr, Conan and CMSIS packs
     brace.dbc, brace_fd.dbc, modbus.csv what is on the wires
     paper-limb.toml, paper-rig.toml     a limb and a rig to begin with
     brace-V-source.tar.gz               the whole repository: examples, firmware, tests
@@ -58,7 +59,7 @@ def main(arguments: list[str] | None = None) -> int:
 
 def make(source: Source, work: Path, dist: Path) -> None:
     """All files, into an emptied folder."""
-    from release import bill_of_materials, debian, images, python_packages, two_files
+    from release import bill_of_materials, debian, images, library, python_packages, two_files
     from release.about import about
 
     if about(source.folder).has_placeholders:
@@ -78,6 +79,7 @@ def make(source: Source, work: Path, dist: Path) -> None:
         shutil.copy(source.folder / "firmware" / "interface" / name, dist)
     for name in TO_BEGIN_WITH:
         shutil.copy(source.folder / "tools" / "brace" / "data" / name, dist)
+    library.write_zip(source.folder, work, dist / f"brace-core-{source.version}.zip", source.epoch_s)
     bill_of_materials.write(source, dist)
     step("source distribution")
     sdist = python_packages.source_distribution(source, work, dist)
