@@ -37,17 +37,17 @@ def add(actions: Subcommands, sensor_sd_n: float) -> None:
     )
     parser.add_argument("stance", type=common.path, metavar="STANCE.toml", help="the stance; `node` of each limb")
     add_bus(parser)
-    parser.add_argument("--seconds", type=common.positive, metavar="S", help="how long; default until Ctrl-C")
-    parser.add_argument("--every", type=common.positive, default=_LINE_S, metavar="S", help="a line; default 1")
+    parser.add_argument("--seconds", type=common.duration, metavar="S", help="how long; default until Ctrl-C")
+    parser.add_argument("--every", type=common.duration, default=_LINE_S, metavar="S", help="a line; default 1")
     parser.add_argument(
         "--alarm",
-        type=common.positive,
+        type=common.positive_force,
         metavar="N",
         help="a foot whose margin is not surely above this is an alarm; default 2 %% of the weight",
     )
     parser.add_argument("--alarm-ends", action="store_true", help="the first alarm ends the command, with exit code 1")
     parser.add_argument(
-        "--measured-sd", type=common.positive, default=sensor_sd_n, metavar="N",
+        "--measured-sd", type=common.positive_force, default=sensor_sd_n, metavar="N",
         help=f"one sigma of a tip sensor's reading; default {sensor_sd_n:g}",
     )  # fmt: skip
     common.add_json(parser)
