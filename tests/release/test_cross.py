@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import json
+import shutil
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 from targets import PROJECT, REFERENCE_K, TARGETS, k_values, output_of
+
+from brace.model import load_limb
+from brace.params import pack
 
 ARM = next(target for target in TARGETS if target.name == "aarch64")
 LIMB = PROJECT / "tools" / "brace" / "data" / "paper-limb.toml"
@@ -69,4 +73,46 @@ def test_the_same_digits(tmp_path: Path) -> None:
     output_of(sys.executable, "-I", PROJECT / "tools/release/two_files.py", "--out", tmp_path)
     make = ("make", "-s", f"CORE={tmp_path}", f"OUT={tmp_path}")
     texts = [output_of(*make, f"run-{name}", cwd=PROJECT / "examples/bare_loop") for name in ("host", "aarch64")]
+    assert texts[0] == texts[1] and k_values(texts[0])
+
+
+BLOCK = r"""#include <stdio.h>
+#include <string.h>
+#include "brace/parameters.h"
+int main(void) {
+    static uint8_t block[4096], again[4096];
+    static brace_parameters_t parameters;
+    const uint32_t length = (uint32_t)fread(block, 1, sizeof block, stdin);
+    uint32_t sequence = 0;
+    if (brace_parameters_unpack(block, length, &parameters, &sequence, NULL) != BRACE_OK) { return 1; }
+    if (brace_parameters_pack(&parameters, sequence, again, sizeof again) != BRACE_OK) { return 2; }
+    printf("%u %g %d\n", (unsigned)sequence, (double)parameters.limb.femur_mm,
+           memcmp(block, again, length) == 0);
+    return 0;
+}
+"""
+
+
+def test_a_big_endian_computer_reads_a_parameter_block(tmp_path: Path) -> None:
+    """An s390x stands for all of them. Its K has the same digits, too."""
+    compiler, emulator = "s390x-linux-gnu-gcc", ("qemu-s390x-static", "-L", "/usr/s390x-linux-gnu")
+    for tool in (compiler, emulator[0]):
+        if shutil.which(tool) is None:
+            pytest.skip(f"no {tool}")
+    interface = PROJECT / "firmware" / "interface"
+    output_of(sys.executable, "-I", PROJECT / "tools/release/two_files.py", "--out", tmp_path)
+    (tmp_path / "block.c").write_text(BLOCK)
+    folders = (interface / "include", interface / "generated", interface / "src", PROJECT / "firmware/core/include")
+    include = [f"-I{folder}" for folder in folders]
+    sources = [*(interface / "src").glob("*.c"), *(interface / "generated").glob("*.c"), tmp_path / "brace_core.c"]
+    output_of(compiler, "-std=c11", "-O1", *include, tmp_path / "block.c", *sources, "-lm", "-o", tmp_path / "block")
+    block = pack(load_limb(LIMB), sequence=7).content
+    done = subprocess.run([*emulator, tmp_path / "block"], input=block, capture_output=True, timeout=60, check=False)
+    assert done.stdout == b"7 185 1\n", done
+    limb = PROJECT / "examples" / "bare_loop"
+    files = (limb / "main.c", limb / "limb.c", tmp_path / "brace_core.c")
+    texts = []
+    for name, before in ((compiler, emulator), ("gcc", ())):
+        output_of(name, "-std=c11", "-O2", f"-I{tmp_path}", f"-I{limb}", *files, "-lm", "-o", tmp_path / name)
+        texts.append(output_of(*before, tmp_path / name))
     assert texts[0] == texts[1] and k_values(texts[0])
