@@ -107,6 +107,20 @@ def test_own_board(tmp_path: Path) -> None:
     assert k_of(lines[-1]) == pytest.approx(REFERENCE_K, abs=2e-5)
 
 
+@pytest.mark.parametrize("flags", [(), ("-fsanitize=thread",)], ids=["plain", "thread sanitizer"])
+def test_rtos(flags: tuple[str, ...], tmp_path: Path) -> None:
+    """K of the limb, and after the change K of one with a knee half as stiff; no data race."""
+    run(sys.executable, PROJECT / "tools" / "release" / "two_files.py", "--out", tmp_path)
+    limb = EXAMPLES / "bare_loop"
+    strict = ("-std=c11", "-O1", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror", "-pthread")
+    files = (EXAMPLES / "rtos" / "main.c", limb / "limb.c", tmp_path / "brace_core.c")
+    run("gcc", *strict, *flags, f"-I{tmp_path}", f"-I{limb}", *files, "-lm", "-o", tmp_path / "rtos")
+    lines = run(tmp_path / "rtos").splitlines()
+    assert k_of(lines[0]) == pytest.approx(REFERENCE_K, abs=2e-5)
+    assert lines[1] == lines[2] and k_of(lines[1])[0] < k_of(lines[0])[0]
+    assert lines[3].startswith("1200 ticks, ")
+
+
 def test_ros2_node(monkeypatch: pytest.MonkeyPatch) -> None:
     """Against a stand-in for rclpy. No test here says that it runs under ROS."""
     heard: list[tuple[str, Any]] = []
