@@ -37,6 +37,7 @@ def add(commands: Subcommands) -> None:
     _add_load(actions)
     _add_lift(actions)
     _add_set(actions)
+    _add_choose(actions)
     stance_watch.add(actions, SENSOR_SD_N)
     parser.set_defaults(run=lambda _arguments: _help(parser))
 
@@ -147,6 +148,30 @@ def _add_set(actions: Subcommands) -> None:
     parser.set_defaults(run=_set)
 
 
+def _add_choose(actions: Subcommands) -> None:
+    parser = actions.add_parser(
+        "choose",
+        help="which of several footholds a limb should take next, and with which knee",
+        description="Tries each foothold of the table with each posture of the limb that reaches it, the other feet "
+        "where they are, and sorts: by the payload at which the first foot moves, by the smallest margin under the "
+        "payload, or by how far the body sags.",
+    )
+    parser.add_argument("stance", type=common.path, metavar="STANCE.toml", help="the stance, its limb at any angles")
+    parser.add_argument("--limb", required=True, metavar="NAME", help="which limb takes a foothold")
+    parser.add_argument(
+        "--footholds",
+        type=common.path,
+        required=True,
+        metavar="CSV",
+        help="foothold,x_mm,y_mm,z_mm in the body's frame; nx,ny,nz, friction, grip_n where they are not the limb's",
+    )
+    parser.add_argument(
+        "--for", dest="aim", choices=("slip", "margin", "sag"), default="slip", help="what is best; default slip"
+    )
+    common.add_json(parser)
+    parser.set_defaults(run=_choose)
+
+
 def _show(arguments: argparse.Namespace) -> int:
     from brace.stance.text import shown
     from brace.stance.view import view
@@ -242,6 +267,25 @@ def _set(arguments: argparse.Namespace) -> int:
         else:
             found = setpoints.largest_margin(stance, arguments.travel, measured)
         return found.as_json() if arguments.json else set_points(found)
+
+    return _answer_or_reason(arguments, ask, arguments.stance)
+
+
+def _choose(arguments: argparse.Namespace) -> int:
+    from brace.stance.choose import choose, load_footholds
+    from brace.stance.text import chosen
+
+    def ask(stance: Stance) -> dict[str, object] | str:
+        names = [limb.name for limb in stance.limbs]
+        if arguments.limb not in names:
+            raise UsageError(
+                f"--limb {arguments.limb!r}",
+                why=f"the stance has {', '.join(names)}",
+                next_step=f"--limb {names[0]!r}, or another of these names",
+            )
+        limb = stance.limbs[names.index(arguments.limb)]
+        found = choose(stance, arguments.limb, load_footholds(arguments.footholds, limb), arguments.aim)
+        return {"choices": [one.as_json() for one in found]} if arguments.json else chosen(found)
 
     return _answer_or_reason(arguments, ask, arguments.stance)
 

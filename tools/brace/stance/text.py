@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from brace.stance.answer import FACTOR_MOST, Answer, FirstSlip, OverloadedError
+from brace.stance.choose import Choice
 from brace.stance.lift import Lifted
 from brace.stance.setpoints import SetPoints
 from brace.stance.view import N_MM_PER_N_M, View
@@ -106,6 +107,23 @@ def set_points(found: SetPoints) -> str:
     moved = " ".join(_two(part) for part in found.displacement_mm)
     lines.append(f"the body is then {moved} mm from where it is without load")
     return "\n".join([*lines, *(f"note: {joint} leaves its travel" for joint in found.beyond)])
+
+
+def chosen(found: Sequence[Choice]) -> str:
+    """`brace stance choose`."""
+    lines = ["the best first; angles to command [rad]"]
+    for one in found:
+        theta = " ".join(f"{part:8.5f}" for part in one.theta_rad)
+        if one.reason:
+            lines.append(f"  {one.foothold:12}  {theta}   no: {one.reason}")
+            continue
+        first = "no foot moves" if one.slip_limb is None else (
+            f"{one.slip_limb} moves first, at {_two(one.payload_factor)} times the payload")  # fmt: skip
+        lines.append(
+            f"  {one.foothold:12}  {theta}   {first}; least margin {_two(one.margin_n)} N at {one.margin_limb}; "
+            f"sag {_two(one.sag_mm)} mm"
+        )
+    return "\n".join(lines)
 
 
 def reason(path: str, error: NoStanceError) -> str:
