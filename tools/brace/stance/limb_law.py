@@ -73,6 +73,7 @@ class LimbLaw:
         self._from_plane, self._turns, self.tip_mm = self.shape.from_plane, self.shape.turns, self.shape.tip_mm
         gaps = np.array([self._model.number(f"joint.{joint}.gap_rad") for joint in JOINTS])
         self._half_rad = np.maximum(0.5 * gaps, 0.0)
+        self._weight_n_mm = self._weight_torques_n_mm()
         self.has_play = bool(np.any(self._half_rad))
         self._loaded = LoadedLimbInSpace(self._model.with_values(_gravity(self._from_plane.T @ down)))
 
@@ -94,11 +95,11 @@ class LimbLaw:
     def torques_n_mm(self, force_n: np.ndarray) -> np.ndarray:
         """What a force of the ground on the tip and the limb's own weight ask of coxa, femur and tibia, in the sense of
         their angles."""
-        return np.asarray(self._turns @ (self._from_plane.T @ force_n) + self._weight_torques_n_mm())
+        return np.asarray(self._turns @ (self._from_plane.T @ force_n) + self._weight_n_mm)
 
     def force_of_torques_n(self, torque_n_mm: np.ndarray) -> np.ndarray:
         """The force of the ground on the tip that goes with the joints' torques, in the body's frame."""
-        return np.asarray(self._from_plane @ np.linalg.solve(self._turns, torque_n_mm - self._weight_torques_n_mm()))
+        return np.asarray(self._from_plane @ np.linalg.solve(self._turns, torque_n_mm - self._weight_n_mm))
 
     def force_by_torque(self) -> np.ndarray:
         """3 x 3: how the ground's force in the body's frame changes with the joints' torques [1/mm]."""
