@@ -193,6 +193,7 @@ OTHER_PROGRAMS = {  # how a command begins, without .venv/bin/: where it runs, o
     "cmake -S firmware/core": "test_cmake_packages.py",
     "cmake -S tools/client": "tests/client/test_package.py",
     "cmake -S tools/stance": "tests/tools/stance/test_stance_alone.py",
+    "python tools/release/library.py": "tests/release/test_library.py",
     "cmake -B build/aarch64": "tests/release/test_cross.py",
     "cmake --build build/aarch64": "tests/release/test_cross.py",
     "cmake --install build/aarch64": "tests/release/test_cross.py",
