@@ -292,7 +292,8 @@ def load_wire(path: Path, codes: Codes) -> Wire:
     wire = Wire(content["protocol"], request_id, answer_id, messages, multiplexed, fd_messages, requests, refusal)
     names = [frame.name for frame in wire.frames]
     if len(set(names)) != len(names):
-        raise DictionaryError("two frames have one name")
+        twice = next(name for place, name in enumerate(names) if name in names[:place])
+        raise DictionaryError(f"{twice}: two frames have this name; give one of them another")
     _refuse_numbers("codes of requests", [(request.code, request.name) for request in requests], 1, CODES)
     _refuse_numbers("numbers of answers", [(frame.command or 0, frame.name) for request in requests
                                            for frame in request.answers], 1, REFUSED)
@@ -423,6 +424,10 @@ def _multiplexed(raw: Mapping[str, Any], codes: Codes) -> Multiplexed:
         several = len(group["part"]) > 1
         called = f"{group['name']}_{place}" if several else group["name"]
         own = _signals(one["signal"], start, called, codes, 8 * size)
+        for signal in own:
+            if signal.name in {other.name for other in common}:
+                raise DictionaryError(f"{called}.{signal.name}: every frame of {name} has a signal of this name already; "
+                                      "leave it out, or give it another name")
         return Frame(
             called, raw["id"], group.get("rate", ""), (*shared, *own),
             group["description"] + (f": frame {place + 1} of {len(group['part'])}" if several else ""), bytes=size,
@@ -435,6 +440,10 @@ def _multiplexed(raw: Mapping[str, Any], codes: Codes) -> Multiplexed:
               tuple(part(group, place, one) for place, one in enumerate(group["part"])))
         for group in raw["group"]
     )
+    names = [group.name for group in groups]
+    for place, group_name in enumerate(names):
+        if group_name in names[:place]:
+            raise DictionaryError(f"{group_name}: two groups of {name} have this name; give one of them another")
     return Multiplexed(name, raw["id"], size, raw["description"], common, groups)
 
 

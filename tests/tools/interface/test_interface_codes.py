@@ -125,6 +125,9 @@ def test_a_code_that_is_not_there_is_refused(tmp_path: Path) -> None:
     [
         ('name = "part"\nbits = 8', 'name = "part"\nbits = 2', "0 to 3"),
         ('name = "part"\nbits = 8', 'name = "place"\nbits = 8', "one signal named 'part'"),
+        ('name = "play_coxa"\nbits = 4', 'name = "sequence"\nbits = 4', "sequence: every frame of details has a signal"),
+        ('name = "load_across"', 'name = "load"', "load: two groups of details have this name"),
+        ('name = "stiffness_b"', 'name = "stiffness_a"', "stiffness_a: two frames have this name"),
         ("number = 17", "number = 16", "space_1: 16 is that of space_0; .*the first that is free is 1"),
         ("number = 16", "number = 256", "space_0: 256 does not fit"),
         ('name = "k_xz"\nfrom', 'name = "k_xx"\nfrom', "space_1.k_xx: the database calls it space_k_xx"),
