@@ -91,6 +91,35 @@ def test_c_client(sim: Ports, tmp_path: Path) -> None:
     assert k_of(lines[-1]) == pytest.approx(REFERENCE_K, abs=PRINTED_N_PER_MM)
 
 
+def test_stance_cpp(tmp_path: Path) -> None:
+    """K is alike in all directions and the feet are at the body's height, so all forces are vertical, and the lever
+    rule holds: 30 N in the middle, 10 N half-way to the rear feet, so 17.5 N on the front pair and 20 N on each side.
+    The rear left foot cannot leave: the load is then outside the triangle of the others."""
+    library = PROJECT / "build" / "host" / "tools" / "stance" / "libbrace_stance.a"
+    if not library.is_file():
+        pytest.skip("no build/host/tools/stance; ./dev setup makes it")
+    prefix = tmp_path / "prefix"  # laid out as `cmake --install` of tools/stance lays it out
+    (prefix / "lib").mkdir(parents=True)
+    shutil.copy(library, prefix / "lib")
+    shutil.copytree(PROJECT / "tools" / "stance" / "include", prefix / "include")
+    source, build = EXAMPLES / "stance_cpp", tmp_path / "build"
+    strict = "-DCMAKE_CXX_FLAGS=-Wall -Wextra -Wpedantic -Wconversion -Werror"
+    run("cmake", "-G", "Ninja", "-S", source, "-B", build, f"-DCMAKE_PREFIX_PATH={prefix}", strict)
+    run("cmake", "--build", build)
+    lines = run(build / "who_carries").splitlines()
+    forces = [[float(word) for word in line.split("force ")[1].split()[:3]] for line in lines if "force " in line]
+    margins = [float(line.split("margin ")[1].split()[0]) for line in lines if "margin " in line]
+    expected_n = (7.5,) * 4 + (8.75, 8.75, 11.25, 11.25) + (0.0, 17.5, 20.0, 2.5)
+    printed_n = 0.0005 + 1e-6  # half the last digit
+    assert len(forces) == len(expected_n)
+    for force, vertical in zip(forces, expected_n, strict=True):
+        assert force == pytest.approx((0.0, 0.0, vertical), abs=printed_n)
+    friction = (0.6, 0.5, 0.6, 0.6) * 3
+    assert margins == pytest.approx([mu * n for mu, n in zip(friction, expected_n, strict=True)], abs=printed_n)
+    assert lines[8] == "first to move: front right, at a pull of 17.500 N"  # 4 feet x 0.5 x 8.75 N
+    assert lines[-1].startswith("rear left: the limbs cannot bear this")
+
+
 def test_own_board(tmp_path: Path) -> None:
     if shutil.which("qemu-system-arm") is None:
         pytest.skip("no qemu-system-arm")
