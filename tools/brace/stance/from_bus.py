@@ -24,6 +24,7 @@ _MIXED_FLAGS = ("GAP_OPEN", "OUT_OF_RANGE", "MOVED_FAR")
 _FOLLOWS = 0.05  # how much a reading counts for the noise: some twenty readings are remembered
 _JUMP = 9.0  # a difference beyond three sigma is a load that came, and counts as three sigma
 _UNKNOWN_SPREAD_N = 2.0
+_INTERVAL_WITHIN_S = 1.0  # it comes beside the load; what the first forces hide stays in every later answer
 _ACROSS_UNKNOWN_N = 1e3  # one sigma of a force's component that no sensor measures
 
 
@@ -46,6 +47,7 @@ class BusReader:
         self._laws = [LimbLaw(limb, stance.down) for limb in stance.limbs]
         self._shapes: list[tuple[tuple[float, ...], Shape]] = [((), law.shape) for law in self._laws]
         self._loads_s = [-np.inf] * len(stance.limbs)
+        self._first_loads_s = [np.inf] * len(stance.limbs)
         self._noises = [_Noise(sensor_sd_n**2) for _ in stance.limbs]
 
     def read(self, nodes: Mapping[int, NodeState], now_s: float) -> list[LimbNews]:
@@ -98,6 +100,9 @@ class BusReader:
         if sent is None or sent.load is None or not sent.load.is_counted:
             return none
         if sent.time_s <= self._loads_s[i] or now_s - sent.time_s > USED_S:
+            return none
+        self._first_loads_s[i] = min(self._first_loads_s[i], now_s)
+        if state.interval is None and now_s - self._first_loads_s[i] < _INTERVAL_WITHIN_S:
             return none
         self._loads_s[i] = sent.time_s
         force, is_known = _components(sent.load)
