@@ -210,7 +210,8 @@ def test_joints_that_rub_need_links_that_yield(brace: Callable[..., Outcome], st
 
 def test_a_body_costs_less_than_its_limbs_do() -> None:
     """At rest, in one run, in turn, each the best of many short parts. A seventh more on an idle core; two thirds more
-    were seen where another program shares the core and its caches. A body that does not rest costs several times more."""
+    were seen where another program shares the core and its caches. A body that does not rest costs several times
+    more."""
     stance = SimulatedStance(believed := load_stance(EXAMPLE / "stance.toml"), believed)
     drive = {"servo_n_mm_per_rad": SERVO_N_MM_PER_RAD}
     setups = [LimbSetup(limb.believed, limb.plant, theta_rad=limb.theta_rad, drive=drive) for limb in stance.limbs]
