@@ -199,3 +199,9 @@ def test_fewer_sensors_widen_the_answer(lost: set[int]) -> None:
     full.run(40), fewer.run(40)
     wide, narrow = (robot.observer.estimate().force_sigma_n for robot in (fewer, full))
     assert all(wide[i].max() > narrow[i].max() for i in lost)
+
+
+def test_a_foot_that_bears_is_on_the_ground_however_unsure_its_sensor() -> None:
+    robot = Robot(4)
+    robot.hidden_n2 = 4.0 * np.eye(3)  # three sigmas are more than the foot bears
+    assert "lifted" not in [event.kind for event in robot.run(40)]

@@ -27,6 +27,7 @@ _FOOT_WANDERS_MM_PER_SQRT_S = 0.002
 _FOOT_JUMPS_MM = 3.0  # a slip, or a step
 _LEVER_MM = 200.0  # where a payload may pull, from the body's origin
 _OFF_GROUND_SIGMAS = 3.0
+_NOTHING_SHARE = 0.2  # of what a foot has borne; however unsure its sensor, more is something
 _ON_GROUND_SIGMAS = 6.0
 _HIDES_ANEW_S = 2.0  # what friction hides creeps
 _TOUCHES = 5  # readings whose mean says whether a foot bears
@@ -140,6 +141,7 @@ class Observer:
         self._p = np.zeros((self._size, self._size))
         self._is_down = [True] * n
         self._way_mm = np.zeros((n, 3))  # how far each tip was moved since its force was last known from elsewhere
+        self._borne_n = [0.0] * n  # the most since it came down
         self._last_n: list[deque[np.ndarray]] = [deque(maxlen=_TOUCHES) for _ in range(n)]
         self._recent: deque[_Miss] = deque(maxlen=_RECENT)
         self._event: Event | None = None
@@ -359,7 +361,9 @@ class Observer:
             sigma = float(np.sqrt(np.trace(reading.noise_n2) / count + np.trace(reading.hidden_n2)))
             size = float(np.linalg.norm(np.mean(self._last_n[i], axis=0)))
             before = forces[3 * i : 3 * i + 3].copy()
-            leaves = self._is_down[i] and size < _OFF_GROUND_SIGMAS * sigma
+            self._borne_n[i] = max(self._borne_n[i], size) if self._is_down[i] else size
+            nothing_n = min(_OFF_GROUND_SIGMAS * sigma, _NOTHING_SHARE * self._borne_n[i])
+            leaves = self._is_down[i] and size < nothing_n
             lands = not self._is_down[i] and size > _ON_GROUND_SIGMAS * sigma
             if count < _TOUCHES or not (leaves or lands) or (leaves and sum(self._is_down) <= 1):
                 continue

@@ -17,6 +17,7 @@ from brace.stance.statics import Slip
 from brace.stance.world import believed, place_covariance_mm2
 
 _ALARM_SHARE = 0.02  # of the weight
+_ALARM_ENDS = 1.5  # times its level, so that a margin at the level is one alarm and not many
 _ALARM_EVERY_S = 0.05
 _WHOLE_WITHIN_S = 1.0
 _FACTOR_MOST = 1000.0
@@ -161,7 +162,8 @@ class Watching:
     def _sound(self, observer: Observer, now_s: float) -> None:
         """An alarm that begins is an event."""
         margin_n, sigma_n = observer.margins()
-        low = margin_n - NINETY * sigma_n < self._alarm_n
+        ends = [_ALARM_ENDS if limb.name in self.alarms else 1.0 for limb in self._stance.limbs]
+        low = margin_n - NINETY * sigma_n < self._alarm_n * np.array(ends)
         alarms = tuple(limb.name for limb, is_low in zip(self._stance.limbs, low, strict=True) if is_low)
         self._events += [Event(now_s, "alarm", name, np.zeros(3)) for name in alarms if name not in self.alarms]
         self.alarms = alarms
