@@ -38,7 +38,7 @@ typedef struct {
 } brace_robot_t;
 
 /* Makes limbs and body, lets the weight come in a straight line from nothing while the footholds go from the unloaded
- * tips to where they are, and starts the controllers on the standing robot. The payload is not there yet.
+ * tips to where they are, and starts the controllers on the standing robot. The payload does not act yet.
  *   limbs, count: 1 to BRACE_ROBOT_LIMBS; the rest is as for brace_node_create */
 brace_node_t *brace_robot_create(const brace_node_limb_t *limbs, int32_t count, const brace_robot_t *robot,
                                  const char *can, uint64_t seed, brace_node_failure_t *failure);

@@ -124,7 +124,7 @@ Matrix3d turned(const brace_robot_truth_t &truth)
     return Eigen::AngleAxisd(rotation.norm(), rotation.normalized()).toRotationMatrix();
 }
 
-// The forces of the ground, of the body's weight and of the payload balance; weights of limbs are not there.
+// The forces of the ground, of the body's weight and of the payload balance. These limbs weigh nothing.
 void balanced(const Stance &stance, const brace_robot_truth_t &truth)
 {
     const Matrix3d turn = turned(truth);
@@ -228,7 +228,7 @@ void test_the_rest_of_feet_that_stick_has_no_pace(void)
     }
 }
 
-// Joints whose own friction holds them make limbs many times as stiff: the body finds its rest all the same.
+// A joint that its own friction holds makes its limb many times stiffer. The body must come to rest all the same.
 void test_joints_that_rub_do_not_shake_the_body(void)
 {
     for (const double link_mm_per_n : {0.05, 0.005}) {

@@ -29,9 +29,10 @@ def add(actions: Subcommands, sensor_sd_n: float) -> None:
         "watch",
         help="what each foot bears now, from the bus: forces, margins, events, alarms",
         description="Listens to the controllers of all limbs. Measured forces say what each foot bears, each limb's K "
-        "how that changes; what is carried, a foot that moves, a lift and a landing are events. The controllers send "
-        "their forces where controller.load_hz is above 0 (brace params set), 100 for every hundredth of a second. A "
-        "line a second, or with --json an object each --every seconds and one for each event.",
+        "how that changes; what is carried, a foot that moves, a lift and a landing are events. A controller sends its "
+        "forces only if load_hz is above 0: write load_hz = 50 under [controller] in limb.toml and send the file with "
+        "brace params push. Prints a line for each foot each second, with --json one object every --every seconds; an "
+        "event is printed at once.",
         epilog="Exit codes: 0 done, 1 with --alarm-ends: an alarm, 2 usage, 3 bad file, 4 a limb is not heard, 5 the "
         "limbs do not hold the body, 6 another dictionary, 130 Ctrl-C.",
     )
@@ -131,9 +132,9 @@ def _periods(bus: Bus) -> Iterator[tuple[list[Frame], float]]:
 def _unheard(bus: Bus, watching: Watching) -> Exception:
     missing = ", ".join(watching.missing())
     return NoDeviceError(
-        f"no answer to begin with: {missing}",
+        f"nothing heard from {missing}",
         where=bus.url,
-        why="every limb of the stance must be heard once, with its posture",
+        why="brace stance watch begins when the controller of each limb has sent its K",
         next_step="check each limb's `node` in stance.toml; brace monitor shows who is heard",
     )
 

@@ -24,7 +24,7 @@ FIT_REL, MANUAL_REL = 0.15, 0.4
 _STEPS_OF_GAIN, _WHOLE_SUPPLY = 128.0, 885.0
 _GAIN_MOST = 16383
 _SUPPLY = (0.75, 1.3)  # of the recommended one
-# What limb.toml is told of the friction of a servo that nobody measured: between those of the two that were.
+# Nobody has measured the friction of this servo: limb.toml gets a value between those of the two that were measured.
 GUESSED_FRICTION = {
     "friction_per_torque_ratio": 0.45,
     "friction_per_load_ratio": 0.10,

@@ -66,7 +66,7 @@ class Event:
     time_s: float
     kind: str
     limb: str | None
-    change_n: np.ndarray  # of what is carried, or of the foot's force
+    change_n: np.ndarray  # load: the force carried beyond the weight; moved: the foot's force now; else its change
 
 
 @dataclass(frozen=True)
@@ -406,7 +406,7 @@ class Observer:
         return np.asarray(pose), np.asarray(law.pose_of_feet @ (feet - by_way))
 
     def next_slip(self, further: Force, most: float) -> Slip:
-        """The first foot that moves when this load is added to what there is."""
+        """The first foot that moves when this load is added, up to `most` times, to all that the body carries now."""
         law, force = self._law, self._springs()
         law.statics.set_springs([Spring(k, moved, ()) for k, moved in zip(law.k, force[1], strict=True)], force[0])
         state = law.statics.place((self._x[self._feet].reshape(-1, 3) - law.tip_mm))

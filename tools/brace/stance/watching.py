@@ -151,7 +151,8 @@ class Watching:
         return True
 
     def _to_begin_with(self, now_s: float) -> list[Reading] | None:
-        """A reading of each limb: whole ones, or after a second what there is. None: not yet."""
+        """The readings with which the observer begins, one of each limb. It waits up to a second for K, angles and
+        forces of all limbs, then takes what has come. None: it still waits."""
         first = [reading for reading in self._newest if reading is not None]
         if len(first) < len(self._stance.limbs):
             return None
@@ -197,7 +198,7 @@ def event_json(event: Event) -> dict[str, object]:
 def event_line(event: Event) -> str:
     """For people."""
     if event.kind == "alarm":
-        return f"ALARM {event.limb}: {_EVENT_WORDS['alarm']}, its margin is not surely enough"
+        return f"ALARM {event.limb}: it {_EVENT_WORDS['alarm']}: its margin may be below the level of --alarm"
     x, y, z = event.change_n
     who = "" if event.limb is None else f"{event.limb}: "
     what = "carries" if event.kind == "load" else "force" if event.kind == "moved" else "change"
