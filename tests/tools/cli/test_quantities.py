@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 from command_bench import LIMB, Outcome
 
+from brace.cli.bus_options import bit_rate
 from brace.cli.command_line import build_parser
 from brace.cli.options import Quantity, RefusedValue
 from brace.ground.units import OWN, UNITS
@@ -124,3 +125,15 @@ def test_a_plan_in_units(brace: Brace, tmp_path: Path) -> None:
 def test_what_lacks_is_completed(brace: Brace, line: tuple[str, ...], completed: str) -> None:
     done = brace(*line)
     assert done.code == 2 and completed in done.err and "--help" not in done.err
+
+
+@pytest.mark.parametrize("text", ["500000", "500k", "500K", "500kbit/s", "500 kbps", "0.5M", "0.5Mbit/s", "5e5"])
+def test_a_bit_rate_in_its_units(text: str) -> None:
+    assert bit_rate(text) == 500000
+
+
+@pytest.mark.parametrize("text", ["500", "2M", "fast", "500kHz", "-1k", "nan", ""])
+def test_a_bit_rate_that_is_none_is_refused(text: str) -> None:
+    with pytest.raises(RefusedValue) as caught:
+        bit_rate(text)
+    assert "OPTION 500k" in caught.value.way

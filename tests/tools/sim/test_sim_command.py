@@ -21,6 +21,7 @@ from command_bench import FREE, Outcome, running, spawn
 
 from brace.cli import sim_command, sim_values
 from brace.cli.bus_options import ended_by_signal
+from brace.cli.options import RefusedValue
 from brace.model import load_limb
 
 LOOPBACK = "127.0.0.1"
@@ -227,6 +228,29 @@ def test_fault_specs() -> None:
     assert (offset.limb, offset.joint, offset.value, offset.at_s) == (2, 2, -500.0, 0.1)
     assert sim_values.fault("bus_off:2@1").limb == 1
     assert sim_values.fault("tick_late").value == 5.0
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        ("current_offset:femur=0.5Nm@2", 500.0),
+        ("current_offset:femur=500N mm", 500.0),
+        ("force_offset=1.5N@2+1", 1.5),
+        ("force_offset=-1kgf", -9.80665),
+        ("tick_late=3@1", 3.0),  # ms
+        ("tick_late=3ms", 3.0),
+        ("tick_late=0.002s", 2.0),
+    ],
+)
+def test_a_faults_value_may_have_a_unit(text: str, value: float) -> None:
+    assert sim_values.fault(text).value == pytest.approx(value, rel=1e-12)
+
+
+@pytest.mark.parametrize("text", ["force_offset=2mm", "current_offset:femur=3N", "tick_late=3N", "tick_late=-3ms"])
+def test_a_faults_value_in_a_wrong_unit_is_refused(text: str) -> None:
+    with pytest.raises(RefusedValue) as caught:
+        sim_values.fault(text)
+    assert "wanted" in caught.value.why
 
 
 def test_the_plant_may_differ_from_the_model(

@@ -205,3 +205,35 @@ def test_a_foot_that_bears_is_on_the_ground_however_unsure_its_sensor() -> None:
     robot = Robot(4)
     robot.hidden_n2 = 4.0 * np.eye(3)  # three sigmas are more than the foot bears
     assert "lifted" not in [event.kind for event in robot.run(40)]
+
+
+def test_an_interval_that_comes_after_the_first_forces_is_used() -> None:
+    late, begun_with = Robot(8, hidden_n=0.2), Robot(8, hidden_n=0.2)
+    late.hidden_n2 = 4.0 * np.eye(3)
+    late.observer = Observer(STANCE, MIDDLE.weight, [place_covariance_mm2(limb, law) for limb, law in zip(
+        STANCE.limbs, MIDDLE.laws, strict=True)], late.readings(), 0.0)  # fmt: skip
+    late.run(100)
+    assert late.observer.estimate().force_sigma_n.max() > 0.5
+    late.hidden_n2 = begun_with.hidden_n2
+    late.run(1), begun_with.run(101)
+    ratio = late.observer.estimate().force_sigma_n / begun_with.observer.estimate().force_sigma_n
+    assert 0.9 < ratio.min() and ratio.max() < 1.3
+    late.run(100)
+    assert np.mean(late.covered()) > 0.6
+
+
+@pytest.mark.parametrize("first", [{0, 1}, {2, 3}, {0}])
+def test_limbs_that_send_one_change_at_different_moments_are_no_foot_that_moves(first: set[int]) -> None:
+    robot = Robot(3, hidden_n=0.1)
+    robot.run(50)
+    before, after = robot.force_n.copy(), robot.under(1.0)
+    events = []
+    for share in (0.3, 0.6, 0.9, 1.0):
+        for earlier in (True, False):
+            for i in range(4):
+                if earlier == (i in first):
+                    robot.force_n = robot.force_n.copy()
+                    robot.force_n[i] = before[i] + share * (after[i] - before[i])
+            events += robot.run(1)
+    events += robot.run(50)
+    assert [event.kind for event in events] == ["load"]

@@ -11,11 +11,29 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from brace.cli import common
+from brace.cli.options import refused
+from brace.ground.units import amount
 
 if TYPE_CHECKING:
     from brace.bus.controller import Controller
     from brace.bus.session import Session
     from brace.bus.url import BusUrl
+
+_KILO = {"": 1, "bit/s": 1, "bps": 1, "k": 1000, "kbit/s": 1000, "kbps": 1000, "kbit": 1000, "m": 1000000,
+         "mbit/s": 1000000, "mbps": 1000000, "mbit": 1000000}  # fmt: skip
+_LEAST_BPS, _MOST_BPS = 10000, 1000000
+
+
+def bit_rate(text: str) -> int:
+    """500000, 500k, 500kbit/s or 1M, in bit/s."""
+    found = amount(text)
+    factor = None if found is None else _KILO.get(found[1].lower())
+    if found is None or factor is None:
+        raise refused(f"{text[:40]!r} is no bit rate", "a number is wanted, in bit/s, k or M", "OPTION 500k")
+    rate = round(found[0] * factor)
+    if not _LEAST_BPS <= rate <= _MOST_BPS:
+        raise refused(f"{text} is {rate} bit/s, out of range", "CAN through SLCAN has 10k to 1M", "OPTION 500k")
+    return rate
 
 
 def add_bus(parser: argparse.ArgumentParser, required: bool = True) -> None:
@@ -41,10 +59,10 @@ def add_bus(parser: argparse.ArgumentParser, required: bool = True) -> None:
     )
     parser.add_argument(
         "--bit-rate",
-        type=common.count(10000, 1000000),
+        type=bit_rate,
         default=1000000,
         metavar="BPS",
-        help="of CAN through SLCAN; default 1000000. A SocketCAN interface has its own",
+        help="of CAN through SLCAN, e.g. 500k; default 1000000. A SocketCAN interface has its own",
     )
 
 

@@ -6,7 +6,7 @@ import argparse
 import time
 
 from brace.cli import common
-from brace.cli.bus_options import ended_by_signal
+from brace.cli.bus_options import bit_rate, ended_by_signal
 from brace.cli.options import Subcommands
 from brace.cli.subcommands import SUBCOMMANDS
 
@@ -24,9 +24,7 @@ def add(commands: Subcommands) -> None:
     )
     parser.add_argument("file", type=common.path, metavar="FILE", help=".log (candump -L) or .mcap")
     parser.add_argument("--bus", metavar="URL", help="can0, slcan:DEVICE or tcp://HOST:PORT to send to")
-    parser.add_argument(
-        "--bit-rate", type=common.count(10000, 1000000), default=1000000, metavar="BPS", help="of SLCAN"
-    )
+    parser.add_argument("--bit-rate", type=bit_rate, default=1000000, metavar="BPS", help="of SLCAN, e.g. 500k")
     parser.add_argument("--node", type=common.count(1, 127), metavar="N", help="only this node's frames")
     parser.add_argument(
         "--speed", type=common.positive_ratio, default=1.0, metavar="F", help="with --bus: times faster; default 1"

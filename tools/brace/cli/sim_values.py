@@ -6,14 +6,16 @@ from __future__ import annotations
 import math
 import re
 
-from brace.cli.options import angle, flexion, length, moment, number, ratio, refused, stiffness
+from brace.cli.options import Quantity, angle, flexion, force, length, moment, number, ratio, refused, stiffness
 from brace.ground.errors import did_you_mean
+from brace.ground.units import amount
 from brace.sim.spec import FAULTS, JOINTS, Fault, Lift, Move, Payload, Posture
 
 _FAULT = re.compile(
     r"(?P<name>[a-z_]+)(?::(?P<where>[^=@]*))?(?:=(?P<value>[^@]*))?(?:@(?P<at>[^+]*)(?:\+(?P<time>.*))?)?"
 )
 _FAULT_FORM = "NAME[:[LIMB.]JOINT][=VALUE][@SECONDS[+DURATION]]"
+_torque, _lateness = Quantity("torque", "500Nmm"), Quantity("time", "5ms", least=0.0)
 
 
 def fault(text: str) -> Fault:
@@ -34,12 +36,23 @@ def fault(text: str) -> Fault:
     if found["value"] is not None:
         if not unit:
             raise refused(f"{text!r} has a value", f"{name} takes none", f"OPTION {name}")
-        value = number(found["value"])
+        value = _value(found["value"], unit)
     if value is None:
-        raise refused(f"{text!r} has no value", f"{name} needs one, in {unit}", f"OPTION {name}:femur=500@2+1")
+        example = f"{name}:femur=500@2+1" if of_joint else f"{name}=2@2+1"
+        raise refused(f"{text!r} has no value", f"{name} needs one, in {unit}", f"OPTION {example}")
     at_s = moment(found["at"]) if found["at"] is not None else 0.0
     for_s = moment(found["time"]) if found["time"] is not None else math.inf
     return Fault(tuple(FAULTS).index(name), limb, joint, value, at_s, for_s)
+
+
+def _value(text: str, unit: str) -> float:
+    """In the unit that the fault has, where the text names none."""
+    if unit == "N mm":
+        return _torque(text)
+    if unit == "N":
+        return force(text)
+    found = amount(text)
+    return 1e3 * _lateness(text) if found is not None and found[1] else number(text)  # ms
 
 
 def _where(name: str, text: str | None, of_joint: bool) -> tuple[int | None, int]:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 
 import numpy as np
@@ -30,6 +30,7 @@ _OFF_GROUND_SIGMAS = 3.0
 _NOTHING_SHARE = 0.2  # of what a foot has borne; however unsure its sensor, more is something
 _ON_GROUND_SIGMAS = 6.0
 _HIDES_ANEW_S = 2.0  # what friction hides creeps
+_BETTER_KNOWN = 0.8  # of the variance that was believed: what friction hides is known better now
 _TOUCHES = 5  # readings whose mean says whether a foot bears
 _NEW_LAW_S = 0.1
 _LOG_ODDS_SLIP = -3.0  # of a foot that may slide, against a load that changes
@@ -37,6 +38,8 @@ _LOG_ODDS_GIVES_WAY = -12.0  # of a foot whose force is well inside its cone
 _LOG_ODDS_BOTH = -5.0  # of a load beside it
 _MAY_SLIDE_SIGMAS = 3.0
 _QUIET_S = 0.5  # changes that follow one another within this are one event
+_SETTLES_S = 0.15  # limbs send one change at different moments of it, which looks like a foot that moves
+_AGREED_S = 0.1  # after it: what they then measure says what has changed
 
 
 @dataclass(frozen=True)
@@ -138,6 +141,7 @@ class Observer:
         self._size = 7 * n + 6 if self._has_hidden else 3 * n + 6
         self._x = np.zeros(self._size)
         self._x[self._scale] = 1.0
+        self._hidden_n2 = [reading.hidden_n2 for reading in readings]  # as it is believed
         self._p = np.zeros((self._size, self._size))
         self._is_down = [True] * n
         self._way_mm = np.zeros((n, 3))  # how far each tip was moved since its force was last known from elsewhere
@@ -146,7 +150,7 @@ class Observer:
         self._recent: deque[_Miss] = deque(maxlen=_RECENT)
         self._event: Event | None = None
         self._event_until_s = -np.inf
-        self._force_at_event: np.ndarray | None = None
+        self._change: _Change | None = None
         _surprise(3)  # loads what it needs before readings wait
         self._start(places_mm2, readings, time_s)
 
@@ -168,7 +172,7 @@ class Observer:
         self._law = self._new_law(tips, k, force, moved)
         self._scaled_n = force.ravel()
         self._first_pose: np.ndarray | None = None
-        self._measure(readings, may_explain=False)
+        self._measure(readings, None)
         self._first_pose = self._pose()[0]
 
     def _load_sd(self, share: float) -> np.ndarray:
@@ -185,12 +189,18 @@ class Observer:
         feet = np.arange(3 * self._n)
         self._p[feet, feet] += _FOOT_WANDERS_MM_PER_SQRT_S**2 * elapsed_s
         for i, reading in enumerate(readings):
+            self._know_better(i, reading)
             self._hide_anew(i, reading, elapsed_s / _HIDES_ANEW_S)
         events = self._steps(readings, time_s)
-        explained = self._measure(readings, may_explain=True)
-        if explained is not None:
-            event = self._happened(explained, time_s)
-            events += [event] if event else []
+        before = self._x.copy(), self._p.copy()
+        cause = self._measure(readings, _UNLIKELY)
+        if cause is not None and self._change is None:
+            self._change = _Change(time_s, *before, [[] for _ in readings])
+        if events:  # a foot that leaves or comes is what has changed
+            self._change = None
+        if self._change is not None:
+            self._change.take(readings, time_s)
+            events += self._settled(self._change)
         return events
 
     # -- the law -----------------------------------------------------------------------------------------------------
@@ -237,6 +247,22 @@ class Observer:
                 self._hide_anew(i, reading, float(np.abs(force[i] - law.spring_force_n[i]).max()) / band_n)
         self._law, self._law_s = self._new_law(tips, k, force, moved), time_s
 
+    def _know_better(self, i: int, reading: Reading | None) -> None:
+        """A controller's interval may come after its first forces, whose sensor was then believed to hide more. What
+        is learnt of it is a measurement: the zero is 0, with the variance that leads from the old belief to the new."""
+        if not self._has_hidden or reading is None or reading.force_n is None:
+            return
+        before, now = self._hidden_n2[i], reading.hidden_n2
+        if np.trace(now) >= _BETTER_KNOWN * np.trace(before):
+            return
+        self._hidden_n2[i] = now
+        nothing = 1e-9 * np.trace(before) * np.eye(3)  # a sensor may hide nothing
+        learnt, axes = np.linalg.eigh(np.linalg.inv(now + nothing) - np.linalg.inv(before + nothing))
+        is_learnt = learnt > 1e-6 / np.trace(before)
+        h = np.zeros((int(is_learnt.sum()), self._size))
+        h[:, self._zero.start + 3 * i : self._zero.start + 3 * i + 3] = axes[:, is_learnt].T
+        self._weigh(h, -h @ self._x, np.diag(1.0 / learnt[is_learnt]))
+
     def _hide_anew(self, i: int, reading: Reading | None, share: float) -> None:
         """Friction hides something else when the load goes the other way: its share of what may be hidden."""
         if self._has_hidden and reading is not None:
@@ -266,8 +292,9 @@ class Observer:
 
     # -- the filter --------------------------------------------------------------------------------------------------
 
-    def _measure(self, readings: Sequence[Reading | None], may_explain: bool) -> _Cause | None:
-        """Weighs what was measured. Returns what has to have happened, if the state alone does not explain it."""
+    def _measure(self, readings: Sequence[Reading | None], unlikely: float | None) -> _Cause | None:
+        """Weighs what was measured. Returns what has to have happened, where the state explains it with less than this
+        probability (None: never)."""
         limbs = [i for i, r in enumerate(readings) if r is not None and r.force_n is not None and self._is_down[i]]
         if not limbs:
             return None
@@ -286,35 +313,42 @@ class Observer:
         noise = np.zeros((rows.size, rows.size))
         for at, i in enumerate(limbs):
             noise[3 * at : 3 * at + 3, 3 * at : 3 * at + 3] = readings[i].noise_n2  # type: ignore[union-attr]
-        ph = self._p @ h.T
-        spread = h @ ph + noise
-        cause = self._surprised(limbs, wrong, spread, noise, h) if may_explain else None
+        spread = h @ self._p @ h.T + noise
+        cause = None if unlikely is None else self._surprised(limbs, wrong, spread, noise, h, unlikely)
         if cause is not None:
             self._scaled_n = forces
             for i in limbs:
                 self._hide_anew(i, readings[i], 1.0)
             self._recent.clear()
             self._p += np.diag(cause.variance)
-            ph = self._p @ h.T
-            spread = h @ ph + noise
-        gain = np.linalg.solve(spread, ph.T).T
+        self._weigh(h, wrong, noise)
+        return cause
+
+    def _weigh(self, h: np.ndarray, wrong: np.ndarray, noise: np.ndarray) -> None:
+        ph = self._p @ h.T
+        gain = np.linalg.solve(h @ ph + noise, ph.T).T
         self._x += gain @ wrong
         self._p -= gain @ ph.T
         self._p = 0.5 * (self._p + self._p.T)
-        return cause
 
     def _surprised(
-        self, limbs: list[int], wrong: np.ndarray, spread: np.ndarray, noise: np.ndarray, h: np.ndarray
+        self,
+        limbs: list[int],
+        wrong: np.ndarray,
+        spread: np.ndarray,
+        noise: np.ndarray,
+        h: np.ndarray,
+        unlikely: float,
     ) -> _Cause | None:
         """What has to have happened where this reading, or the last ones together, are too unlikely."""
         if self._recent and self._recent[-1].limbs != limbs:
             self._recent.clear()
         unlike = float(wrong @ np.linalg.solve(spread, wrong))
         self._recent.append(_Miss(limbs, wrong, unlike))
-        if unlike > _surprise(wrong.size):
+        if unlike > _surprise(wrong.size, unlikely):
             return self._explain(wrong, spread, h)
         count = len(self._recent)
-        if count < _RECENT or sum(miss.unlike for miss in self._recent) <= _surprise(count * wrong.size):
+        if count < _RECENT or sum(miss.unlike for miss in self._recent) <= _surprise(count * wrong.size, unlikely):
             return None
         mean = np.mean([miss.wrong for miss in self._recent], axis=0)
         return self._explain(mean, spread - noise * (1.0 - 1.0 / count), h)
@@ -335,6 +369,18 @@ class Observer:
         )
 
     # -- events ------------------------------------------------------------------------------------------------------
+
+    def _settled(self, change: _Change) -> list[Event]:
+        """What has changed, as soon as the limbs agree: judged by the state before, which then goes on from there."""
+        means = change.means()
+        if self._time_s < change.began_s + _SETTLES_S + _AGREED_S or not any(means):
+            return []
+        self._change = None
+        self._x, self._p = change.x, change.p
+        self._recent.clear()
+        cause = self._measure(means, 1.0)
+        event = None if cause is None else self._happened(cause, change.began_s)
+        return [] if event is None else [event]
 
     def _happened(self, cause: _Cause, time_s: float) -> Event | None:
         """Changes that follow one another are one event."""
@@ -468,6 +514,36 @@ class _Miss:
 
 
 @dataclass(frozen=True)
+class _Change:
+    """Something that begins to change: the state before, and what the limbs measure when it has settled."""
+
+    began_s: float
+    x: np.ndarray
+    p: np.ndarray
+    after: list[list[Reading]]  # a row a limb
+
+    def take(self, readings: Sequence[Reading | None], time_s: float) -> None:
+        if time_s < self.began_s + _SETTLES_S:
+            return
+        for one, reading in zip(self.after, readings, strict=True):
+            if reading is not None and reading.force_n is not None:
+                one.append(reading)
+
+    def means(self) -> list[Reading | None]:
+        """A limb each; None: it has measured nothing."""
+        return [
+            replace(
+                one[-1],
+                force_n=np.mean([r.force_n for r in one if r.force_n is not None], axis=0),
+                noise_n2=np.mean([reading.noise_n2 for reading in one], axis=0) / len(one),
+            )
+            if one
+            else None
+            for one in self.after
+        ]
+
+
+@dataclass(frozen=True)
 class _Cause:
     """What may have happened: the limb whose foot has moved, or None; how the state's variance grows; how often."""
 
@@ -481,10 +557,10 @@ def _log_likelihood(wrong: np.ndarray, spread: np.ndarray) -> float:
 
 
 @cache
-def _surprise(degrees: int) -> float:
+def _surprise(degrees: int, unlikely: float = _UNLIKELY) -> float:
     from scipy.special import chdtri
 
-    return float(chdtri(degrees, _UNLIKELY))
+    return float(chdtri(degrees, unlikely))
 
 
 def _couple(moment_n_mm: np.ndarray) -> list[Force]:
