@@ -27,7 +27,7 @@ def test_a_long_step_is_heard_and_a_short_one_is_not() -> None:
 def test_it_says_how_far_a_build_is(tmp_path: Path) -> None:
     build = "echo '[1/590] Building'; echo '[12/590] Building C object'; sleep 1"
     said = spoken(f'speak build {tmp_path}/log bash -c "{build}"')
-    assert "build: 0 s so far, [12/590]" in said.stderr and (tmp_path / "log").read_text().count("\n") == 2
+    assert re.search(r"build: \d+ s so far, \[12/590\]", said.stderr) and (tmp_path / "log").read_text().count("\n") == 2
 
 
 def test_how_it_ended_is_passed_on() -> None:
