@@ -119,7 +119,7 @@ void PressedLimb::lean(double theta0_rad)
     const Vector3d down = about_yaw_axis(-theta0_rad) * down_;
     if ((down - effects::gravity::down_in_space(model_)).squaredNorm() > kLeast_rad * kLeast_rad) {
         model_.gravity.direction_rad = std::atan2(down.z(), down.x());
-        model_.gravity.lean_rad = std::atan2(down.y(), std::hypot(down.x(), down.z()));
+        model_.gravity.lean_rad = std::atan2(down.y(), std::sqrt(down.x() * down.x() + down.z() * down.z()));
     }
 }
 
