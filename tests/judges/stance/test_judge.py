@@ -12,6 +12,7 @@ import pytest
 
 pytest.importorskip("daqp", reason="daqp is not installed: pip install -e 'tools[stance]'")
 
+import alarms
 import baselines
 import judge
 import world
@@ -81,3 +82,10 @@ def test_the_command_names_the_foot(solver: Siconos) -> None:
         assert not said.failed
         assert one.spare < judge.NEAR or said.foot == one.foot, (one.number, one.kind)
         assert said.factor is not None and abs(said.factor / one.factor - 1) < 0.05, (one.number, one.kind)
+
+
+def test_an_alarm_comes_before_a_slip_and_not_where_all_hold() -> None:
+    held = list(alarms.run(3, 0, False, 4, 1))
+    slipped = list(alarms.run(3, 10_000_000, True, 4, 1))
+    assert [one.alarm_share for one in held] == [None] * 4
+    assert all(one.alarm_share is not None and one.alarm_share > 0.2 for one in slipped)

@@ -237,3 +237,20 @@ def test_limbs_that_send_one_change_at_different_moments_are_no_foot_that_moves(
             events += robot.run(1)
     events += robot.run(50)
     assert [event.kind for event in events] == ["load"]
+
+
+def test_a_grip_that_bears_nothing_for_a_while_has_not_let_go() -> None:
+    gripping = replace(STANCE, limbs=tuple(replace(limb, grip_n=20.0) for limb in STANCE.limbs))
+    robot = Robot(4)
+    places = [place_covariance_mm2(limb, law) for limb, law in zip(STANCE.limbs, MIDDLE.laws, strict=True)]
+    robot.observer = Observer(gripping, MIDDLE.weight, places, robot.readings(), 0.0)
+    full = robot.force_n.copy()
+    events = []
+    for share in (*np.linspace(1.0, 0.0, 300), *np.zeros(50), *np.linspace(0.0, 1.0, 300)):
+        robot.force_n = full + (1.0 - share) * full[2] / 3.0  # the others bear what it does not
+        robot.force_n[2] = share * full[2]
+        events += robot.run(1)
+    assert not {"lifted", "landed"} & {event.kind for event in events}
+    robot.force_n = full + full[2] / 3.0
+    robot.force_n[2] = 0.0
+    assert "lifted" in [event.kind for event in robot.run(40)]

@@ -271,12 +271,11 @@ class Observer:
             if np.trace(known_n2) < np.trace(reading.hidden_n2):
                 known_n2 += min(share, 1.0) * reading.hidden_n2
 
-    def _forces(self) -> np.ndarray:
-        law = self._law
+    def _forces(self, x: np.ndarray | None = None) -> np.ndarray:
+        """By the state of now, or by another."""
+        law, x = self._law, self._x if x is None else x
         return np.asarray(
-            law.force_n
-            + law.by_place @ (self._x[self._feet] - law.place_mm)
-            + law.by_load @ (self._x[self._load] - law.carried)
+            law.force_n + law.by_place @ (x[self._feet] - law.place_mm) + law.by_load @ (x[self._load] - law.carried)
         )
 
     def _springs(self) -> tuple[np.ndarray, np.ndarray]:
@@ -409,7 +408,7 @@ class Observer:
             before = forces[3 * i : 3 * i + 3].copy()
             self._borne_n[i] = max(self._borne_n[i], size) if self._is_down[i] else size
             nothing_n = min(_OFF_GROUND_SIGMAS * sigma, _NOTHING_SHARE * self._borne_n[i])
-            leaves = self._is_down[i] and size < nothing_n
+            leaves = self._is_down[i] and size < nothing_n and self._may_leave(i, sigma)
             lands = not self._is_down[i] and size > _ON_GROUND_SIGMAS * sigma
             if count < _TOUCHES or not (leaves or lands) or (leaves and sum(self._is_down) <= 1):
                 continue
@@ -423,6 +422,16 @@ class Observer:
             change = -before if leaves else reading.force_n
             events.append(Event(time_s, "lifted" if leaves else "landed", self._stance.limbs[i].name, change))
         return events
+
+    def _may_leave(self, i: int, sigma_n: float) -> bool:
+        """Of a foot that bears nothing now. One that grips may bear nothing while it holds: it has left only where it
+        bore something before what changes now."""
+        if self._stance.limbs[i].grip_n == 0.0:
+            return True
+        if self._change is None:
+            return False
+        before_n = self._forces(self._change.x)[3 * i : 3 * i + 3]
+        return float(np.linalg.norm(before_n)) > _ON_GROUND_SIGMAS * sigma_n
 
     def _step(self, i: int, reading: Reading) -> None:
         """A foot that was lifted or put down: its place is not known any more."""

@@ -16,7 +16,7 @@ from brace.stance.stance_file import Stance
 from brace.stance.statics import Slip
 from brace.stance.world import believed, place_covariance_mm2
 
-_ALARM_SHARE = 0.02  # of the weight
+ALARM_SHARE = 0.02  # of the weight
 _ALARM_ENDS = 1.5  # times its level, so that a margin at the level is one alarm and not many
 _ALARM_EVERY_S = 0.05
 _WHOLE_WITHIN_S = 1.0
@@ -99,6 +99,26 @@ class Shown:
         return lines
 
 
+class Alarms:
+    """The feet whose margin may be below a level. limbs: their names now."""
+
+    def __init__(self, stance: Stance, level_n: float) -> None:
+        self._names = [limb.name for limb in stance.limbs]
+        self._level_n, self._next_s = level_n, -np.inf
+        self.limbs: tuple[str, ...] = ()
+
+    def begin(self, observer: Observer, now_s: float) -> list[str]:
+        """The limbs whose alarm begins now."""
+        if now_s < self._next_s:
+            return []
+        self._next_s = now_s + _ALARM_EVERY_S
+        margin_n, sigma_n = observer.margins()
+        ends = np.array([_ALARM_ENDS if name in self.limbs else 1.0 for name in self._names])
+        low = margin_n - NINETY * sigma_n < self._level_n * ends
+        before, self.limbs = self.limbs, tuple(name for name, is_low in zip(self._names, low, strict=True) if is_low)
+        return [name for name in self.limbs if name not in before]
+
+
 class Watching:
     """Frames in; keeps the newest estimate. Events wait until they are asked for."""
 
@@ -106,15 +126,18 @@ class Watching:
         self._stance, self._middle = stance, believed(stance)
         self._watch, self._reader = Watch(where), BusReader(stance, sensor_sd_n)
         weight = float(np.linalg.norm(sum((force for force, _ in self._middle.weight), np.zeros(3))))
-        self._alarm_n = _ALARM_SHARE * weight if alarm_n is None else alarm_n
+        self._alarms = Alarms(stance, ALARM_SHARE * weight if alarm_n is None else alarm_n)
         self._held: list[Frame] = []
         self._observer: Observer | None = None
         self._events: list[Event] = []
         self._newest: list[Reading | None] = [None] * len(stance.limbs)
         self._news: list[LimbNews] = []
         self._heard_s: float | None = None  # since when there is something of every limb
-        self._next_alarm_s = 0.0
-        self.alarms: tuple[str, ...] = ()
+
+    @property
+    def alarms(self) -> tuple[str, ...]:
+        """The limbs that may let go next."""
+        return self._alarms.limbs
 
     def missing(self) -> list[str]:
         """The limbs that have not been heard."""
@@ -145,9 +168,7 @@ class Watching:
             self._observer = Observer(self._stance, self._middle.weight, places, first, now_s)
         else:
             self._events += self._observer.update(readings, now_s)
-        if now_s >= self._next_alarm_s:
-            self._next_alarm_s = now_s + _ALARM_EVERY_S
-            self._sound(self._observer, now_s)
+        self._events += [Event(now_s, "alarm", name, np.zeros(3)) for name in self._alarms.begin(self._observer, now_s)]
         return True
 
     def _to_begin_with(self, now_s: float) -> list[Reading] | None:
@@ -159,15 +180,6 @@ class Watching:
         self._heard_s = now_s if self._heard_s is None else self._heard_s
         whole = all(not set(one.why) - {"late"} for one in self._news) and all(r.force_n is not None for r in first)
         return first if whole or now_s - self._heard_s > _WHOLE_WITHIN_S else None
-
-    def _sound(self, observer: Observer, now_s: float) -> None:
-        """An alarm that begins is an event."""
-        margin_n, sigma_n = observer.margins()
-        ends = [_ALARM_ENDS if limb.name in self.alarms else 1.0 for limb in self._stance.limbs]
-        low = margin_n - NINETY * sigma_n < self._alarm_n * np.array(ends)
-        alarms = tuple(limb.name for limb, is_low in zip(self._stance.limbs, low, strict=True) if is_low)
-        self._events += [Event(now_s, "alarm", name, np.zeros(3)) for name in alarms if name not in self.alarms]
-        self.alarms = alarms
 
     def shown(self) -> Shown:
         """What is known now; `take` has said True."""
