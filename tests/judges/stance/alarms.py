@@ -3,9 +3,8 @@ before a foot slips.
 
     .venv/bin/python tests/judges/stance/alarms.py --seed 1 --hold 200 --slip 100 --jobs 2
 
-Seeds below 1000 are for practice. The truth is the judge's world of small displacements, as in judge.py with all that it
-hides. Up to the first slip every foot sticks, so a step is solved without Siconos; the law's residual says whether
-they do. What is judged is in-process: ten thousand starts of the command would take a day. A limb's reading comes
+Seeds below 1000 are for practice. The truth is the judge's world of small displacements, with all that judge.py hides. Up to the
+first slip every foot sticks, so a step is solved without Siconos; the law's residual says whether they do. What is judged is in-process: ten thousand starts of the command would take a day. A limb's reading comes
 every 20 ms, each in a tick of its own; the payload grows for two seconds, and rests for two.
 """
 
@@ -45,7 +44,7 @@ class Sticking:
         self._beyond = 0
 
     def __call__(self, w: Array, q: Array, friction: Array, guess: Array) -> Array:
-        force = np.linalg.solve(w, -q).reshape(-1, 3)
+        force: Array = np.reshape(np.linalg.solve(w, -q), (-1, 3)).astype(np.float64)
         beyond = np.linalg.norm(force[:, 1:], axis=1) > friction * force[:, 0]
         self._beyond = self._beyond + 1 if beyond.any() else 0
         if self._beyond > BEYOND_CONE_TRIES:
@@ -57,7 +56,7 @@ class Sticking:
 
 @dataclass(frozen=True)
 class Case:
-    """slips: whether a foot is to slip. alarm_share: how much of the payload was there at the first alarm; None: none."""
+    """slips: whether a foot is to slip. alarm_share: how much of the payload was there at the alarm; None: none."""
 
     number: int
     kind: str
@@ -87,7 +86,7 @@ def _truth(stance: Stance, slips: bool, rng: np.random.Generator) -> list[State]
             state = step(world, Sticking(), state, (k + 1) / 4, 0.0)
         if not _spare(world, state, 0.0):
             return None
-        slip = first_slip(world, Sticking(), state, MOST)  # type: ignore[arg-type]
+        slip = first_slip(world, Sticking(), state, MOST)
         if slips:
             if slip is None or margins(world, slip.before.force_n)[slip.foot] > COLLAPSES_N:
                 return None
@@ -185,7 +184,8 @@ def main() -> int:
     print(f"an alarm before the slip: {share([one.alarm_share is not None for one in slipped])}")
     early = [one.alarm_share for one in slipped if one.alarm_share is not None]
     if early:
-        print(f"of the payload at the alarm: median {np.median(early):.2f}, 5th percentile {np.quantile(early, 0.05):.2f}")
+        middle, low = np.quantile(early, [0.5, 0.05])
+        print(f"of the payload at the alarm: median {middle:.2f}, 5th percentile {low:.2f}")
     print(f"a foot called moved before it did: {share(['moved' in one.events for one in cases])}")
     return 0
 

@@ -16,8 +16,10 @@ from __future__ import annotations
 import json
 import shutil
 import subprocess
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import TypeAlias
 
 import numpy as np
 from limbs import Array, Limbs, loaded, small
@@ -54,6 +56,10 @@ class Siconos:
 
     def close(self) -> None:
         self._process.communicate()
+
+
+# A step's forces from W, q, friction and a first guess, all in the feet's frames.
+Solver: TypeAlias = Callable[[Array, Array, Array, Array], Array]
 
 
 @dataclass(frozen=True)
@@ -153,7 +159,7 @@ def law_residual_n(pressing: Array, apart: Array, friction: Array, stiffness: Ar
     return float(np.abs(pressing - projected).max(initial=0))
 
 
-def step(world: World, solver: Siconos, before: State, progress: float, factor: float) -> State:
+def step(world: World, solver: Solver, before: State, progress: float, factor: float) -> State:
     """The state when weight and offsets have come to `progress` (0 to 1), the payload to `factor`; or NoStance."""
     limbs = replace(world.limbs, theta_rad=world.limbs.theta_rad + progress * world.zero_rad)
     foothold = world.commanded_mm + progress * world.offset_mm
@@ -222,7 +228,7 @@ def step(world: World, solver: Siconos, before: State, progress: float, factor: 
     raise NoStance(f"no equilibrium within {BALANCE_N} N (best {smallest:.1e} N)")
 
 
-def _advance(world: World, solver: Siconos, state: State, start: Array, end: Array, halvings: int = 5) -> State:
+def _advance(world: World, solver: Solver, state: State, start: Array, end: Array, halvings: int = 5) -> State:
     """From (progress, factor) `start` to `end` in one step, or in halves where the iteration loses its way."""
     try:
         return step(world, solver, state, *end)
@@ -234,7 +240,7 @@ def _advance(world: World, solver: Siconos, state: State, start: Array, end: Arr
     return _advance(world, solver, state, middle, end, halvings - 1)
 
 
-def stand(world: World, solver: Siconos, steps: int = 8) -> State:
+def stand(world: World, solver: Solver, steps: int = 8) -> State:
     """The feet down, then the weight in steps: the state before the payload."""
     state = begin(world)
     for k in range(steps):
@@ -251,7 +257,7 @@ class Slip:
     after: State
 
 
-def first_slip(world: World, solver: Siconos, state: State, most: float, precision: float = 2e-4) -> Slip | None:
+def first_slip(world: World, solver: Solver, state: State, most: float, precision: float = 2e-4) -> Slip | None:
     """The payload grows from nothing until a foot slides or opens; None if all hold up to the factor `most`.
 
     NoStance of a step is a slip, too: the foot is then the one with the smallest margin before.
@@ -279,7 +285,7 @@ def first_slip(world: World, solver: Siconos, state: State, most: float, precisi
     return Slip(foot, high, float(np.delete(margin, foot).min()), state, after)
 
 
-def payload(world: World, solver: Siconos, state: State, low: float, high: float, steps: int) -> State:
+def payload(world: World, solver: Solver, state: State, low: float, high: float, steps: int) -> State:
     """The payload from the factor `low` to `high`, in steps, from a state at `low`."""
     factors = np.linspace(low, high, steps + 1)
     for start, end in zip(factors, factors[1:]):
