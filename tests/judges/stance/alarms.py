@@ -3,9 +3,10 @@ before a foot slips.
 
     .venv/bin/python tests/judges/stance/alarms.py --seed 1 --hold 200 --slip 100 --jobs 2
 
-Seeds below 1000 are for practice. The truth is the judge's world of small displacements, with all that judge.py hides. Up to the
-first slip every foot sticks, so a step is solved without Siconos; the law's residual says whether they do. What is judged is in-process: ten thousand starts of the command would take a day. A limb's reading comes
-every 20 ms, each in a tick of its own; the payload grows for two seconds, and rests for two.
+Seeds below 1000 are for practice. The truth is the judge's world of small displacements, with all that judge.py hides.
+Up to the first slip every foot sticks, so a step is solved without Siconos; the law's residual says whether they do.
+What is judged is in-process: ten thousand starts of the command would take a day. A limb's reading comes every 20 ms,
+each in a tick of its own; the payload grows for two seconds, and rests for two.
 """
 
 from __future__ import annotations
