@@ -145,7 +145,8 @@ typedef enum {
     BRACE_NODE_FAULT_TICK_LATE = 9, /* value [ms]: the time between ticks */
     BRACE_NODE_FAULT_TIP_LOST = 10, /* the contact lets go, and afterwards holds the tip where it then is */
     BRACE_NODE_FAULT_CRASH = 11, /* the controller crashes once when the fault begins, and starts again */
-    BRACE_NODE_FAULT_COUNT = 12
+    BRACE_NODE_FAULT_JOINT_SOFT = 12, /* joint; value [0.001, 1000]: its stiffness, as a share of what it is without */
+    BRACE_NODE_FAULT_COUNT = 13
 } brace_node_fault_t;
 
 /* The fault's name as on the command line; null for no fault. */

@@ -235,6 +235,10 @@ void LimbNode::follow_faults()
         tip_was_lost_ = tip_is_lost;
         take_hold(tip_is_lost ? 0.0 : hold_n_per_mm_, {});
     }
+    for (int joint = 0; joint < 3; ++joint) {
+        const double *ratio = faults.value(BRACE_NODE_FAULT_JOINT_SOFT, joint);
+        limb_.soften(joint, ratio != nullptr ? *ratio : 1.0);
+    }
     const bool crashes = faults.is_on(BRACE_NODE_FAULT_CRASH) && !has_crashed_;
     has_crashed_ = faults.is_on(BRACE_NODE_FAULT_CRASH);
     if (crashes) {

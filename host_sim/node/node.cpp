@@ -237,7 +237,8 @@ extern "C" int32_t brace_node_fault(brace_node_t *node, int32_t limb, int32_t fa
     if (one == nullptr || fault < 0 || fault >= BRACE_NODE_FAULT_COUNT || !std::isfinite(value) || !(at_s >= 0.0)
         || !(for_s >= 0.0)
         || (brace::node::is_of_a_joint(fault) && (joint < (one->has_coxa_joint() ? 0 : 1) || joint > 2))
-        || (fault == BRACE_NODE_FAULT_TICK_LATE && !in_range(value, 0.0, 1e4))) {
+        || (fault == BRACE_NODE_FAULT_TICK_LATE && !in_range(value, 0.0, 1e4))
+        || (fault == BRACE_NODE_FAULT_JOINT_SOFT && !in_range(value, 1e-3, 1e3))) {
         return BRACE_HOST_E_RANGE;
     }
     const std::lock_guard<std::mutex> held(node->lock);

@@ -67,7 +67,7 @@ bool has_coxa_joint(const plant::Model &model)
     return yields;
 }
 
-PressedLimb::PressedLimb(const plant::Model &model) : model_(model), state_(state_of(model_)) {}
+PressedLimb::PressedLimb(const plant::Model &model) : model_(model), sound_(model), state_(state_of(model_)) {}
 
 Vector3d PressedLimb::unbent_rad(const Vector3d &motor_rad) const
 {
@@ -98,6 +98,15 @@ void PressedLimb::take_hold(const Vector3d &motor_rad, double hold_n_per_mm, con
         },
         state_);
     anchor_mm_ = about_yaw_axis(unbent_rad(motor_rad)[kCoxa]) * (tip_mm(motor_rad) + press_mm);
+}
+
+void PressedLimb::soften(int joint, double ratio)
+{
+    const double now = sound_.joint[joint].compliance_rad_per_n_mm / ratio;
+    if (model_.joint[joint].compliance_rad_per_n_mm != now) {
+        model_.joint[joint].compliance_rad_per_n_mm = now;
+        std::visit([](auto &state) { state.model_changed(); }, state_);
+    }
 }
 
 Vector3d PressedLimb::unloaded_tip_mm(const Vector3d &motor_rad) const

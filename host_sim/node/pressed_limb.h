@@ -36,6 +36,9 @@ public:
     void take_hold(const Eigen::Vector3d &motor_rad, double hold_n_per_mm, const Eigen::Vector3d &press_mm, double t_s,
                    double temp_degc);
 
+    // A joint's stiffness, as a share of its model's.
+    void soften(int joint, double ratio);
+
     // Finds the rest state. False: nothing yields in some direction.
     bool settle(const Eigen::Vector3d &motor_rad, double t_s, double temp_degc, Pressed &pressed);
 
@@ -53,6 +56,7 @@ private:
     void lean(double theta0_rad);
 
     plant::Model model_;
+    const plant::Model sound_;
     std::variant<plant::LimbState<plant::InPlane>, plant::LimbState<plant::InSpace>> state_;
     Eigen::Vector3d anchor_mm_ = Eigen::Vector3d::Zero(); // where the contact stands, seen from the robot
 

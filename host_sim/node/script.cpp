@@ -38,7 +38,8 @@ void Setpoints::step(double t_s, double dt_s, const std::array<brace_node_drive_
 
 bool is_of_a_joint(int fault)
 {
-    return fault >= BRACE_NODE_FAULT_ENCODER_STUCK && fault <= BRACE_NODE_FAULT_CURRENT_OFFSET;
+    return (fault >= BRACE_NODE_FAULT_ENCODER_STUCK && fault <= BRACE_NODE_FAULT_CURRENT_OFFSET)
+           || fault == BRACE_NODE_FAULT_JOINT_SOFT;
 }
 
 void Faults::add(int fault, int joint, double value, double at_s, double for_s)
@@ -71,8 +72,8 @@ const double *Faults::value(int fault, int joint) const
 extern "C" const char *brace_node_fault_name(int32_t fault)
 {
     static const char *const name[BRACE_NODE_FAULT_COUNT] = {
-        "encoder_stuck", "sensor_dead", "sensor_nan", "current_offset", "force_dead", "force_offset",
-        "nvm_fails",     "nvm_forgets", "bus_off",    "tick_late",      "tip_lost",   "crash",
+        "encoder_stuck", "sensor_dead", "sensor_nan", "current_offset", "force_dead", "force_offset", "nvm_fails",
+        "nvm_forgets",   "bus_off",     "tick_late",  "tip_lost",       "crash",      "joint_soft",
     };
     return fault >= 0 && fault < BRACE_NODE_FAULT_COUNT ? name[fault] : nullptr;
 }

@@ -45,7 +45,7 @@ bool LimbState<World>::move_to(double theta1_rad, double theta2_rad, const effec
     bool same_limb = placed_, same_structure = placed_ && theta1_rad == theta1_rad_ && theta2_rad == theta2_rad_;
     Model now;
     const bool leans = placed_ && !effects::gravity::is_same(model_, now_); // its base was turned
-    if (!placed_ || leans || effects::Changes::act(model_)) {
+    if (!placed_ || leans || is_changed_ || effects::Changes::act(model_)) {
         now = effects::limb_now(model_, conditions);
         same_limb = placed_ && effects::is_same(now, now_);
         same_structure = same_structure && !leans && (same_limb || effects::is_same_but_for_springs(now, now_));
@@ -57,6 +57,7 @@ bool LimbState<World>::move_to(double theta1_rad, double theta2_rad, const effec
     theta2_rad_ = theta2_rad;
     t_s_ = conditions.t_s;
     placed_ = true;
+    is_changed_ = false;
     if (!same_limb) {
         now_ = now;
     }

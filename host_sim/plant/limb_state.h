@@ -70,6 +70,9 @@ public:
     // Sets posture, time and temperature. False when nothing yields in some direction.
     bool move_to(double theta1_rad, double theta2_rad, const effects::Conditions &conditions);
 
+    // Numbers of the model are others now; the limb goes on from where it is. The next posture sees them.
+    void model_changed() { is_changed_ = true; }
+
     // Centres the backlash and relaxes friction; removes creep too when asked. Displacements count from the limb's
     // weightless place. From the next posture on the contact that holds the tip yields by so much.
     void start_run(bool creep_gone, double contact_mm_per_n = 0.0);
@@ -126,7 +129,7 @@ private:
     const Model &model_;
     const Displacements displacements_;
     Model now_{}; // the limb at t_s_ and its temperature
-    bool placed_ = false, prepared_ = false;
+    bool placed_ = false, prepared_ = false, is_changed_ = false;
     double contact_mm_per_n_ = 0.0;
     double theta1_rad_ = 0.0, theta2_rad_ = 0.0, t_s_ = 0.0;
     typename World::Structure structure_{};

@@ -500,6 +500,21 @@ def test_a_lost_tip_carries_nothing_and_is_planted_again(paper: LimbModel) -> No
         assert one.raw_truth().solved
 
 
+def test_a_soft_joint_turns_further_under_its_load_for_as_long_as_it_lasts(paper: LimbModel) -> None:
+    with node(paper, press_mm=(0.0, 5.0)) as one:
+        one.add_fault(fault("joint_soft:tibia=0.5@0.5+0.5"))
+        yields, forces = [], []
+        for _ in range(3):
+            one.step(0.48)
+            truth = one.raw_truth()
+            yields.append([(truth.link_rad[i] - truth.motor_rad[i]) / truth.load_n_mm[i] for i in (1, 2)])
+            forces.append(truth.force_z_n)
+        femur, tibia = np.array(yields).T
+        assert tibia == pytest.approx(tibia[0] * np.array([1.0, 2.0, 1.0]), rel=1e-6)
+        assert femur == pytest.approx(femur[0], rel=1e-6)
+        assert abs(forces[1]) < 0.95 * abs(forces[0]) and forces[2] == pytest.approx(forces[0], rel=1e-3)
+
+
 def test_bus_off_shows_and_ends_with_the_heartbeat_back(paper: LimbModel) -> None:
     with node(paper, changes={"controller.node_id": 3}) as one:
         one.add_fault(fault("bus_off@1+1.5"))

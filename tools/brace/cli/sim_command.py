@@ -43,7 +43,8 @@ def add(commands: Subcommands) -> None:
         "controller believes --model, its parameter block; what is true is --plant. A limb in which something "
         "yields across its plane (joint.coxa, a link's lateral compliance or torsion) has a coxa joint, and reports K "
         "in space.",
-        epilog=f"Faults: {', '.join(spec.FAULTS)}; values: current_offset in N mm, force_offset in N, tick_late in ms.",
+        epilog=f"Faults: {', '.join(spec.FAULTS)}; values: current_offset in N mm, force_offset in N, "
+        "tick_late in ms; joint_soft:LIMB.tibia=0.6: the knee has 0.6 of its stiffness.",
     )
     limbs = parser.add_mutually_exclusive_group(required=True)
     common.add_model(limbs, "what the controllers believe; and what is true, without --plant", required=False)

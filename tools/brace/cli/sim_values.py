@@ -14,6 +14,7 @@ from brace.sim.spec import FAULTS, JOINTS, Fault, Lift, Move, Payload, Posture
 _FAULT = re.compile(
     r"(?P<name>[a-z_]+)(?::(?P<where>[^=@]*))?(?:=(?P<value>[^@]*))?(?:@(?P<at>[^+]*)(?:\+(?P<time>.*))?)?"
 )
+_EXAMPLES = {"joint_soft": 0.6}
 _FAULT_FORM = "NAME[:[LIMB.]JOINT][=VALUE][@SECONDS[+DURATION]]"
 _torque, _lateness = Quantity("torque", "500Nmm"), Quantity("time", "5ms", least=0.0)
 
@@ -38,7 +39,7 @@ def fault(text: str) -> Fault:
             raise refused(f"{text!r} has a value", f"{name} takes none", f"OPTION {name}")
         value = _value(found["value"], unit)
     if value is None:
-        example = f"{name}:femur=500@2+1" if of_joint else f"{name}=2@2+1"
+        example = f"{name}:femur={_EXAMPLES.get(name, 500)}@2+1" if of_joint else f"{name}=2@2+1"
         raise refused(f"{text!r} has no value", f"{name} needs one, in {unit}", f"OPTION {example}")
     at_s = moment(found["at"]) if found["at"] is not None else 0.0
     for_s = moment(found["time"]) if found["time"] is not None else math.inf
@@ -51,6 +52,8 @@ def _value(text: str, unit: str) -> float:
         return _torque(text)
     if unit == "N":
         return force(text)
+    if unit != "ms":
+        return ratio(text)
     found = amount(text)
     return 1e3 * _lateness(text) if found is not None and found[1] else number(text)  # ms
 

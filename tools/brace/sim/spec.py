@@ -23,6 +23,7 @@ FAULTS = {  # name as in brace_node.h: whether it is a joint's, unit of its valu
     "tick_late": (False, "ms", 5.0),
     "tip_lost": (False, "", 0.0),
     "crash": (False, "", 0.0),
+    "joint_soft": (True, "shares of its stiffness", None),
 }
 
 

@@ -10,9 +10,10 @@ import numpy as np
 from brace.bus.interval import Interval
 from brace.bus.load import Load
 from brace.bus.sigma import Sigma
+from brace.bus.snapshot import Snapshot
 from brace.bus.space import SpaceSnapshot
 from brace.bus.watch import NodeState
-from brace.stance.limb_law import MATRIX, LimbLaw, Shape, shape_of
+from brace.stance.limb_law import JOINTS, MATRIX, LimbLaw, Shape, shape_of
 from brace.stance.observer import NINETY, Reading
 from brace.stance.stance_file import Limb, Stance
 
@@ -25,6 +26,8 @@ _FOLLOWS = 0.05  # how much a reading counts for the noise: some twenty readings
 _JUMP = 9.0  # a difference beyond three sigma is a load that came, and counts as three sigma
 _UNKNOWN_SPREAD_N = 2.0
 _INTERVAL_WITHIN_S = 1.0  # it comes beside the load; what the first forces hide stays in every later answer
+_STANDS_RAD = 0.004  # a joint that is elsewhere by more, twice in a row, has been moved; less is the force's noise
+_STANDS_FOLLOWS = 0.1
 _ACROSS_UNKNOWN_N = 1e3  # one sigma of a force's component that no sensor measures
 
 
@@ -45,7 +48,7 @@ class BusReader:
         """sensor_sd_n: one sigma of a tip sensor's reading, each component."""
         self._stance, self._sensor_sd_n = stance, sensor_sd_n
         self._laws = [LimbLaw(limb, stance.down) for limb in stance.limbs]
-        self._shapes: list[tuple[tuple[float, ...], Shape]] = [((), law.shape) for law in self._laws]
+        self._stands = [_Stands(limb, law) for limb, law in zip(stance.limbs, self._laws, strict=True)]
         self._loads_s = [-np.inf] * len(stance.limbs)
         self._first_loads_s = [np.inf] * len(stance.limbs)
         self._noises = [_Noise(sensor_sd_n**2) for _ in stance.limbs]
@@ -57,7 +60,7 @@ class BusReader:
     def _read(self, i: int, limb: Limb, state: NodeState | None, now_s: float) -> LimbNews:
         if state is None or state.snapshot is None:
             return LimbNews(limb.node, None, None, ("nothing heard",))
-        shape = self._shape(i, limb, state)
+        shape = self._stands[i].shape(state)
         why = [] if state.posture is not None else ["no angles yet"]
         space = state.space
         k, k_rel, age_s = None, _K_REL, now_s - state.snapshot.time_s
@@ -76,20 +79,9 @@ class BusReader:
         force, noise, hidden = self._force(i, shape, state, now_s)
         if state.load is None or state.load.load is None or not state.load.load.is_counted:
             why.append("no load sent")
-        return LimbNews(limb.node, Reading(shape.tip_mm, k, k_rel, force, noise, hidden), age_s, tuple(why))
-
-    def _shape(self, i: int, limb: Limb, state: NodeState) -> Shape:
-        """From the angles that the controller measures; without them those of stance.toml."""
-        posture, space = state.posture, state.space
-        theta = [
-            None if space is None or space.space is None else space.space.theta0,
-            None if posture is None else posture.theta1,
-            None if posture is None else posture.theta2,
-        ]
-        angles = tuple(float(limb.theta_rad[j] if value is None else value) for j, value in enumerate(theta))
-        if self._shapes[i][0] != angles:
-            self._shapes[i] = angles, shape_of(limb, limb.model, np.array(angles))
-        return self._shapes[i][1]
+        turns = shape.turns @ shape.from_plane.T
+        reading = Reading(shape.tip_mm, k, k_rel, force, noise, hidden, turns_mm_per_rad=turns)
+        return LimbNews(limb.node, reading, age_s, tuple(why))
 
     def _force(
         self, i: int, shape: Shape, state: NodeState, now_s: float
@@ -111,6 +103,50 @@ class BusReader:
         hidden = np.maximum(spread - self._sensor_sd_n**2, 0.0)
         turn = shape.from_plane
         return turn @ force, (turn * noise) @ turn.T, (turn * np.where(is_known, hidden, 0.0)) @ turn.T
+
+
+class _Stands:
+    """Where a limb's joints would stand without load. A controller sends their true angles, which the load has turned:
+    what the load that it counts turns them is taken off, by their compliances in limb.toml."""
+
+    def __init__(self, limb: Limb, law: LimbLaw) -> None:
+        self._limb, self._law, self._shape = limb, law, law.shape
+        self._yields = np.array([limb.model.number(f"joint.{joint}.compliance_rad_per_n_mm") for joint in JOINTS])
+        self._rad: np.ndarray | None = None
+        self._seen: tuple[float, ...] = ()
+        self._elsewhere = 0
+
+    def shape(self, state: NodeState) -> Shape:
+        """From what has come; until angles have come, of the angles in stance.toml."""
+        posture, space = state.posture, state.space
+        theta = [
+            None if space is None or space.space is None else space.space.theta0,
+            None if posture is None else posture.theta1,
+            None if posture is None else posture.theta2,
+        ]
+        seen = (*(float(self._limb.theta_rad[j] if value is None else value) for j, value in enumerate(theta)),
+                -1.0 if state.load is None else state.load.time_s)  # fmt: skip
+        if seen != self._seen:
+            self._seen = seen
+            known = np.array([value is not None for value in theta])
+            self._take(np.array(seen[:3]) - np.where(known, self._turned_rad(state.load), 0.0))
+        return self._shape
+
+    def _turned_rad(self, sent: Snapshot | None) -> np.ndarray:
+        if sent is None or sent.load is None or not sent.load.is_counted:
+            return np.zeros(3)
+        force, _ = _components(sent.load)
+        return np.asarray(self._yields * self._law.torques_n_mm(self._law.shape.from_plane @ force))
+
+    def _take(self, rad: np.ndarray) -> None:
+        before = self._rad
+        if before is not None and np.abs(rad - before).max() < _STANDS_RAD:
+            rad, self._elsewhere = before + _STANDS_FOLLOWS * (rad - before), 0
+        elif before is not None:
+            self._elsewhere += 1
+            if self._elsewhere < 2:
+                return
+        self._rad, self._shape = rad, shape_of(self._limb, self._limb.model, rad)
 
 
 class _Noise:

@@ -15,6 +15,7 @@ from functools import cache
 import numpy as np
 
 from brace.stance.limb_law import Spring
+from brace.stance.softness import Foot, Response, Soft, Softness
 from brace.stance.stance_file import Stance
 from brace.stance.statics import Contact, Force, LooseError, Slip, State, Statics
 
@@ -51,6 +52,7 @@ class Reading:
     force_n: the ground's force on its foot; None: not measured
     noise_n2: of each reading, 3 x 3; hidden_n2: what stays from reading to reading (friction, a sensor's zero)
     scale_rel: one sigma of a torque constant's ratio; 0 for a force sensor
+    turns_mm_per_rad: how the tip moves when coxa, femur or tibia turns, a row a joint; None: not known
     """
 
     tip_mm: np.ndarray
@@ -60,16 +62,19 @@ class Reading:
     noise_n2: np.ndarray
     hidden_n2: np.ndarray
     scale_rel: float = 0.0
+    turns_mm_per_rad: np.ndarray | None = None
 
 
 @dataclass(frozen=True)
 class Event:
-    """Something has happened. kind: load (what is carried has changed), moved (a foot), lifted, landed."""
+    """Something has happened. kind: load (what is carried has changed), moved (a foot), lifted, landed, soft (`soft`
+    says how a limb yields)."""
 
     time_s: float
     kind: str
     limb: str | None
-    change_n: np.ndarray  # load: the force carried beyond the weight; moved: the foot's force now; else its change
+    change_n: np.ndarray  # load: the force carried beyond the weight; moved, soft: the foot's force; else its change
+    soft: Soft | None = None
 
 
 @dataclass(frozen=True)
@@ -148,6 +153,8 @@ class Observer:
         self._borne_n = [0.0] * n  # the most since it came down
         self._last_n: list[deque[np.ndarray]] = [deque(maxlen=_TOUCHES) for _ in range(n)]
         self._recent: deque[_Miss] = deque(maxlen=_RECENT)
+        self._softness = Softness(stance, self._weight_n)
+        self.soft: dict[int, Soft] = {}  # by limb: those that have been found soft; they widen the answer
         self._event: Event | None = None
         self._event_until_s = -np.inf
         self._change: _Change | None = None
@@ -201,7 +208,9 @@ class Observer:
         if self._change is not None:
             self._change.take(readings, time_s)
             events += self._settled(self._change)
-        return events
+        if any(event.kind in ("lifted", "landed") for event in events):
+            self._softness.disturbed()
+        return events + self._softened(readings, time_s)
 
     # -- the law -----------------------------------------------------------------------------------------------------
 
@@ -239,6 +248,7 @@ class Observer:
             if reading is None:
                 continue
             tips[i], k[i], rel = reading.tip_mm, reading.k_n_per_mm, reading.k_rel
+            rel = max(rel, 1.0 - self.soft[i].low) if i in self.soft else rel
             foot = np.arange(3 * i, 3 * i + 3)
             self._p[foot, foot] += rel**2 * ((self._way_mm[i] + way) ** 2 - self._way_mm[i] ** 2)
             self._way_mm[i] += way
@@ -393,6 +403,26 @@ class Observer:
         change = self._x[self._load][:3] if cause.limb is None else self._forces()[3 * cause.limb : 3 * cause.limb + 3]
         self._event = Event(time_s, kind, limb, change.copy())
         return self._event
+
+    def _softened(self, readings: Sequence[Reading | None], time_s: float) -> list[Event]:
+        feet = [
+            None
+            if r is None or r.turns_mm_per_rad is None
+            else Foot(r.tip_mm, r.turns_mm_per_rad, r.k_n_per_mm, r.k_rel, r.force_n,
+                      r.noise_n2, r.hidden_n2, r.scale_rel)  # fmt: skip
+            for r in readings
+        ]
+        soft = self._softness.take(feet, self._response, time_s)
+        if soft is None:
+            return []
+        self.soft[soft.limb] = soft
+        force = self._forces()[3 * soft.limb : 3 * soft.limb + 3].copy()
+        return [Event(time_s, "soft", self._stance.limbs[soft.limb].name, force, soft)]
+
+    def _response(self) -> Response:
+        law, (margin_n, sigma_n) = self._law, self.margins()
+        is_sure = margin_n > _MAY_SLIDE_SIGMAS * sigma_n
+        return Response(law.by_place, law.by_load, self._load_sd(_LOAD_JUMP_SHARE), tuple(self._is_down), is_sure)
 
     def _steps(self, readings: Sequence[Reading | None], time_s: float) -> list[Event]:
         """Feet that have left the ground, and those that have come back."""

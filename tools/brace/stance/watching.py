@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -12,10 +12,12 @@ from brace.bus.thinning import thinned
 from brace.bus.watch import Watch
 from brace.stance.from_bus import BusReader, LimbNews
 from brace.stance.observer import NINETY, Estimate, Event, Observer, Reading
+from brace.stance.softness import Soft
 from brace.stance.stance_file import Stance
 from brace.stance.statics import Slip
 from brace.stance.world import believed, place_covariance_mm2
 
+_SOFT = "SOFT"
 ALARM_SHARE = 0.02  # of the weight
 _ALARM_ENDS = 1.5  # times its level, so that a margin at the level is one alarm and not many
 _ALARM_EVERY_S = 0.05
@@ -23,7 +25,8 @@ _WHOLE_WITHIN_S = 1.0
 _FACTOR_MOST = 1000.0
 _EVENT_WORDS = {"load": "what the body carries has changed", "moved": "its foot has moved",
                 "lifted": "has left the ground",
-                "landed": "bears again", "alarm": "may let go next"}  # fmt: skip
+                "landed": "bears again", "alarm": "may let go next",
+                "soft": "yields more than its controller reports"}  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -35,6 +38,11 @@ class Shown:
     news: Sequence[LimbNews]
     alarms: tuple[str, ...]
     next_slip: Slip | None
+    soft: Mapping[int, Soft] = field(default_factory=dict)  # by limb
+
+    def why(self, limb: int) -> list[str]:
+        """What widens a limb's answer."""
+        return [*self.news[limb].why, *([_SOFT] if limb in self.soft else [])]
 
     def as_json(self) -> dict[str, object]:
         """One object of `watch --json`; names as `load --json` has them."""
@@ -55,7 +63,7 @@ class Shown:
                     "state": "sticks" if e.is_down[i] else "open",
                     "age_ms": None if (age_s := self.news[i].age_s) is None else round(1e3 * age_s, 1),
                     "torque_ratio": e.scale[i],
-                    "flags": list(self.news[i].why),
+                    "flags": self.why(i),
                 }
                 for i, limb in enumerate(self.stance.limbs)
             ],
@@ -90,7 +98,7 @@ class Shown:
             )
             state = f"margin {e.margin_n[i]:.2f} N" if e.is_down[i] else "in the air"
             alarm = "  ALARM" if limb.name in self.alarms else ""
-            why = f"  ({', '.join(one.why)})" if one.why else ""
+            why = f"  ({', '.join(self.why(i))})" if self.why(i) else ""
             age = "" if one.age_s is None else f"  {1e3 * one.age_s:.0f} ms"
             lines.append(f"  {limb.name:14s} {force}  {state}{alarm}{age}{why}")
         if self.next_slip is not None and self.next_slip.limb >= 0:
@@ -187,7 +195,8 @@ class Watching:
         slip = None
         if np.any(self._stance.payload_n):
             slip = self._observer.next_slip((self._stance.payload_n, self._stance.payload_at_mm), _FACTOR_MOST)
-        return Shown(self._stance, self._observer.estimate(), self._news, self.alarms, slip)
+        soft = dict(self._observer.soft)
+        return Shown(self._stance, self._observer.estimate(), self._news, self.alarms, slip, soft)
 
 
 def _newer(new: Reading | None, before: Reading | None) -> Reading | None:
@@ -204,13 +213,22 @@ def event_json(event: Event) -> dict[str, object]:
         "time_s": round(event.time_s, 4),
         "limb": event.limb,
         "change_n": event.change_n,
+        **({} if event.soft is None else _soft_json(event.soft)),
     }
+
+
+def _soft_json(soft: Soft) -> dict[str, object]:
+    return {"joint": soft.joint, "stiffness_ratio": soft.ratio, "low": soft.low, "high": soft.high}
 
 
 def event_line(event: Event) -> str:
     """For people."""
     if event.kind == "alarm":
         return f"ALARM {event.limb}: it {_EVENT_WORDS['alarm']}: its margin may be below the level of --alarm"
+    if event.soft is not None:
+        what = "the limb" if event.soft.joint is None else f"its {event.soft.joint} joint"
+        stiff = f"{event.soft.ratio:.2f} of its stiffness ({event.soft.low:.2f} to {event.soft.high:.2f})"
+        return f"{event.limb}: {_EVENT_WORDS[event.kind]}: {what} has {stiff}"
     x, y, z = event.change_n
     who = "" if event.limb is None else f"{event.limb}: "
     what = "carries" if event.kind == "load" else "force" if event.kind == "moved" else "change"
