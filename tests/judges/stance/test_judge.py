@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import subprocess
 import sys
 from dataclasses import replace
@@ -15,6 +16,7 @@ pytest.importorskip("daqp", reason="daqp is not installed: pip install -e 'tools
 import alarms
 import baselines
 import judge
+import truth
 import world
 from truth import Siconos
 
@@ -89,3 +91,25 @@ def test_an_alarm_comes_before_a_slip_and_not_where_all_hold() -> None:
     slipped = list(alarms.run(3, 10_000_000, True, 4, 1))
     assert [one.alarm_share for one in held] == [None] * 4
     assert all(one.alarm_share is not None and one.alarm_share > 0.2 for one in slipped)
+
+
+def test_true_forces_lie_within_the_range_of_every_history(solver: Siconos, tmp_path: Path) -> None:
+    """Feet come down, slide and let go by Coulomb's law, without a payload; hidden offsets set them under strain."""
+    judged = 0
+    for number in range(200):
+        drawn = world.draw(6, number, world.Hidden(zero_rad=0, play_rad=0, compliance_rel=0), finite=False)
+        drawn = replace(drawn, world=replace(drawn.world, payload_n=1e-9 * drawn.world.payload_n))
+        try:
+            state = truth.stand(drawn.world, solver)
+        except truth.NoStance:
+            continue
+        asked = [str(BRACE), "stance", "range", str(world.write(drawn, tmp_path / str(number))), "--json"]
+        said = json.loads(subprocess.run(asked, capture_output=True, text=True, check=True).stdout)["limbs"]
+        for limb, force in zip(said, state.force_n, strict=True):
+            for low, high, true in zip(limb["force_low_n"], limb["force_high_n"], force, strict=True):
+                # offsets move feet by some mm, which is 2 % of their distance, and so of the 30 N
+                assert (low is None or low < true + 1.0) and (high is None or true < high + 1.0), (number, limb["name"])
+        judged += 1
+        if judged == 5:
+            return
+    raise AssertionError("too few stances stand")

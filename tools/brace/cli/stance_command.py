@@ -36,6 +36,7 @@ def add(commands: Subcommands) -> None:
     _add_show(actions)
     _add_load(actions)
     _add_lift(actions)
+    _add_range(actions)
     _add_set(actions)
     _add_choose(actions)
     stance_watch.add(actions, SENSOR_SD_N)
@@ -114,6 +115,19 @@ def _add_lift(actions: Subcommands) -> None:
     _add_measured(parser)
     common.add_json(parser)
     parser.set_defaults(run=_lift)
+
+
+def _add_range(actions: Subcommands) -> None:
+    parser = actions.add_parser(
+        "range",
+        help="the least and the most that each foot may bear, whatever has slipped before",
+        description="Where nobody knows what has slipped before and no forces are measured: the least and the most of "
+        "each foot's force over every history, and the largest payload that any forces bear. Stiffness does not come "
+        "into it. `load` says what a foot bears of all this when the feet were put down without load.",
+    )
+    parser.add_argument("stance", type=common.path, metavar="STANCE.toml", help="the stance")
+    common.add_json(parser)
+    parser.set_defaults(run=_range)
 
 
 def _add_measured(parser: argparse.ArgumentParser) -> None:
@@ -241,6 +255,17 @@ def _lift(arguments: argparse.Namespace) -> int:
             )
         found = lift(stance, arguments.limb, _measured(arguments, stance, arguments.measured))
         return {"lifted": [one.as_json() for one in found]} if arguments.json else lifted(found)
+
+    return _answer_or_reason(arguments, ask, arguments.stance)
+
+
+def _range(arguments: argparse.Namespace) -> int:
+    from brace.stance.histories import ranges
+    from brace.stance.text import ranged
+
+    def ask(stance: Stance) -> dict[str, object] | str:
+        found = ranges(stance)
+        return found.as_json() if arguments.json else ranged(found)
 
     return _answer_or_reason(arguments, ask, arguments.stance)
 

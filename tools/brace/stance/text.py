@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
 
 from brace.stance.answer import FACTOR_MOST, Answer, FirstSlip, OverloadedError
 from brace.stance.choose import Choice
+from brace.stance.histories import Ranges
 from brace.stance.lift import Lifted
 from brace.stance.setpoints import SetPoints
 from brace.stance.view import N_MM_PER_N_M, View
@@ -92,6 +94,22 @@ def lifted(found: Sequence[Lifted]) -> str:
             f"least margin {_two(least[0])} N at {least[1]}{slid}"
         )
     return "\n".join(lines)
+
+
+def ranged(found: Ranges) -> str:
+    """`brace stance range`."""
+    width = max(len(limb.name) for limb in found.stance.limbs)
+    lines = ["force of the ground on each foot over every history, least to most [N, body's frame]; pressing"]
+    for i, limb in enumerate(found.stance.limbs):
+        ends = [*zip(found.low_n[i], found.high_n[i], strict=True), (found.pressing_low_n[i], found.pressing_high_n[i])]
+        lines.append(f"  {limb.name:{width}}  " + "   ".join(f"{_end(low):>7} to {_end(high):>7}" for low, high in ends))
+    if found.payload_factor is not None:
+        lines.append(f"no forces bear more than {_two(found.payload_factor)} times the payload")
+    return "\n".join(lines)
+
+
+def _end(value: float) -> str:
+    return _two(value) if math.isfinite(value) else "no end"
 
 
 def set_points(found: SetPoints) -> str:
