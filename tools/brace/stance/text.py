@@ -102,7 +102,8 @@ def ranged(found: Ranges) -> str:
     lines = ["force of the ground on each foot over every history, least to most [N, body's frame]; pressing"]
     for i, limb in enumerate(found.stance.limbs):
         ends = [*zip(found.low_n[i], found.high_n[i], strict=True), (found.pressing_low_n[i], found.pressing_high_n[i])]
-        lines.append(f"  {limb.name:{width}}  " + "   ".join(f"{_end(low):>7} to {_end(high):>7}" for low, high in ends))
+        words = "   ".join(f"{_end(low):>7} to {_end(high):>7}" for low, high in ends)
+        lines.append(f"  {limb.name:{width}}  {words}")
     if found.payload_factor is not None:
         lines.append(f"no forces bear more than {_two(found.payload_factor)} times the payload")
     return "\n".join(lines)
