@@ -17,16 +17,17 @@ from handmade import loading_record
 
 from brace.dataset import Dataset, load_dataset
 from brace.diagnose.diagnosis import Diagnosis
-from brace.diagnose.loading import rivals
+from brace.diagnose.loading import rivals, run
 from brace.diagnose.loading.choose import LabelSet
 from brace.diagnose.loading.fit import Fit, fit
 from brace.diagnose.loading.rivals import TURNS, Member, _contest, _fitted, _implausible, _InPlace, _wider
-from brace.diagnose.loading.space import space_of, trust_of
+from brace.diagnose.loading.search_pass import Pass
+from brace.diagnose.loading.space import Trust, space_of, trust_of
 from brace.diagnose.options import Options
 from brace.diagnose.run import diagnose
 from brace.effects import BY_NAME, all_variants
 from brace.effects.rivals import RIVAL_CAUSES
-from brace.identify.record import load_record, setting_of
+from brace.identify.record import Record, load_record, setting_of
 from brace.model import LimbModel, load_limb
 from brace.native.plant_batch import model_numbers, number_index
 from brace.stiffness.at_rest import planar_limb
@@ -59,7 +60,24 @@ def limb() -> Path:
 
 
 @pytest.fixture(scope="module")
-def yields(tmp_path_factory: pytest.TempPathFactory, limb: Path) -> Diagnosis:
+def searched_once() -> Iterator[None]:
+    """The same readings beside the same limb are searched once, which takes most of a diagnosis: what is taken, said
+    and exported comes after the search."""
+    search, found = run._searches, dict[bytes, tuple[Pass | None, Pass]]()
+
+    def kept(record: Record, locked: np.ndarray, trust: Trust, *rest: Any) -> tuple[Pass | None, Pass]:
+        asked = b"".join(part.tobytes() for part in (record.measured, record.sigma, locked, trust.numbers))
+        if asked not in found:
+            found[asked] = search(record, locked, trust, *rest)
+        return found[asked]
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(run, "_searches", kept)
+        yield
+
+
+@pytest.fixture(scope="module")
+def yields(searched_once: None, tmp_path_factory: pytest.TempPathFactory, limb: Path) -> Diagnosis:
     return told(tmp_path_factory.mktemp("yields") / "record", limb, YIELDS)
 
 
@@ -130,7 +148,9 @@ def test_what_the_readings_speak_against_is_no_member(cost_of_rival: float, name
     assert found.share_of_chosen == pytest.approx(1e-9 if "a" in names else 0.0, rel=1e-3)
 
 
-def test_a_member_is_taken_by_its_name(brace: Callable[..., Outcome], tmp_path: Path, limb: Path) -> None:
+def test_a_member_is_taken_by_its_name(
+    searched_once: None, brace: Callable[..., Outcome], tmp_path: Path, limb: Path
+) -> None:
     record = loading_record(tmp_path / "record", limb, values=YIELDS)
     exported = {}
     for name in ("rig_compliance@rig", "base_compliance", "backlash"):
