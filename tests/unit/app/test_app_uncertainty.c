@@ -324,13 +324,40 @@ static void test_a_newest_load_without_an_equilibrium_leaves_all_open(void)
     expect_not_known();
 }
 
-/* Across the plane only the coxa joint measures the load. */
-static void test_of_a_limb_in_space_the_coxa_joint_s_load_counts_beside_a_sensor(void)
+static void yields_across_its_plane(void)
 {
     parameters.limb.joint[BRACE_COXA].compliance_rad_per_n_mm = 8e-6f;
     parameters.limb.link[BRACE_FEMUR].lateral_mm_per_n = 0.06f;
     parameters.limb.link[BRACE_TIBIA].lateral_mm_per_n = 0.25f;
     parameters.limb.link[BRACE_TIBIA].moment_transfer = 1.0f;
+}
+
+/* With the coxa joint at 0 and no load across, the limb's plane is that of x and z: what a joint's load does to K's
+ * entries there is one thing, found for K in the plane and for K in space. */
+static void test_a_load_in_the_plane_counts_in_space_as_in_the_plane(void)
+{
+    yields_across_its_plane();
+    bench_start(&parameters);
+    fake.joint[BRACE_COXA].absent = false;
+    brace_fake_without_force(&fake);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_start(&app, &fake.hal));
+    fake.joint[BRACE_FEMUR].sample.torque_n_mm = -2000.0f;
+    fake.joint[BRACE_TIBIA].sample.torque_n_mm = 1500.0f;
+    ticks(500);
+    const sigma_result_t *found = &app.controller.sigma.told;
+    TEST_ASSERT_TRUE(found->is_there);
+    for (int joint = BRACE_FEMUR; joint <= BRACE_TIBIA; joint++) {
+        TEST_ASSERT_TRUE(found->load_counts[joint]);
+        const brace_k_sigma_t *by_load = &found->by_load[joint];
+        ASSERT_CLOSE(1.0, by_load->space.k_xx_n_per_mm / by_load->plane.k_xx_n_per_mm, SAME_RATIO);
+        ASSERT_CLOSE(1.0, by_load->space.k_zz_n_per_mm / by_load->plane.k_zz_n_per_mm, SAME_RATIO);
+    }
+}
+
+/* Across the plane only the coxa joint measures the load. */
+static void test_of_a_limb_in_space_the_coxa_joint_s_load_counts_beside_a_sensor(void)
+{
+    yields_across_its_plane();
     bench_start(&parameters);
     fake.joint[BRACE_COXA].absent = false;
     TEST_ASSERT_EQUAL(BRACE_OK, brace_app_start(&app, &fake.hal));
@@ -400,6 +427,7 @@ int main(void)
     RUN_TEST(test_a_load_by_fewer_than_five_samples_leaves_all_open);
     RUN_TEST(test_a_joint_that_may_stand_anywhere_in_its_gap_counts_with_its_angle);
     RUN_TEST(test_a_newest_load_without_an_equilibrium_leaves_all_open);
+    RUN_TEST(test_a_load_in_the_plane_counts_in_space_as_in_the_plane);
     RUN_TEST(test_of_a_limb_in_space_the_coxa_joint_s_load_counts_beside_a_sensor);
     RUN_TEST(test_a_limb_that_is_turned_is_as_uncertain);
     RUN_TEST(test_without_a_valid_K_there_is_no_sigma);

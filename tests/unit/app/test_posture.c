@@ -12,10 +12,15 @@ static posture_t posture;
 static const brace_vec3_t down = {0.0f, 0.0f, -1.0f};
 static float outwards_n;
 
-static void stand(float theta1_rad, float theta2_rad)
+static void take(float theta1_rad, float theta2_rad)
 {
     const float motor_rad[] = {0.0f, theta1_rad, theta2_rad}, none[] = {0.0f, 0.0f, 0.0f}, link_rad[] = {NAN, NAN, NAN};
     posture_take(&posture, &parameters, motor_rad, none, link_rad);
+}
+
+static void stand(float theta1_rad, float theta2_rad)
+{
+    take(theta1_rad, theta2_rad);
     posture_settle(&posture, NULL);
 }
 
@@ -62,16 +67,30 @@ static void test_a_tip_force_and_the_loads_that_it_makes_are_one(void)
 }
 
 /* A motor carries what hangs beyond its axis, with half of its own link. */
-static void test_weights_hang_where_they_are(void)
+static void expect_weights_at(double theta1, double theta2)
 {
-    const double theta1 = 0.4, theta2 = 1.1, femur = (double)parameters.limb.femur_mm;
-    const double tibia = (double)parameters.limb.tibia_mm;
-    stand((float)theta1, (float)theta2);
+    const double femur = (double)parameters.limb.femur_mm, tibia = (double)parameters.limb.tibia_mm;
     const double knee_x = femur * cos(theta1), tip_x = knee_x + tibia * cos(theta1 - theta2);
     const double about_hip = 2.0 * 0.5 * knee_x + 1.5 * knee_x + 1.0 * 0.5 * (knee_x + tip_x);
     const double about_knee = 1.0 * 0.5 * (tip_x - knee_x);
     ASSERT_CLOSE(about_hip, posture_gravity_n_mm(&posture, &parameters.gravity, down, BRACE_FEMUR), 1e-3);
     ASSERT_CLOSE(-about_knee, posture_gravity_n_mm(&posture, &parameters.gravity, down, BRACE_TIBIA), 1e-3);
+}
+
+static void test_weights_hang_where_they_are(void)
+{
+    stand(0.4f, 1.1f);
+    expect_weights_at(0.4, 1.1);
+}
+
+/* The load of a tick follows from the levers of that tick's angles, before anybody knows where the load has moved them. */
+static void test_levers_are_those_of_the_newest_angles(void)
+{
+    take(1.0f, 1.4f);
+    expect_weights_at(1.0, 1.4);
+    posture_settle(&posture, NULL);
+    take(0.4f, 1.1f);
+    expect_weights_at(0.4, 1.1);
 }
 
 static void test_where_the_levers_do_not_allow_it_no_force_is_told(void)
@@ -265,6 +284,7 @@ int main(void)
     RUN_TEST(test_a_start_knows_no_posture);
     RUN_TEST(test_a_tip_force_and_the_loads_that_it_makes_are_one);
     RUN_TEST(test_weights_hang_where_they_are);
+    RUN_TEST(test_levers_are_those_of_the_newest_angles);
     RUN_TEST(test_where_the_levers_do_not_allow_it_no_force_is_told);
     RUN_TEST(test_what_has_levers);
     RUN_TEST(test_a_force_across_is_measured_by_the_coxa_joint);
