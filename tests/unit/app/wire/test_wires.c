@@ -18,7 +18,8 @@ static void start_at(uint32_t stiffness_hz, uint32_t posture_hz, uint32_t load_h
     p.controller.posture_hz = posture_hz;
     p.controller.load_hz = load_hz;
     p.controller.sigma_hz = load_hz / 8u;
-    if (load_hz > 0u) { /* every frame comes at its own rate only where the bus has room, for one that is added too */
+    if (stiffness_hz < 1000u) {
+        /* Every frame comes at its own rate only where the bus has room, for one that is added too. */
         p.controller.bus_load_ratio = 0.5f;
     }
     p.controller.heartbeat_hz = 1;
@@ -200,6 +201,7 @@ static void test_process_data_count(void)
     uint32_t snapshots = 0, most = 0;
     start(100);
     TEST_ASSERT_EQUAL_UINT32(10000, app.wires.can.bus_port.process.period_us);
+    (void)done(); /* text that waited while nobody emptied the port leaves first, and is no frame of this tick */
     for (int i = 0; i < 200; i++) {
         const uint32_t sent = done(), frames = data_sent();
         const bool on_bus = is_taken_now(&app.wires.can.bus_port), as_text = is_taken_now(&app.wires.can.text_port);
