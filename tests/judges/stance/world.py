@@ -125,8 +125,8 @@ def _limb_toml(limbs: Limbs, i: int, hidden: Hidden) -> str:
     return "\n".join(lines) + "\n"
 
 
-def write(stance: Stance, folder: Path) -> Path:
-    """stance.toml and its limbs' files; returns the stance's path."""
+def write(stance: Stance, folder: Path, offset_mm: Array | None = None) -> Path:
+    """stance.toml and its limbs' files; returns the stance's path. offset_mm: what is said of the footholds' places."""
     folder.mkdir(parents=True, exist_ok=True)
     world = stance.world
     weight = float(np.linalg.norm(world.weight_n))
@@ -135,10 +135,11 @@ def write(stance: Stance, folder: Path) -> Path:
              f"down = {_list(world.weight_n / weight)}"]
     for i, name in enumerate(stance.names()):
         (folder / f"limb{i}.toml").write_text(_limb_toml(stance.nominal, i, stance.hidden))
+        offset = [] if offset_mm is None else [f"offset_mm = {_list(offset_mm[i])}"]
         lines += ["[[limb]]", f'name = "{name}"', f'model = "limb{i}.toml"', f"mount_mm = {_list(world.mount_mm[i])}",
                   f"mount_rpy_rad = {_list(stance.rpy_rad[i])}", f"theta_rad = {_list(stance.nominal.theta_rad[i])}",
                   "[limb.foothold]", f"normal = {_list(world.normal[i])}", f"friction = {float(stance.friction[i])!r}",
-                  f"grip_n = {float(world.grip_n[i])!r}", f"offset_sd_mm = {stance.hidden.offset_mm!r}"]
+                  f"grip_n = {float(world.grip_n[i])!r}", f"offset_sd_mm = {stance.hidden.offset_mm!r}", *offset]
     lines += ["[payload]", f"force_n = {_list(world.payload_n)}", f"at_mm = {_list(world.payload_at_mm)}"]
     path = folder / "stance.toml"
     path.write_text("\n".join(lines) + "\n")

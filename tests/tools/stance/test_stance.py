@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from collections.abc import Callable
 from pathlib import Path
 
@@ -312,6 +313,29 @@ def test_set_points_raise_the_smallest_margin(brace: Callable[..., Outcome], sta
     for _ in range(2000):
         tried = (force - stiffness @ chance.uniform(-2.0, 2.0, force.size)).reshape(-1, 3)
         assert min(statics.margin_n(i, one) for i, one in enumerate(tried)) <= best / 0.95
+
+
+def test_set_points_are_asked_for_again_when_they_have_been_executed(
+    brace: Callable[..., Outcome], stance: Path, tmp_path: Path
+) -> None:
+    """What was printed, written into the file, with the forces then: the feet stand where they stood."""
+    found = json.loads(brace("stance", "set", stance, "--json").out)["limbs"]
+    table, text = tmp_path / "m.csv", stance.read_text()
+    table.write_text("\n".join(["limb,fx_n,fy_n,fz_n", *(
+        ",".join([limb["name"], *map(str, limb["force_n"])]) for limb in found)]) + "\n")  # fmt: skip
+    head, *limbs = text.split("[[limb]]")
+    for i, (part, limb) in enumerate(zip(limbs, found, strict=True)):
+        part = re.sub(r"(?m)^theta_rad = .*$", f"theta_rad = {limb['theta_rad']}", part)
+        limbs[i] = part.replace("[limb.foothold]\n", f"[limb.foothold]\noffset_mm = {limb['offset_mm']}\n")
+    executed = stance.with_name("executed.toml")
+    executed.write_text("[[limb]]".join([head, *limbs]))
+    assert executed.read_text().count("offset_mm = [") == len(found)
+    measured = ("--measured", table, "--with-payload", "--json")
+    again = json.loads(brace("stance", "set", executed, *measured).out)["limbs"]
+    for before, after in zip(found, again, strict=True):
+        assert after["force_before_n"] == pytest.approx(before["force_n"], abs=0.05)
+    assert min(limb["margin_n"] for limb in again) > min(limb["margin_n"] for limb in found) - 0.05
+    assert brace("stance", "set", executed, "--with-payload").code == 2
 
 
 def test_set_points_make_wanted_forces(brace: Callable[..., Outcome], stance: Path, tmp_path: Path) -> None:

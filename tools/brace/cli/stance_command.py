@@ -143,7 +143,9 @@ def _add_set(actions: Subcommands) -> None:
         help="how to move the tips' set-points: for the largest margin, wanted forces, or no sag",
         description="A position-controlled limb cannot choose its force, but its set-point does. Prints how far to "
         "move each tip's set-point under weight and payload, the angles to command for it, and the forces then. Forces "
-        "that are --measured before the payload make the answer good, as for load.",
+        "that are --measured before the payload make the answer good, as for load. K is not known exactly: measure "
+        "again --with-payload where the set-points have moved, with the new theta_rad and the printed offset_mm in "
+        "stance.toml, and ask again.",
     )
     parser.add_argument("stance", type=common.path, metavar="STANCE.toml", help="the stance")
     parser.add_argument(
@@ -158,6 +160,7 @@ def _add_set(actions: Subcommands) -> None:
         "--travel", type=common.positive_length, default=5.0, metavar="MM", help="most way in x, y and z; default 5"
     )
     _add_measured(parser)
+    parser.add_argument("--with-payload", action="store_true", help="--measured was read under the payload")
     common.add_json(parser)
     parser.set_defaults(run=_set)
 
@@ -281,16 +284,24 @@ def _set(arguments: argparse.Namespace) -> int:
             next_step="give both, or neither",
         )
 
+    if arguments.with_payload and arguments.measured is None:
+        raise UsageError(
+            "--with-payload without --measured",
+            why="it says how the measured forces were read",
+            next_step="give --measured CSV, or leave --with-payload out",
+        )
+
     def ask(stance: Stance) -> dict[str, object] | str:
         measured = _measured(arguments, stance, arguments.measured)
+        begun = setpoints.Begun(stance, measured, arguments.with_payload)
         if arguments.aim == "forces":
             wanted = _measured(arguments, stance, arguments.wanted)
             assert wanted is not None
-            found = setpoints.wanted_forces(stance, wanted.force_n, arguments.travel, measured)
+            found = setpoints.wanted_forces(begun, wanted.force_n, arguments.travel)
         elif arguments.aim == "sag":
-            found = setpoints.least_sag(stance, measured)
+            found = setpoints.least_sag(begun)
         else:
-            found = setpoints.largest_margin(stance, arguments.travel, measured)
+            found = setpoints.largest_margin(begun, arguments.travel)
         return found.as_json() if arguments.json else set_points(found)
 
     return _answer_or_reason(arguments, ask, arguments.stance)

@@ -22,13 +22,34 @@ _ROUNDS = 6
 
 
 @dataclass(frozen=True)
+class Begun:
+    """What is known before set-points move. with_payload: the forces were measured under weight and payload, else under
+    the weight alone."""
+
+    stance: Stance
+    measured: Measured | None = None
+    with_payload: bool = False
+
+    def under_load(self) -> tuple[World, State]:
+        """The body under weight and payload. Raises NoStanceError."""
+        world = believed(self.stance)
+        if not self.with_payload:
+            _, state = world.load(world.stand(self.measured), [world.payload])
+            return world, state
+        world = replace(world, weight=(*world.weight, world.payload), payload=(np.zeros(3), np.zeros(3)))
+        return world, world.stand(self.measured).state
+
+
+@dataclass(frozen=True)
 class SetPoints:
     """Arrays have a row a limb. way_mm: of the tip's set-point in the body's frame. before and after: forces and
-    margins under weight and payload. beyond: joints that leave their travel."""
+    margins under weight and payload. beyond: joints that leave their travel. offset_mm: where each foothold then lies,
+    from the tip that the new angles mean without load: for stance.toml."""
 
     stance: Stance
     theta_rad: np.ndarray
     way_mm: np.ndarray
+    offset_mm: np.ndarray
     before_n: np.ndarray
     after_n: np.ndarray
     margin_before_n: list[float]
@@ -44,6 +65,7 @@ class SetPoints:
                     "name": limb.name,
                     "theta_rad": self.theta_rad[i],
                     "tip_moves_mm": self.way_mm[i],
+                    "offset_mm": self.offset_mm[i],
                     "force_before_n": self.before_n[i],
                     "force_n": self.after_n[i],
                     "margin_before_n": self.margin_before_n[i],
@@ -56,40 +78,32 @@ class SetPoints:
         }
 
 
-def largest_margin(stance: Stance, travel_mm: float, measured: Measured | None = None) -> SetPoints:
+def largest_margin(begun: Begun, travel_mm: float) -> SetPoints:
     """The largest smallest margin of all feet that bear, each component of a way within travel_mm; of such ways the
     shortest. Raises NoStanceError."""
-    world, state = _under_load(stance, measured)
+    world, state = begun.under_load()
     force, stiffness = _linear(world, state)
-    return _executed(stance, world, state, _widest(stance, state, force, stiffness, travel_mm))
+    return _executed(begun.stance, world, state, _widest(begun.stance, state, force, stiffness, travel_mm))
 
 
-def wanted_forces(
-    stance: Stance, wanted_n: np.ndarray, travel_mm: float, measured: Measured | None = None
-) -> SetPoints:
+def wanted_forces(begun: Begun, wanted_n: np.ndarray, travel_mm: float) -> SetPoints:
     """Forces as near to the wanted ones as weight and payload allow (a row a limb). Raises NoStanceError."""
-    world, state = _under_load(stance, measured)
+    world, state = begun.under_load()
     force, stiffness = _linear(world, state)
     lack = force - wanted_n.ravel()
     rows = np.vstack([stiffness, _LEAST_GAIN_N_PER_MM * np.eye(lack.size)])
     found = lsq_linear(rows, np.concatenate([lack, np.zeros(lack.size)]), (-travel_mm, travel_mm))
-    return _executed(stance, world, state, found.x.reshape(-1, 3))
+    return _executed(begun.stance, world, state, found.x.reshape(-1, 3))
 
 
-def least_sag(stance: Stance, measured: Measured | None = None) -> SetPoints:
+def least_sag(begun: Begun) -> SetPoints:
     """The body back to where it is without load: all tips move as the body has sagged, which changes no force. Raises
     NoStanceError."""
-    world, state = _under_load(stance, measured)
+    world, state = begun.under_load()
     way = np.array(
         [state.displacement_mm + np.cross(state.rotation_rad, law.tip_mm) for law in world.laws]
     )
-    return _executed(stance, world, state, way)
-
-
-def _under_load(stance: Stance, measured: Measured | None) -> tuple[World, State]:
-    world = believed(stance)
-    _, state = world.load(world.stand(measured), [world.payload])
-    return world, state
+    return _executed(begun.stance, world, state, way)
 
 
 def _linear(world: World, state: State) -> tuple[np.ndarray, np.ndarray]:
@@ -170,6 +184,7 @@ def _executed(stance: Stance, world: World, state: State, way_mm: np.ndarray) ->
         stance,
         np.array([limb.theta_rad for limb in limbs]),
         way_mm,
+        world.offset_mm - shift,
         state.force_n,
         found.force_n,
         [before.margin_n(i, force) for i, force in enumerate(state.force_n)],

@@ -125,6 +125,9 @@ def set_points(found: SetPoints) -> str:
         lines.append(f"  {limb.name:{width}}  {way}   {theta}   {force}   {margin}")
     moved = " ".join(_two(part) for part in found.displacement_mm)
     lines.append(f"the body is then {moved} mm from where it is without load")
+    lines.append("then in stance.toml, beside the new theta_rad, foothold.offset_mm =")
+    for i, limb in enumerate(found.stance.limbs):
+        lines.append(f"  {limb.name:{width}}  [{', '.join(_two(part) for part in found.offset_mm[i])}]")
     return "\n".join([*lines, *(f"note: {joint} leaves its travel" for joint in found.beyond)])
 
 
