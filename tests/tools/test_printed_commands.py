@@ -119,6 +119,7 @@ ONLY_PARSED = {  # page, and how the commands begin: why
     ("porting.md", ""): "needs a board; test_doctor.py and test_flash.py",
     ("stance.md", "stance"): "the README's",
     ("stance.md", "sim"): "test_sim_stance.py",
+    ("stance.md", "monitor"): "tests/tools/live/test_live_stance.py",
     ("your-limb.md", "new --out limb.toml --urdf"): "test_pages_commands.py",
     ("bus.md", ""): "below",
 }

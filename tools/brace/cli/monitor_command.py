@@ -13,6 +13,7 @@ from brace.cli.bus_options import Ended, add_bus, bus_url, ended_by_signal
 from brace.cli.monitor_display import Display, emergency_line, end
 from brace.cli.options import Subcommands
 from brace.cli.subcommands import SUBCOMMANDS
+from brace.ground.errors import UsageError
 
 if TYPE_CHECKING:
     from brace.bus.frame import Bus
@@ -63,6 +64,12 @@ def add(commands: Subcommands) -> None:
         metavar="[NODE=]LIMB.toml",
         help="with --web: lengths and trust of a limb, or of all; may be repeated",
     )
+    parser.add_argument(
+        "--stance",
+        type=common.path,
+        metavar="STANCE.toml",
+        help="with --web: what each foot of this body bears, above its limbs (docs/stance.md)",
+    )
     common.add_json(parser)
     parser.set_defaults(run=run)
 
@@ -70,6 +77,12 @@ def add(commands: Subcommands) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Executes the subcommand."""
     url = bus_url(arguments)
+    if arguments.stance is not None and arguments.web is None:
+        raise UsageError(
+            "--stance without --web",
+            why="the page shows a stance",
+            next_step="--web, or brace stance watch STANCE.toml for a terminal",
+        )
     if arguments.web is not None:
         from brace.cli.monitor_web import monitor_web
 

@@ -15,6 +15,7 @@ from brace.ground.errors import EXIT_OK, UsageError
 
 if TYPE_CHECKING:
     from brace.bus.url import BusUrl
+    from brace.live.stance_view import StanceFeed
     from brace.model import LimbModel
 
 _NODE_MOST = 127
@@ -29,7 +30,7 @@ def monitor_web(arguments: argparse.Namespace, url: BusUrl) -> int:
         raise UsageError(
             "the page cannot be served", where="brace monitor --web", why=str(error), next_step="pip install aiohttp"
         ) from None
-    feed = Feed(url, arguments.bit_rate, arguments.node, models(arguments.model))
+    feed = Feed(url, arguments.bit_rate, arguments.node, models(arguments.model), _stance(arguments, url))
     until = time.monotonic() + (arguments.seconds if arguments.seconds is not None else float("inf"))
     try:
         with ended_by_signal() as ended:
@@ -43,6 +44,21 @@ def monitor_web(arguments: argparse.Namespace, url: BusUrl) -> int:
             next_step="--web 0 takes any free port, and prints which",
         ) from None
     return EXIT_OK
+
+
+def _stance(arguments: argparse.Namespace, url: BusUrl) -> StanceFeed | None:
+    if arguments.stance is None:
+        return None
+    if url.is_modbus or arguments.node is not None:
+        raise UsageError(
+            "--stance with " + ("one controller over Modbus" if url.is_modbus else "--node"),
+            why="a stance listens to all of its limbs",
+            next_step="--bus URL of their CAN bus, without --node",
+        )
+    from brace.live.stance_view import StanceFeed
+    from brace.stance.stance_file import load_stance
+
+    return StanceFeed(load_stance(arguments.stance), url.text)
 
 
 def models(given: list[str]) -> dict[int, LimbModel]:

@@ -22,6 +22,7 @@ from brace.bus.watch import NodeState, Watch
 from brace.ground.errors import BraceError
 from brace.live.card import Card, card_from, card_of
 from brace.live.limb_view import limb_numbers, limb_words
+from brace.live.stance_view import StanceFeed
 from brace.bus.thinning import thinned
 from brace.model import LimbModel
 
@@ -38,6 +39,7 @@ class Feed:
     bit_rate: int
     node: int | None = None
     models: dict[int, LimbModel] = field(default_factory=dict)  # by node; 0: of every node without one of its own
+    stance: StanceFeed | None = None  # the body that these limbs carry; None: nobody has named one
     trouble: str = ""
     ended: str = ""  # why nothing comes any more: the end of a log
 
@@ -61,7 +63,10 @@ class Feed:
         }  # fmt: skip
         if words != self._words:
             self._words, self._words_text = words, _AS_TEXT(words)
-        return self._words_text, _AS_TEXT({"numbers": [limb_numbers(*limb, now_s) for limb in limbs]})
+        numbers: dict[str, object] = {"numbers": [limb_numbers(*limb, now_s) for limb in limbs]}
+        if self.stance is not None:
+            numbers["stance"] = self.stance.numbers
+        return self._words_text, _AS_TEXT(numbers)
 
     def step(self) -> None:
         """Takes what has come since the last step, without waiting. Called by who serves the page, once for each
@@ -114,6 +119,8 @@ class Feed:
         for frame in thin.needed:
             self.watch.add(frame)
         self.watch.count(thin.counted)
+        if self.stance is not None:
+            self.stance.take(new, self.watch.last_s if is_log else time.time())
         for node in self.watch.nodes.keys() - self.cards.keys():
             self._look_up(node)
 

@@ -22,6 +22,7 @@ _PAGE = {
     "/page.css": ("page.css", "text/css"),
     "/page.js": ("page.js", "text/javascript"),
     "/limb.js": ("limb.js", "text/javascript"),
+    "/stance.js": ("stance.js", "text/javascript"),
 }
 _HEADERS = {
     "Content-Security-Policy":

@@ -1,5 +1,6 @@
 // The stream of messages, and a picture for every limb that is in it. Words come when they change, numbers always.
 import { Limb } from "./limb.js";
+import { StanceCard } from "./stance.js";
 
 const AGAIN_MS = 1000;
 const bus = document.getElementById("bus");
@@ -7,7 +8,9 @@ const trouble = document.getElementById("trouble");
 const main = document.getElementById("limbs");
 const limbs = new Map();
 const words = new Map(); // of a limb, by its node
+const stance = new StanceCard(document.getElementById("stance"));
 let newest = null;
+let newestStance = null;
 
 function tell(message) {
   bus.textContent = message.ended ? `${message.bus}: ${message.ended}` : message.bus;
@@ -35,6 +38,10 @@ function draw() {
     newest.forEach(show);
     newest = null;
   }
+  if (newestStance !== null) {
+    stance.show(newestStance);
+    newestStance = null;
+  }
   requestAnimationFrame(draw);
 }
 
@@ -46,6 +53,7 @@ function listen() {
       tell(message);
     } else {
       newest = message.numbers;
+      newestStance = message.stance ?? null;
     }
   };
   stream.onclose = () => {
@@ -53,6 +61,7 @@ function listen() {
     for (const limb of limbs.values()) {
       limb.lose();
     }
+    stance.lose();
     setTimeout(listen, AGAIN_MS);
   };
 }
