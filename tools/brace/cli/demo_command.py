@@ -25,7 +25,8 @@ def add(commands: Subcommands) -> None:
                     "figures: eigenvalues over r, ellipses, the cyclic test with its zero-force shift, the choice of "
                     "stiffness; then has a simulated controller's own loading tests show what its model lacks, and "
                     "mends it; and hangs a payload on a simulated robot of four limbs until the foot slips that was "
-                    "named before. Writes pictures, tables, limb.toml, wire/ and facts.json into --out.")
+                    "named before; and lets one of its knees go soft until the forces name it. Writes pictures, "
+                    "tables, limb.toml, wire/, soft/ and facts.json into --out.")
     parser.add_argument("--out", type=common.path, default=Path("brace-demo"), metavar="DIR",
                         help="default: brace-demo")
     common.add_json(parser)
@@ -54,7 +55,8 @@ def run(arguments: argparse.Namespace) -> int:
         common.print_json({**story.facts, "out": arguments.out})
         return 0
     names = [name for name in story.files if "/" not in name]
-    common.emit(f"-> {arguments.out}/: {', '.join([*names, 'facts.json'])}, wire/wire-diagnosis/report.html")
+    reports = ("wire/wire-diagnosis/report.html", "soft/diagnosis/report.html")
+    common.emit(f"-> {arguments.out}/: {', '.join([*names, 'facts.json', *reports])}")
     common.emit("Next, three commands to try:")
     for words in next_steps(arguments.out):
         common.emit(f"   {shlex.join(words)}")

@@ -27,6 +27,7 @@ MOVED_MM = 0.01  # a foot that went so far has slid
 STEPS = 6  # of the payload, to what the named foot is to bear
 STEP_S, HANGS_S = 1.0, 0.5  # a step, and within it until the payload hangs
 _CORNERS = {"front left": (1, 1), "front right": (1, -1), "rear left": (-1, 1), "rear right": (-1, -1)}
+NAMES = tuple(_CORNERS)
 _SPRINGS = ("joint.{}.compliance_rad_per_n_mm", "link.{}.bending_mm_per_n", "link.{}.lateral_mm_per_n")
 
 
@@ -62,11 +63,17 @@ class Scene:
             for one in self.stance.limbs
         ]
         self._simulated = SimulatedStance(self.stance, replace(self.stance, limbs=tuple(hidden)))
-        with self._robot() as robot:
+        with self.robot() as robot:
             read = _forces_n(robot.robot_truth()) + chance.normal(0.0, SENSOR_N, (len(hidden), 3))
         self.measured = Measured(read, (SENSOR_N**2 * np.eye(3),) * len(hidden))
 
-    def _robot(self) -> Robot:
+    @property
+    def hidden(self) -> Stance:
+        """The robot as it is."""
+        return self._simulated.true
+
+    def robot(self) -> Robot:
+        """A new one, put down."""
         drive = {"servo_n_mm_per_rad": SERVO_N_MM_PER_RAD}
         setups = [
             LimbSetup(one.believed, one.plant, {"controller.node_id": one.node}, theta_rad=one.theta_rad, drive=drive)
@@ -91,7 +98,7 @@ class Scene:
         factors = first.payload_factor * np.arange(1, STEPS + 3) / STEPS
         steps: list[Step] = []
         slid: Slid | None = None
-        with self._robot() as robot:
+        with self.robot() as robot:
             began = _places_mm(robot.robot_truth())
             for number, factor in enumerate(factors.tolist()):
                 robot.set_payload(number * STEP_S, factor, HANGS_S)
@@ -126,7 +133,7 @@ class Scene:
             (one for one in lift(stance, measured=self.measured) if not one.reason),
             key=lambda one: min(m for limb, m in zip(stance.limbs, one.margin_n, strict=True) if limb.name != one.name),
         )
-        with self._robot() as robot:
+        with self.robot() as robot:
             before = _forces_n(robot.robot_truth())
             self._simulated.happen(robot, [Payload(0.0, 0.0, 0.0)], [], [Lift(foretold.name, 0.1, np.inf)])
             robot.step(1.5)

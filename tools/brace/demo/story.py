@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import tempfile
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
@@ -10,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from brace.dataset.write import csv_text
-from brace.demo import contact, cyclic, four_limbs, paper_table, postures, weight, wire_loop
+from brace.demo import contact, cyclic, four_limbs, paper_table, postures, soft_knee, weight, wire_loop
 from brace.demo.band import band
 from brace.identify import report
 from brace.model import LimbModel, load_limb
@@ -62,6 +63,8 @@ def narrate(story: Story, advance: Advance) -> Iterator[str]:
     yield from _wire(story)
     yield "9. A robot on four limbs: the foot that will slip is named before it does -> robot.png, robot.csv"
     yield from _robot(story)
+    yield "10. One knee of the robot goes soft: its limb is named by the forces, tested, diagnosed, mended -> soft/"
+    yield from _soft_knee(story)
 
 
 def _eigenvalues(story: Story, table: paper_table.PaperTable) -> Iterator[str]:
@@ -159,9 +162,7 @@ def _weight(story: Story, model: LimbModel) -> Iterator[str]:
 def _wire(story: Story) -> Iterator[str]:
     with tempfile.TemporaryDirectory() as name:
         turn = yield from wire_loop.play(Path(name))
-        for path in sorted(Path(name).rglob("*")):
-            if path.is_file():
-                story.files[f"wire/{path.relative_to(name).as_posix()}"] = path.read_bytes()
+        _keep(story, "wire", Path(name))
     theta1, theta2 = turn.posture
     yield f"   K at theta1 = {theta1:g}, theta2 = {theta2:g} rad [N/mm]:   k_xx     k_xz     k_zz    off by"
     for words, k in (("the limb's own", turn.truth), ("reported before", turn.before), ("reported after", turn.after)):
@@ -170,6 +171,30 @@ def _wire(story: Story) -> Iterator[str]:
                            "k_before_n_per_mm": turn.before, "k_after_n_per_mm": turn.after,
                            "k_true_n_per_mm": turn.truth, "off_before_ratio": turn.off(turn.before),
                            "off_after_ratio": turn.off(turn.after)}
+
+
+def _soft_knee(story: Story) -> Iterator[str]:
+    with tempfile.TemporaryDirectory() as name:
+        mended = yield from soft_knee.play(four_limbs.Scene(), Path(name))
+        _keep(story, "soft", Path(name))
+        diagnosis = json.loads((Path(name) / "diagnosis" / "diagnosis.json").read_text())
+    named = None
+    if mended.named is not None:
+        limb, soft, at_s = mended.named
+        named = {"limb": limb, "joint": soft.joint, "stiffness_ratio": soft.ratio, "low": soft.low, "high": soft.high,
+                 "at_s": at_s}  # fmt: skip
+    story.facts["soft_knee"] = {
+        "true": {"limb": four_limbs.NAMES[soft_knee.LIMB], "joint": soft_knee.JOINT,
+                 "stiffness_ratio": soft_knee.RATIO},
+        "named": named, "verdict": diagnosis["verdict"], "effects": diagnosis["effects"],
+        "off_before_n": mended.off_before_n, "off_after_n": mended.off_after_n}
+
+
+def _keep(story: Story, kept: str, folder: Path) -> None:
+    """All files of a folder, under this name."""
+    for path in sorted(folder.rglob("*")):
+        if path.is_file():
+            story.files[f"{kept}/{path.relative_to(folder).as_posix()}"] = path.read_bytes()
 
 
 def _robot(story: Story) -> Iterator[str]:

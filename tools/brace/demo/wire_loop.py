@@ -68,31 +68,31 @@ def play(folder: Path) -> Generator[str, None, Turn]:
     theta1, theta2 = POSTURES[0]
     for posture in POSTURES:
         start = _sim(posture)
-        yield _shown(start)
+        yield shown(start)
         with _controller(folder, start) as bus:
             record = (
                 *("record", "--bus", bus, "--loading-test", "--add", "--steps", STEPS, "--step-mm", STEP_MM),
                 *("--title", "loading tests over the wire", "--out", RECORD),
             )
-            yield _shown(record)
-            _run(folder, record)
+            yield shown(record)
+            run(folder, record)
     diagnose = ("diagnose", RECORD, "--model", "believed.toml", "--out", FOUND)
-    yield _shown(diagnose)
-    yield from ("     " + line for line in _run(folder, diagnose).splitlines()[:3])
+    yield shown(diagnose)
+    yield from ("     " + line for line in run(folder, diagnose).splitlines()[:3])
     start = _sim(POSTURES[0])
-    yield _shown(start)
+    yield shown(start)
     with _controller(folder, start) as bus:
         ask = ("query", "--bus", bus, "--theta1", theta1, "--theta2", theta2, "--json")
         push = ("params", "push", f"{FOUND}/limb.toml", "--bus", bus)
-        yield _shown(ask)
-        before = _k(_run(folder, ask))
-        yield _shown(push)
-        _run(folder, push)
-        yield _shown(ask)
-        after = _k(_run(folder, ask))
+        yield shown(ask)
+        before = _k(run(folder, ask))
+        yield shown(push)
+        run(folder, push)
+        yield shown(ask)
+        after = _k(run(folder, ask))
     ask_true = ("k", "--model", "true.toml", "--theta1", theta1, "--theta2", theta2, "--json")
-    yield _shown(ask_true)
-    truth = _k(_run(folder, ask_true))
+    yield shown(ask_true)
+    truth = _k(run(folder, ask_true))
     return Turn(
         POSTURES[0], before, after, truth, json.loads((folder / FOUND / "diagnosis.json").read_text())
     )
@@ -135,7 +135,7 @@ def _first_line(process: subprocess.Popen[str]) -> str:
     return line
 
 
-def _run(folder: Path, command: Command) -> str:
+def run(folder: Path, command: Command) -> str:
     """One command; its stdout."""
     process = _start(folder, command)
     try:
@@ -162,7 +162,7 @@ def _start(folder: Path, command: Command) -> subprocess.Popen[str]:
                             stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)  # fmt: skip
 
 
-def _shown(command: Command) -> str:
+def shown(command: Command) -> str:
     return "   $ brace " + " ".join(f"'{part}'" if " " in str(part) else str(part) for part in command)
 
 

@@ -35,7 +35,7 @@ _STIFFEST = -0.6  # an s that no limb has
 _UNEXPLAINED = 1e-5  # of a change that neither load nor softness makes
 _SLIPS_MM = 3.0
 _HIDES_AGAIN = 10.0  # friction goes with the load and would look like softness: what it hides counts for little
-_LINEAR_REL = 0.02  # of a change: K and the limbs' levers change on the way
+_LINEAR_REL = 0.03  # of a change: K and the limbs' levers change on the way
 _NINETY = 1.645
 _KINDS = (*JOINTS, "")  # a joint, or the limb as a whole
 
