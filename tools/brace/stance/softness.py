@@ -273,15 +273,15 @@ class Softness:
         return np.asarray(np.outer(rel, [1.0] * len(JOINTS) + [_WHOLE]).ravel())
 
     def _is_explained(self, g: np.ndarray, wrong: np.ndarray, spread: np.ndarray, trust: np.ndarray) -> bool:
-        """By a load and by what one limb may yield, beside what the changes so far have said."""
-        for i in range(self._n):
+        """By a load and by one joint or limb that may have gone soft, beside what the changes so far have said."""
+        for h in range(trust.size):
             wide = trust.copy()
-            wide[len(_KINDS) * i : len(_KINDS) * (i + 1)] = _SOFT_SD
+            wide[h] = _SOFT_SD
             matrix = np.linalg.inv(self._all.information + np.diag(1.0 / wide**2))
             off = wrong - g @ (matrix @ self._all.projected)
             expected = spread + g @ matrix @ g.T
             s = matrix @ (self._all.projected + g.T @ np.linalg.solve(expected, off))
-            if off @ np.linalg.solve(expected, off) < _surprise(wrong.size) and s.min() > _STIFFEST:
+            if off @ np.linalg.solve(expected, off) < _surprise(wrong.size) and s[h] > _STIFFEST:
                 return True
         return False
 
