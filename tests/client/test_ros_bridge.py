@@ -266,7 +266,9 @@ def test_the_node_publishes_what_is_decoded(monkeypatch: pytest.MonkeyPatch) -> 
 
     module("brace_msgs")
     module("brace_msgs.msg", LimbLoad=message, LimbStiffness=message, LimbStiffnessInSpace=message,
-           LimbUncertainty=message)
+           LimbUncertainty=message, Stance=message, StanceFoot=message)
+    module("geometry_msgs")
+    module("geometry_msgs.msg", Vector3=SimpleNamespace)
     module("diagnostic_msgs")
     module("diagnostic_msgs.msg", DiagnosticArray=message, DiagnosticStatus=message, KeyValue=SimpleNamespace)
     sys.modules.pop("brace_bridge.node", None)
@@ -293,8 +295,8 @@ def test_the_node_publishes_what_is_decoded(monkeypatch: pytest.MonkeyPatch) -> 
 @pytest.mark.parametrize(
     ("name", "build", "needed"),
     [
-        ("brace_msgs", "ament_cmake", {"std_msgs"}),
-        ("brace_bridge", "ament_python", {"brace_msgs", "diagnostic_msgs", "rclpy"}),
+        ("brace_msgs", "ament_cmake", {"geometry_msgs", "std_msgs"}),
+        ("brace_bridge", "ament_python", {"brace_msgs", "diagnostic_msgs", "geometry_msgs", "rclpy"}),
     ],
 )
 def test_packages_as_ros_reads_them(name: str, build: str, needed: set[str]) -> None:

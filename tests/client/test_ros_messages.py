@@ -1,5 +1,6 @@
 """brace_msgs, built by ROS 2's own generators (Debian's rosidl and ament), read by a C++ program; and the bridge as a
-Python package. Debian has neither std_msgs nor rclpy of ROS 2: std_msgs/Header is a stand-in, and nothing is sent."""
+Python package. Debian has neither std_msgs nor rclpy of ROS 2: std_msgs and geometry_msgs have stand-ins, and nothing
+is sent."""
 
 from __future__ import annotations
 
@@ -24,7 +25,7 @@ project({name})
 find_package(ament_cmake REQUIRED)
 find_package(rosidl_default_generators REQUIRED)
 {finds}
-rosidl_generate_interfaces({name} "msg/{message}.msg" {depends})
+rosidl_generate_interfaces({name} {messages} {depends})
 ament_package()
 """
 DEFAULTS = {
@@ -46,6 +47,7 @@ READER = """#include <cmath>
 #include "brace_msgs/msg/limb_load.hpp"
 #include "brace_msgs/msg/limb_stiffness.hpp"
 #include "brace_msgs/msg/limb_stiffness_in_space.hpp"
+#include "brace_msgs/msg/stance.hpp"
 
 int main()
 {
@@ -58,6 +60,13 @@ int main()
     k.k_xx = 3964.0;
     space.lambda_1 = 0.5;
     load.buckling_factor = INFINITY;
+    brace_msgs::msg::Stance stance;
+    stance.feet.resize(2);
+    stance.feet[1].force.z = 12.5;
+    stance.feet[1].force_covariance[8] = 0.25;
+    stance.carried.torque.y = -0.5;
+    std::printf("%zu %.1f %.2f %.1f ", stance.feet.size(), stance.feet[1].force.z, stance.feet[1].force_covariance[8],
+                stance.carried.torque.y);
     std::printf("%s %d %d %.0f %.1f %.0f\\n", k.header.frame_id.c_str(), k.flags, k.play_tibia, k.k_xx,
                 space.lambda_1, load.buckling_factor);
 }
@@ -84,14 +93,16 @@ def build(folder: Path, source: Path, installs: bool = True) -> Path:
     return made
 
 
-def stand_in(folder: Path, name: str, message: str, text: str, *needs: str) -> None:
+def stand_in(folder: Path, name: str, messages: dict[str, str], *needs: str) -> None:
     source = folder / name
     (source / "msg").mkdir(parents=True)
-    (source / "msg" / f"{message}.msg").write_text(text)
+    for message, text in messages.items():
+        (source / "msg" / f"{message}.msg").write_text(text)
     (source / "package.xml").write_text(PACKAGE.format(name=name))
     finds = "\n".join(f"find_package({need} REQUIRED)" for need in needs)
     depends = " ".join(("DEPENDENCIES", *needs)) if needs else ""
-    (source / "CMakeLists.txt").write_text(CMAKE.format(name=name, message=message, finds=finds, depends=depends))
+    files = " ".join(f'"msg/{message}.msg"' for message in messages)
+    (source / "CMakeLists.txt").write_text(CMAKE.format(name=name, messages=files, finds=finds, depends=depends))
     build(folder, source)
 
 
@@ -101,15 +112,19 @@ def test_the_messages_are_built_and_read(tmp_path: Path) -> None:
     (tmp_path / "generators").mkdir()
     for name, text in DEFAULTS.items():
         (tmp_path / "generators" / f"{name}Config.cmake").write_text(text)
-    stand_in(tmp_path, "builtin_interfaces", "Time", "int32 sec\nuint32 nanosec\n")
+    stand_in(tmp_path, "builtin_interfaces", {"Time": "int32 sec\nuint32 nanosec\n"})
     header = "builtin_interfaces/Time stamp\nstring frame_id\n"
-    stand_in(tmp_path, "std_msgs", "Header", header, "builtin_interfaces")
+    stand_in(tmp_path, "std_msgs", {"Header": header}, "builtin_interfaces")
+    vector = "float64 x\nfloat64 y\nfloat64 z\n"
+    stand_in(tmp_path, "geometry_msgs", {"Vector3": vector, "Wrench": "Vector3 force\nVector3 torque\n"})
     build(tmp_path, ROS / "brace_msgs")
     reader = tmp_path / "reader"
     reader.mkdir()
     (reader / "CMakeLists.txt").write_text(READER_CMAKE)
     (reader / "reader.cpp").write_text(READER)
-    assert run(tmp_path, build(tmp_path, reader, installs=False) / "reader") == "limb_1 8 4 3964 0.5 inf\n"
+    assert run(tmp_path, build(tmp_path, reader, installs=False) / "reader") == (
+        "2 12.5 0.25 -0.5 limb_1 8 4 3964 0.5 inf\n"
+    )
 
 
 def test_the_bridge_is_a_python_package(tmp_path: Path) -> None:

@@ -84,6 +84,7 @@ class Estimate:
     time_s: float
     force_n: np.ndarray
     force_sigma_n: np.ndarray
+    force_covariance_n2: np.ndarray  # n x 3 x 3
     margin_n: np.ndarray  # to sliding, lift-off or letting go; infinite for a foot in the air
     margin_sigma_n: np.ndarray
     is_down: tuple[bool, ...]
@@ -531,6 +532,7 @@ class Observer:
             self._time_s,
             forces,
             np.sqrt(np.maximum(np.diag(covariance), 0.0)).reshape(-1, 3),
+            np.array([covariance[3 * i : 3 * i + 3, 3 * i : 3 * i + 3] for i in range(self._n)]),
             margin,
             margin_sigma,
             tuple(self._is_down),

@@ -1,9 +1,10 @@
 """ros2 run brace_bridge brace_bridge --ros-args -p bus:=can0: a topic limb_N/stiffness for each controller heard, with
 a coxa joint limb_N/stiffness_in_space too, where they are sent (controller.load_hz, sigma_hz) limb_N/load and
-limb_N/uncertainty, and on /diagnostics each limb's faults and the cause of a drift.
+limb_N/uncertainty, and on /diagnostics each limb's faults and the cause of a drift. With a stance the topic stance too:
+what each foot bears, what is carried, which foot lets go next.
 
 Parameters: bus (can0, slcan:/dev/ttyACM0, tcp://host:port), frame_prefix ("limb_": header.frame_id is limb_N),
-base_frame ("base_link": header.frame_id of K in space).
+base_frame ("base_link": header.frame_id of K in space and of the stance), stance (a stance.toml; "": none).
 """
 
 from __future__ import annotations
@@ -20,7 +21,10 @@ from brace_msgs.msg import LimbLoad as LimbLoadMessage
 from brace_msgs.msg import LimbStiffness as LimbStiffnessMessage
 from brace_msgs.msg import LimbStiffnessInSpace as LimbStiffnessInSpaceMessage
 from brace_msgs.msg import LimbUncertainty as LimbUncertaintyMessage
+from brace_msgs.msg import Stance as StanceMessage
+from brace_msgs.msg import StanceFoot as StanceFootMessage
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+from geometry_msgs.msg import Vector3
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.qos import qos_profile_sensor_data
@@ -34,6 +38,7 @@ from brace_bridge.decode import (
     LimbUncertainty,
     Message,
 )
+from brace_bridge.stance import Stance, StanceDecoder, Vector
 
 WAIT_S = 0.2
 DIAGNOSTICS_KEPT = 10
@@ -44,7 +49,10 @@ class Bridge(Node):
 
     def __init__(self) -> None:
         super().__init__("brace_bridge")
-        self._bus = open_bus(parse(self.declare_parameter("bus", "can0").value))
+        where = self.declare_parameter("bus", "can0").value
+        self._bus = open_bus(parse(where))
+        path = self.declare_parameter("stance", "").value
+        self._stance = StanceDecoder(path, where) if path else None
         self._prefix = self.declare_parameter("frame_prefix", "limb_").value
         self._base_frame = self.declare_parameter("base_frame", "base_link").value
         self._decoder = Decoder()
@@ -57,8 +65,14 @@ class Bridge(Node):
         try:
             while rclpy.ok():
                 frame = self._bus.receive(WAIT_S)
-                for message in [] if frame is None else self._decoder.add(frame):
+                if frame is None:
+                    continue
+                for message in self._decoder.add(frame):
                     self._publish(message)
+                stance = None if self._stance is None else self._stance.add(frame)
+                if stance is not None:
+                    topic = self._topic("stance", StanceMessage, qos_profile_sensor_data)
+                    topic.publish(_stance_message(stance, self._base_frame))
         except Exception as error:  # a bridge that no longer listens must not seem to live
             self.failure = error
             rclpy.try_shutdown()
@@ -102,6 +116,29 @@ def _filled(
         if field.name != "stamp_s":
             setattr(message, field.name, getattr(stiffness, field.name))
     return message
+
+
+def _stance_message(stance: Stance, frame_id: str) -> StanceMessage:
+    message = StanceMessage()
+    message.header.stamp.sec, message.header.stamp.nanosec = _seconds(stance.stamp_s)
+    message.header.frame_id = frame_id
+    for foot in stance.feet:
+        one = StanceFootMessage()
+        for field in fields(foot):
+            if field.name != "force":
+                setattr(one, field.name, getattr(foot, field.name))
+        _set(one.force, foot.force)
+        message.feet.append(one)
+    _set(message.carried.force, stance.carried[0])
+    _set(message.carried.torque, stance.carried[1])
+    for name in ("carried_sigma", "displacement", "rotation"):
+        _set(getattr(message, name), getattr(stance, name))
+    message.next_to_let_go, message.further_payload_factor = stance.next_to_let_go, stance.further_payload_factor
+    return message
+
+
+def _set(message: Vector3, vector: Vector) -> None:
+    message.x, message.y, message.z = vector
 
 
 def _diagnostic(limb: str, health: LimbHealth) -> DiagnosticArray:
