@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from brace.stance.limb_law import LimbLaw
 from brace.stance.observer import Event, Observer, Reading
 from brace.stance.stance_file import load_stance
 from brace.stance.world import (
@@ -40,6 +41,7 @@ class Robot:
         self.scale = 1.0 + scale_rel * self.chance.standard_normal(4)
         self.hidden_n2, self.scale_rel = hidden_n**2 * np.eye(3), scale_rel
         self.unmeasured: set[int] = set()
+        self.laws = MIDDLE.laws
         self.time_s = 0.0
         places = [
             place_covariance_mm2(limb, law)
@@ -53,7 +55,7 @@ class Robot:
         return [
             Reading(law.tip_mm, law.spring(force).k_n_per_mm, 0.1, None if i in self.unmeasured else one,
                     SENSOR_N**2 * np.eye(3), self.hidden_n2, self.scale_rel)
-            for i, (law, force, one) in enumerate(zip(MIDDLE.laws, self.force_n, read, strict=True))
+            for i, (law, force, one) in enumerate(zip(self.laws, self.force_n, read, strict=True))
         ]  # fmt: skip
 
     def run(self, ticks: int) -> list[Event]:
@@ -133,6 +135,30 @@ def test_a_foot_that_slips_is_named() -> None:
     assert ("moved", STANCE.limbs[2].name) in [
         (event.kind, event.limb) for event in events
     ]
+
+
+def test_a_set_point_that_moves_is_no_event() -> None:
+    """Its force is measured before its angles come."""
+    robot = Robot(4, world=MIDDLE)
+    robot.run(50)
+    limb = STANCE.limbs[0]
+    moved = LimbLaw(
+        replace(limb, theta_rad=np.array(limb.theta_rad) + [0.0, 0.0, 0.02]),
+        STANCE.down,
+    )
+    laws, offset_mm = (moved, *MIDDLE.laws[1:]), MIDDLE.offset_mm.copy()
+    offset_mm[0] += MIDDLE.laws[0].tip_mm - moved.tip_mm
+    before_n = robot.force_n
+    robot.force_n = (
+        replace(MIDDLE, laws=laws, offset_mm=offset_mm).stand().state.force_n
+    )
+    assert np.abs(robot.force_n - before_n).max() > 10 * SENSOR_N
+    assert robot.run(2) == []
+    robot.laws = laws
+    assert robot.run(40) == []
+    assert (
+        np.abs(robot.observer.estimate().force_n - robot.force_n).max() < 3 * SENSOR_N
+    )
 
 
 def test_a_lift_and_a_landing_are_named() -> None:

@@ -26,7 +26,7 @@ _FOLLOWS = 0.05  # how much a reading counts for the noise: some twenty readings
 _JUMP = 9.0  # a difference beyond three sigma is a load that came, and counts as three sigma
 _UNKNOWN_SPREAD_N = 2.0
 _INTERVAL_WITHIN_S = 1.0  # it comes beside the load; what the first forces hide stays in every later answer
-_STANDS_RAD = 0.004  # a joint that is elsewhere by more, twice in a row, has been moved; less is the force's noise
+_STANDS_RAD = 0.002  # a joint that is elsewhere by more, twice in a row, has been moved; less is the force's noise
 _STANDS_FOLLOWS = 0.1
 _ACROSS_UNKNOWN_N = 1e3  # one sigma of a force's component that no sensor measures
 
@@ -114,7 +114,8 @@ class _Stands:
         self._yields = np.array([limb.model.number(f"joint.{joint}.compliance_rad_per_n_mm") for joint in JOINTS])
         self._rad: np.ndarray | None = None
         self._seen: tuple[float, ...] = ()
-        self._elsewhere = 0
+        self._elsewhere = self._count = 0
+        self._knows_load = False  # of what _rad is from
 
     def shape(self, state: NodeState) -> Shape:
         """From what has come; until angles have come, of the angles in stance.toml."""
@@ -129,6 +130,9 @@ class _Stands:
         if seen != self._seen:
             self._seen = seen
             known = np.array([value is not None for value in theta])
+            knows_load = state.load is not None and state.load.load is not None and state.load.load.is_counted
+            if knows_load and not self._knows_load:  # what was known without it says nothing
+                self._rad, self._knows_load, self._count = None, bool(known.all()), 0
             self._take(np.array(seen[:3]) - np.where(known, self._turned_rad(state.load), 0.0))
         return self._shape
 
@@ -141,11 +145,13 @@ class _Stands:
     def _take(self, rad: np.ndarray) -> None:
         before = self._rad
         if before is not None and np.abs(rad - before).max() < _STANDS_RAD:
-            rad, self._elsewhere = before + _STANDS_FOLLOWS * (rad - before), 0
+            self._elsewhere, self._count = 0, self._count + 1
+            rad = before + max(_STANDS_FOLLOWS, 1.0 / self._count) * (rad - before)
         elif before is not None:
             self._elsewhere += 1
             if self._elsewhere < 2:
                 return
+            self._count = 0
         self._rad, self._shape = rad, shape_of(self._limb, self._limb.model, rad)
 
 

@@ -381,14 +381,15 @@ class Observer:
     # -- events ------------------------------------------------------------------------------------------------------
 
     def _settled(self, change: _Change) -> list[Event]:
-        """What has changed, as soon as the limbs agree: judged by the state before, which then goes on from there."""
+        """What has changed, as soon as the limbs agree: judged by the state before, which then goes on from there.
+        Nothing has, where it explains what they measure: a set-point that moved."""
         means = change.means()
         if self._time_s < change.began_s + _SETTLES_S + _AGREED_S or not any(means):
             return []
         self._change = None
         self._x, self._p = change.x, change.p
         self._recent.clear()
-        cause = self._measure(means, 1.0)
+        cause = self._measure(means, _UNLIKELY)
         event = None if cause is None else self._happened(cause, change.began_s)
         return [] if event is None else [event]
 
