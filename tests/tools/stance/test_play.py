@@ -65,7 +65,8 @@ def test_exact_forces_before_the_payload_say_what_it_changes() -> None:
 def test_the_first_slip_lies_where_the_loaded_feet_say() -> None:
     """Followed from crossing to crossing, and found by loads one after the other."""
     for world, standing, _ in _draws(replace(_with_play(0.006), payload_n=np.array([6.0, 0.0, -3.0])), 4):
-        limb, factor = world.first_slip(standing, 20.0)
+        slip = world.first_slip(standing, 20.0)
+        limb, factor = slip.limb, slip.factor
         if limb < 0:
             continue
         force, at = world.payload

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from statistics import mode
 
 import numpy as np
 
+from brace.stance.posterior import likely_forces
 from brace.stance.stance_file import Stance
-from brace.stance.statics import LET_GO, OPEN, SLIDES, State, Statics
-from brace.stance.world import Measured, NoStanceError, Standing, World, believed, drawn
+from brace.stance.statics import LET_GO, OPEN, SLIDES, State
+from brace.stance.world import AtSlip, Measured, NoStanceError, Standing, World, believed, drawn
 
 DRAWS = 100
 FACTOR_MOST = 1000.0
@@ -106,7 +108,6 @@ class _Outcome:
 
     before: State
     after: State
-    statics: Statics
 
     @property
     def change_n(self) -> np.ndarray:
@@ -116,13 +117,9 @@ class _Outcome:
     def moved_mm(self) -> np.ndarray:
         return np.asarray(self.after.displacement_mm - self.before.displacement_mm)
 
-
-@dataclass(frozen=True)
-class _Slip:
-    """The first foot to move in one world, and the payload's factor then; -1 and infinity: none."""
-
-    limb: int
-    factor: float
+    @property
+    def turned_rad(self) -> np.ndarray:
+        return np.asarray(self.after.rotation_rad - self.before.rotation_rad)
 
 
 class OverloadedError(NoStanceError):
@@ -138,58 +135,71 @@ class OverloadedError(NoStanceError):
 
 
 def answer(stance: Stance, measured: Measured | None = None, draws: int = DRAWS) -> Answer:
-    """The stance under its payload, forces before it measured or not. Raises NoStanceError where what is believed has
-    no equilibrium, OverloadedError where it has one without the payload; draws that have none are counted in a flag."""
+    """The stance under its payload: what is believed; but where forces were measured and joints have play, or a foot
+    may have let go, the median of the draws, for then no one world is likely. Intervals are the draws'. Raises
+    NoStanceError where what is believed has no equilibrium, OverloadedError where that, or most of the draws, has one
+    without the payload only; draws that have none are counted in a flag."""
     middle = believed(stance, measured.sigma_n) if measured else believed(stance)
     standing = middle.stand(measured, measured.force_n if measured else None)
-    slips = [_slip(middle, standing)]
-    best, trouble = _outcome(middle, standing)
-    others = [best] if best else []
-    chance = np.random.default_rng(_SEED)
-    lost = 0
-    for _ in range(draws):
-        world = drawn(stance, middle, chance)
-        noisy = measured.with_noise(chance) if measured else None
+    standings = [standing, *_drawn(stance, middle, standing, measured, draws)]
+    is_median = measured is not None and any(one.world.has_play or LET_GO in one.state.contact for one in standings)
+    slips: list[AtSlip] = []
+    others: list[_Outcome] = []
+    overloaded: list[tuple[Standing, NoStanceError]] = []
+    for here in standings:
+        slips.append(here.world.first_slip(here, FACTOR_MOST))
         try:
-            near_n = _near(world, standing.state.force_n) if noisy else standing.state.force_n
-            here = world.stand(noisy, near_n)
-        except NoStanceError:
-            lost += 1
-            continue
-        slips.append(_slip(world, here))
-        if best:
-            outcome, _ = _outcome(world, here, best.after.force_n)
-            others += [outcome] if outcome else []
-            lost += outcome is None
-    first_slip = _first_slip(stance, slips)
-    if best is None:
-        assert trouble is not None
-        trouble.share = max(trouble.share, _borne_share(middle, standing))
-        raise OverloadedError(trouble, first_slip)
+            others.append(_outcome(here, slips[-1]))
+        except NoStanceError as trouble:
+            overloaded.append((here, trouble))
+    first_slip = _first_slip(stance, slips, is_median)
+    falls = 2 * len(overloaded) > len(standings) if is_median else overloaded and overloaded[0][0] is standing
+    if falls:
+        here, error = overloaded[0]
+        error.share = max(error.share, _borne_share(here))
+        raise OverloadedError(error, first_slip)
+    those = others if is_median else others[:1]
+    force_n = np.median([one.after.force_n for one in those], axis=0)
     force_low, force_high = _span(other.after.force_n for other in others)
     change_low, change_high = _span(other.change_n for other in others)
     moved_low, moved_high = _span(other.moved_mm for other in others)
     return Answer(
         stance,
-        best.after.force_n,
+        force_n,
         force_low,
         force_high,
-        best.change_n,
+        np.median([one.change_n for one in those], axis=0),
         change_low,
         change_high,
-        *_in_cones(stance, best, others),
-        [best.statics.margin_n(i, force) for i, force in enumerate(best.after.force_n)],
-        [_state(stance, i, best.after) for i in range(len(stance.limbs))],
-        best.moved_mm,
+        *_in_cones(stance, force_n, others),
+        [standing.statics.margin_n(i, force) for i, force in enumerate(force_n)],
+        [mode(_state(stance, i, one.after) for one in those) for i in range(len(stance.limbs))],
+        np.median([one.moved_mm for one in those], axis=0),
         moved_low,
         moved_high,
-        best.after.rotation_rad - best.before.rotation_rad,
+        np.median([one.turned_rad for one in those], axis=0),
         first_slip,
-        _flags(stance, middle, standing, best, measured, lost, draws),
+        _flags(stance, standings, force_n, measured, draws + 1 - len(others), draws),
     )
 
 
-def _in_cones(stance: Stance, best: _Outcome, others: list[_Outcome]) -> tuple[np.ndarray, np.ndarray]:
+def _drawn(stance: Stance, middle: World, standing: Standing, measured: Measured | None, draws: int) -> list[Standing]:
+    """What else may be."""
+    chance = np.random.default_rng(_SEED)
+    worlds = [drawn(stance, middle, chance) for _ in range(draws)]
+    forces_n = np.array([standing.state.force_n] * draws)
+    if measured:
+        worlds, forces_n = likely_forces(worlds, middle, measured, chance)
+    found = []
+    for world, force_n in zip(worlds, forces_n, strict=True):
+        try:
+            found.append(world.rest_at(force_n) if measured else world.stand(near_n=force_n))
+        except NoStanceError:
+            continue
+    return found
+
+
+def _in_cones(stance: Stance, force_n: np.ndarray, others: list[_Outcome]) -> tuple[np.ndarray, np.ndarray]:
     """Each foot's force out of the ground and along it: low, most probable, high."""
     normal = np.array([limb.normal for limb in stance.limbs])
 
@@ -198,51 +208,29 @@ def _in_cones(stance: Stance, best: _Outcome, others: list[_Outcome]) -> tuple[n
         return np.stack([pressing, np.linalg.norm(force_n - pressing[:, None] * normal, axis=1)])
 
     low, high = _span(split(other.after.force_n) for other in others)
-    pressing, along = np.stack([low, split(best.after.force_n), high], -1)
+    pressing, along = np.stack([low, split(force_n), high], -1)
     return pressing, along
 
 
-def _near(world: World, near_n: np.ndarray) -> np.ndarray:
-    """Where a draw's search for what was measured begins: at its own forces, for its footholds say which joints are
-    within their play."""
-    try:
-        return world.stand(None, near_n).state.force_n
-    except NoStanceError:
-        return near_n
+def _outcome(standing: Standing, slip: AtSlip) -> _Outcome:
+    """Raises NoStanceError."""
+    world = standing.world
+    _, after = world.load(standing, [world.payload], slip.under_payload_n)
+    return _Outcome(standing.state, after)
 
 
-def _outcome(
-    world: World, standing: Standing, near_n: np.ndarray | None = None
-) -> tuple[_Outcome | None, NoStanceError | None]:
-    """Or why there is none."""
-    try:
-        statics, after = world.load(standing, [world.payload], near_n)
-    except NoStanceError as error:
-        return None, error
-    return _Outcome(standing.state, after, statics), None
-
-
-def _borne_share(world: World, standing: Standing) -> float:
+def _borne_share(standing: Standing) -> float:
     """Of the payload, by halving; the feet's history begins anew with each."""
-    force, at = world.payload
+    force, at = standing.world.payload
     borne, lost = 0.0, 1.0
     for _ in range(_HALVINGS):
         share = 0.5 * (borne + lost)
         try:
-            world.load(standing, [(share * force, at)])
+            standing.world.load(standing, [(share * force, at)])
             borne = share
         except NoStanceError:
             lost = share
     return borne
-
-
-def _slip(world: World, standing: Standing) -> _Slip:
-    if not np.any(world.payload[0]):
-        return _Slip(-1, np.inf)
-    try:
-        return _Slip(*world.first_slip(standing, FACTOR_MOST))
-    except NoStanceError:
-        return _Slip(-1, np.inf)
 
 
 def _span(values: Iterable[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
@@ -259,32 +247,38 @@ def _state(stance: Stance, index: int, state: State) -> str:
     return "grips" if float(stance.limbs[index].normal @ state.force_n[index]) < 0.0 else "sticks"
 
 
-def _first_slip(stance: Stance, slips: list[_Slip]) -> FirstSlip:
+def _first_slip(stance: Stance, slips: list[AtSlip], is_median: bool) -> FirstSlip:
     """slips: the believed world's first, then one for each draw."""
-    best = slips[0]
-    if best.limb < 0:
+    limb = mode(slip.limb for slip in slips) if is_median else slips[0].limb
+    if limb < 0:
         return FirstSlip(None, None, None, None, None)
-    low, high = np.percentile(np.minimum([slip.factor for slip in slips], FACTOR_MOST), _LOW_HIGH)
-    surely = float(np.mean([slip.limb == best.limb for slip in slips]))
-    return FirstSlip(stance.limbs[best.limb].name, best.factor, float(low), float(high), surely)
+    factors = np.minimum([slip.factor for slip in slips], FACTOR_MOST)
+    low, high = np.percentile(factors, _LOW_HIGH)
+    factor = np.median(factors) if is_median else factors[0]
+    surely = float(np.mean([slip.limb == limb for slip in slips]))
+    return FirstSlip(stance.limbs[limb].name, float(factor), float(low), float(high), surely)
 
 
 def _flags(
     stance: Stance,
-    middle: World,
-    standing: Standing,
-    best: _Outcome,
+    standings: list[Standing],
+    force_n: np.ndarray,
     measured: Measured | None,
     lost: int,
     draws: int,
 ) -> list[str]:
+    """standings: the believed world's first."""
     flags = []
+    middle, state = standings[0].world, standings[0].state
     for index, limb in enumerate(stance.limbs):
-        opened = middle.laws[index].spring(best.after.force_n[index]).is_open
+        opened = middle.laws[index].spring(force_n[index]).is_open
         flags += [f"gap_open: {limb.name}, {joint}" for joint in opened]
         if not any(key.startswith("uncertainty.") for key in limb.model.given):
             flags.append(f"no_uncertainty: {limb.name}'s model says nothing of how well it is known")
-    slid = [limb.name for limb, contact in zip(stance.limbs, standing.state.contact, strict=True) if contact == SLIDES]
+        gone = 100.0 * float(np.mean([one.state.contact[index] == LET_GO for one in standings]))
+        if gone > 50.0:
+            flags.append(f"let_go: {limb.name} bears nothing: its grip is off before the payload, in {gone:.0f} %")
+    slid = [limb.name for limb, contact in zip(stance.limbs, state.contact, strict=True) if contact == SLIDES]
     flags += [f"slid_before_payload: {name}" for name in slid]
     if measured is not None:
         flags += _balance(middle, measured)

@@ -160,15 +160,15 @@ def _tried(stance: Stance, index: int, foothold: Foothold, theta_rad: np.ndarray
         if SLIDES in standing.state.contact:
             slid = stance.limbs[standing.state.contact.index(SLIDES)].name
             return Choice(foothold.name, theta_rad, f"under the weight {slid} slides")
-        slip, factor = world.first_slip(standing, _FACTOR_MOST) if np.any(stance.payload_n) else (-1, np.inf)
+        slip = world.first_slip(standing, _FACTOR_MOST)
         statics, state = world.load(standing, [world.payload])
     except NoStanceError as error:
         return Choice(foothold.name, theta_rad, error.why)
     margins = [statics.margin_n(i, force) for i, force in enumerate(state.force_n)]
     least = int(np.argmin(margins))
     sag = float(stance.down @ state.displacement_mm)
-    first = None if slip < 0 else stance.limbs[slip].name
-    return Choice(foothold.name, theta_rad, "", margins[least], stance.limbs[least].name, factor, first, sag)
+    first = None if slip.limb < 0 else stance.limbs[slip.limb].name
+    return Choice(foothold.name, theta_rad, "", margins[least], stance.limbs[least].name, slip.factor, first, sag)
 
 
 def reaching_rad(limb: Limb, place_mm: np.ndarray) -> list[np.ndarray]:

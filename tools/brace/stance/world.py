@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from brace.model import LIMB_KEYS, LimbModel
-from brace.stance.limb_law import CLOSES_AT_N, JOINTS, UNSURE_N, GivesWayError, LimbLaw, side_of
+from brace.stance.limb_law import CLOSES_AT_N, JOINTS, UNSURE_N, GivesWayError, LimbLaw, Spring, cross, side_of
 from brace.stance.stance_file import Limb, Stance
 from brace.stance.statics import E_LOOSE, OK, SLIDE_STEPS, Contact, Force, Slip, State, Statics
 
@@ -23,7 +23,6 @@ _STEPS = 4  # in which a load comes where joints have play
 _TURNS_MOST = 40
 _SIDE_TOLERANCE = 1e-6  # of the load that closes a joint's play
 _SETTLED_SHARE = 1e-4  # of the load: forces that change by less between rounds are those of their own springs
-_PLACE_SD_OF_GAP = 1.0 / np.sqrt(12.0)  # where a joint stands in its play, if nothing says it
 
 
 class NoStanceError(Exception):
@@ -44,7 +43,8 @@ class NoStanceError(Exception):
 @dataclass(frozen=True)
 class World:
     """The limbs' laws, the ground under them, and where the footholds are: `offset_mm` from the tips' places without
-    load, a row a limb. `place_covariance`: how far they may be elsewhere, 3 x 3 a limb [mm^2]."""
+    load, a row a limb. `place_covariance`: how far they may be elsewhere, by footholds, zeros and lengths, 3 x 3
+    a limb [mm^2]."""
 
     laws: tuple[LimbLaw, ...]
     contacts: tuple[Contact, ...]
@@ -68,15 +68,30 @@ class World:
         for share in self._shares():
             loads = [(share * force, at) for force, at in self.weight]
             near_n = state.force_n if share > self._shares()[0] else near_n
-            state = self._step(statics, _to(statics, state, loads, 1), near_n, share, is_payload=False)
+            step = _to(statics, state, loads, 1)
+            state = self._step(statics, step, near_n, share, is_payload=False, size=self._shares()[0])
         return Standing(self, statics, state)
+
+    def rest_at(self, force_n: np.ndarray) -> Standing:
+        """The body under its weight on footholds that lie where these forces, a row a limb, put the tips. A foot of no
+        force at all has let go."""
+        held = [side_of(law.sides(force)) for law, force in zip(self.laws, force_n, strict=True)]
+        statics = self._statics()
+        springs = self._set(statics, force_n, False, held)
+        world = replace(self, offset_mm=np.array([spring.moved_mm for spring in springs]))
+        state = statics.place(world.offset_mm)
+        for limb in np.flatnonzero(~np.any(force_n, axis=1)):
+            state.lift(int(limb))
+        self._refuse(*statics.settle(state, self.weight, 1), is_payload=False)
+        return Standing(world, statics, state)
 
     def _shares(self) -> list[float]:
         """Of a load, one after the other: what slides and what play opens hangs on the way there."""
-        return [1.0] if not self._has_play else [(done + 1) / _STEPS for done in range(_STEPS)]
+        return [1.0] if not self.has_play else [(done + 1) / _STEPS for done in range(_STEPS)]
 
     @property
-    def _has_play(self) -> bool:
+    def has_play(self) -> bool:
+        """Of any joint."""
         return any(law.has_play for law in self.laws)
 
     def _put_down(self, statics: Statics, measured: Measured) -> tuple[State, int, float]:
@@ -91,10 +106,11 @@ class World:
         near_n: np.ndarray,
         share: float,
         is_payload: bool,
+        size: float = 1.0,
     ) -> State:
         """Springs and joints' places in their play such that the forces that result are those they belong to. One joint
         at a time changes its place, the one whose load says most that it lies elsewhere. share: of the load after the
-        step."""
+        step, size: in it."""
         forces, rounds = near_n, 0
         changed = np.zeros((len(self.laws), len(JOINTS)), dtype=int)
         held = [side_of(law.sides(force)) for law, force in zip(self.laws, forces, strict=True)]
@@ -102,7 +118,7 @@ class World:
             self._set(statics, forces, is_payload, held)
             state, status, part = step()
             if status != OK:
-                self._refuse(status, share - (1.0 - part) * self._shares()[0], is_payload)
+                self._refuse(status, share - (1.0 - part) * size, is_payload)
             elsewhere = self._elsewhere(_on_limbs_n(state, forces), held)
             if elsewhere:
                 _, limb, joint, side = max(elsewhere, key=lambda one: (-changed[one[1], one[2]], one[0]))
@@ -131,7 +147,7 @@ class World:
         places, noise = np.zeros((size, size)), np.zeros((size, size))
         for limb in range(len(self.laws)):
             block = slice(3 * limb, 3 * limb + 3)
-            places[block, block] = self.place_covariance[limb]
+            places[block, block] = self.place_covariance[limb] + self.laws[limb].play_covariance_mm2()
             noise[block, block] = measured.covariance_n2[limb]
         gain = places @ stiffness.T @ np.linalg.inv(stiffness @ places @ stiffness.T + noise)
         return np.asarray(self.offset_mm + (gain @ (measured.force_n.ravel() - at_rest)).reshape(-1, 3))
@@ -140,20 +156,25 @@ class World:
         self, standing: Standing, forces: Sequence[Force], near_n: np.ndarray | None = None
     ) -> tuple[Statics, State]:
         """The standing body under its weight and further forces, its springs those at the forces that result; near_n:
-        what these may be."""
+        what these may be. Where joints have play the load comes in steps without near_n, and in one with it."""
         statics, state = self._statics(), standing.state
-        near_n = state.force_n if near_n is None or self._has_play else near_n
-        for share in self._shares():
+        shares = self._shares() if near_n is None else [1.0]
+        near_n = state.force_n if near_n is None else near_n
+        for share in shares:
             loads = [*self.weight, *((share * force, at) for force, at in forces)]
-            slide_steps = 2 if self._has_play else SLIDE_STEPS
-            state = self._step(statics, _to(statics, state, loads, slide_steps), near_n, share, is_payload=True)
+            slide_steps = 2 if self.has_play else SLIDE_STEPS
+            step = _to(statics, state, loads, slide_steps)
+            state = self._step(statics, step, near_n, share, is_payload=True, size=shares[0])
             near_n = state.force_n
         return statics, state
 
-    def first_slip(self, standing: Standing, most: float) -> tuple[int, float]:
-        """The first foot that moves when the payload grows, and its factor then; -1 and infinity: none up to `most`.
-        Feet stick until then, so the way there is straight from one joint that crosses its play to the next."""
+    def first_slip(self, standing: Standing, most: float) -> AtSlip:
+        """When the payload grows up to `most` times. Feet stick until then, so the way there is straight from one joint
+        that crosses its play to the next."""
         force, at = self.payload
+        if not np.any(force):
+            return NO_SLIP
+        under_payload_n = None
         statics, near_n = self._statics(), standing.state.force_n
         held = [side_of(law.sides(one)) for law, one in zip(self.laws, near_n, strict=True)]
         here, done = standing.state.copy(), 0.0
@@ -169,15 +190,19 @@ class World:
             statics.settle(there, [*at_done, (way * force, at)], 1)
             now_n, then_n = _on_limbs_n(here, near_n), _on_limbs_n(there, near_n)
             part, limb, joint, side = self._next_crossing(now_n, then_n - now_n, held)
+            if done <= 1.0 <= done + min(part * way, found.factor):
+                under_payload_n = now_n + (1.0 - done) / way * (then_n - now_n)
             if not part * way < found.factor:
                 break
             held[limb][joint] = side
             done += part * way
+            if done >= most:
+                return replace(NO_SLIP, under_payload_n=under_payload_n)
             statics.settle(here, [*self.weight, (done * force, at)], 1)
             near_n = now_n + part * (then_n - now_n)
         if found.limb < 0:
-            return -1, np.inf
-        return self._at_its_load(statics, here, done, found, held)
+            return AtSlip(-1, np.inf, under_payload_n)
+        return AtSlip(*self._at_its_load(statics, here, done, found, held), under_payload_n)
 
     def _at_its_load(
         self, statics: Statics, here: State, done: float, found: Slip, held: Sequence[np.ndarray]
@@ -224,13 +249,14 @@ class World:
         forces_n: np.ndarray,
         is_payload: bool,
         held: Sequence[np.ndarray | None] | None = None,
-    ) -> None:
+    ) -> list[Spring]:
         held = [None] * len(self.laws) if held is None else held
         try:
             springs = [law.spring(*at) for law, *at in zip(self.laws, forces_n, held, strict=True)]
         except GivesWayError as error:
             raise NoStanceError(str(error), 0.0, is_payload) from None
         statics.set_springs(springs, forces_n)
+        return springs
 
     def _is_settled(self, before_n: np.ndarray, forces_n: np.ndarray) -> bool:
         most = _SETTLED_SHARE * max(float(np.abs(forces_n).sum()), 1e-9)
@@ -260,10 +286,18 @@ class Measured:
         """One sigma of a component, over all feet."""
         return float(np.sqrt(np.mean([np.trace(one) / 3.0 for one in self.covariance_n2])))
 
-    def with_noise(self, chance: np.random.Generator) -> Measured:
-        """What else might have been measured."""
-        noise = [chance.multivariate_normal(np.zeros(3), covariance) for covariance in self.covariance_n2]
-        return Measured(self.force_n + np.array(noise), self.covariance_n2)
+
+@dataclass(frozen=True)
+class AtSlip:
+    """The first foot to move when the payload grows, and its factor then; -1 and infinity: none. under_payload_n: about
+    what the feet bear at the factor 1, if none moves before it."""
+
+    limb: int
+    factor: float
+    under_payload_n: np.ndarray | None
+
+
+NO_SLIP = AtSlip(-1, np.inf, None)
 
 
 @dataclass(frozen=True)
@@ -277,7 +311,7 @@ class Standing:
 
 def _on_limbs_n(state: State, near_n: np.ndarray) -> np.ndarray:
     """The feet's forces as the limbs have them, whose frames turn with the body; near_n: those of the springs."""
-    return np.asarray(state.force_n - np.cross(state.rotation_rad, near_n))
+    return np.asarray(state.force_n - cross(state.rotation_rad, near_n))
 
 
 def _to(
@@ -323,18 +357,21 @@ def _world(stance: Stance, laws: tuple[LimbLaw, ...], offset_mm: np.ndarray, fri
     )
     weight = [(stance.weight_n * stance.down, stance.com_mm)]
     weight += [(newton * stance.down, at) for law in laws for newton, at in law.weights() if newton > 0.0]
-    covariance = tuple(place_covariance_mm2(limb, law) for limb, law in zip(stance.limbs, laws, strict=True))
+    covariance = tuple(foothold_covariance_mm2(limb, law) for limb, law in zip(stance.limbs, laws, strict=True))
     return World(laws, contacts, offset_mm, covariance, tuple(weight), (stance.payload_n, stance.payload_at_mm))
 
 
 def place_covariance_mm2(limb: Limb, law: LimbLaw) -> np.ndarray:
     """Of a foothold, seen from where the tip is believed to be: its own, and those of zeros, lengths and play."""
+    return np.asarray(foothold_covariance_mm2(limb, law) + law.play_covariance_mm2())
+
+
+def foothold_covariance_mm2(limb: Limb, law: LimbLaw) -> np.ndarray:
+    """The same, as if it were known where the joints lie in their play."""
     number = limb.model.number
     own = limb.offset_sd_mm**2 + number("uncertainty.length_mm") ** 2
-    joints = [number("uncertainty.angle_rad") ** 2 + (number(f"joint.{joint}.gap_rad") * _PLACE_SD_OF_GAP) ** 2
-              for joint in JOINTS]  # fmt: skip
-    turns = law.turns_in_body()
-    return np.asarray(own * np.eye(3) + (turns.T * joints) @ turns + 1e-12 * np.eye(3))
+    turns = number("uncertainty.angle_rad") * law.turns_in_body()
+    return np.asarray(own * np.eye(3) + turns.T @ turns + 1e-12 * np.eye(3))
 
 
 def _drawn_model(model: LimbModel, chance: np.random.Generator) -> LimbModel:
