@@ -83,7 +83,7 @@ static void test_weights_hang_where_they_are(void)
     expect_weights_at(0.4, 1.1);
 }
 
-/* The load of a tick follows from the levers of that tick's angles, before anybody knows where the load has moved them. */
+/* The load of a tick follows from the levers of that tick's angles, before anybody knows where the load moved them. */
 static void test_levers_are_those_of_the_newest_angles(void)
 {
     take(1.0f, 1.4f);
