@@ -14,6 +14,7 @@ import cffi
 import pytest
 
 from brace.native.cdef import declarations
+from interface.units import UNIT_SUFFIX
 from brace.native import loader
 from brace.wire import frames
 from brace.wire.layout import Field, Layout
@@ -22,8 +23,6 @@ PROJECT = Path(__file__).resolve().parents[3]
 HEADER = PROJECT / "firmware" / "interface" / "generated" / "brace" / "can_messages.h"
 DBC = PROJECT / "firmware" / "interface" / "brace.dbc"
 DBC_FD = DBC.with_name("brace_fd.dbc")
-SUFFIX = {"": "", "1": "_ratio", "N/mm": "_n_per_mm", "rad": "_rad", "ms": "_ms", "mm": "_mm", "N": "_n",
-          "N mm": "_n_mm"}
 RANDOM = 250  # codes of each signal: all its bits have been 0 and 1 long before
 
 
@@ -99,7 +98,7 @@ def test_every_signal(layout: Layout, message: str, prefix: str, c: tuple[Any, A
     struct, data = ffi.new(f"brace_can_{layout.name}_t *"), ffi.new("uint8_t[]", layout.size)
     dice = random.Random(layout.name)
     for field in layout.fields:
-        member, signal = field.name + SUFFIX[field.unit], signal_of(layout, prefix, field.name)
+        member, signal = field.name + UNIT_SUFFIX[field.unit], signal_of(layout, prefix, field.name)
         listed = codes(field, dice) if field.kind != "f32" else None
         values = (
             [value_of(field, code) for code in listed]
