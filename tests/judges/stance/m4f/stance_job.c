@@ -1,4 +1,4 @@
-/* The statics of a body on six limbs, from no load to weight and payload in one step, as a job of the bench's harness. */
+/* A job of the harness of the bench: statics of a body on six limbs, from no load to weight and payload in one step. */
 #include "brace/stance.h"
 #include "job.h"
 #include "stances.h"
