@@ -252,7 +252,7 @@ def test_a_faults_value_may_have_a_unit(text: str, value: float) -> None:
 def test_a_faults_value_in_a_wrong_unit_is_refused(text: str) -> None:
     with pytest.raises(RefusedValue) as caught:
         sim_values.fault(text)
-    assert "wanted" in caught.value.why
+    assert "wanted" in caught.value.why and f"OPTION {text.partition('=')[0]}=" in caught.value.way
 
 
 def test_the_plant_may_differ_from_the_model(

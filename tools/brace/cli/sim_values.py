@@ -6,7 +6,19 @@ from __future__ import annotations
 import math
 import re
 
-from brace.cli.options import Quantity, angle, flexion, force, length, moment, number, ratio, refused, stiffness
+from brace.cli.options import (
+    Quantity,
+    RefusedValue,
+    angle,
+    flexion,
+    force,
+    length,
+    moment,
+    number,
+    ratio,
+    refused,
+    stiffness,
+)
 from brace.ground.errors import did_you_mean
 from brace.ground.units import amount
 from brace.sim.spec import FAULTS, JOINTS, Fault, Lift, Move, Payload, Posture
@@ -37,7 +49,11 @@ def fault(text: str) -> Fault:
     if found["value"] is not None:
         if not unit:
             raise refused(f"{text!r} has a value", f"{name} takes none", f"OPTION {name}")
-        value = _value(found["value"], unit)
+        try:
+            value = _value(found["value"], unit)
+        except RefusedValue as error:
+            before = text[: found.start("value")]
+            raise refused(error.what, error.why, error.way.replace("OPTION ", f"OPTION {before}")) from None
     if value is None:
         example = f"{name}:femur={_EXAMPLES.get(name, 500)}@2+1" if of_joint else f"{name}=2@2+1"
         raise refused(f"{text!r} has no value", f"{name} needs one, in {unit}", f"OPTION {example}")
