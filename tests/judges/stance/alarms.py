@@ -6,7 +6,7 @@ before a foot slips.
 Seeds below 1000 are for practice. The truth is the judge's world of small displacements, with all that judge.py hides.
 Up to the first slip every foot sticks, so a step is solved without Siconos; the law's residual says whether they do.
 What is judged is in-process: ten thousand starts of the command would take a day. A limb's reading comes every 20 ms,
-each in a tick of its own; the payload grows for two seconds, and rests for two.
+each in a tick of its own; the payload grows for ten seconds.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ from world import SENSOR_N, Hidden, Stance, draw, write
 SPARE = 0.05  # of the load
 TICK_S = 0.01
 EVERY = 2  # ticks from one reading of a limb to the next
-REST_S, GROWS_S = 1.0, 2.0
+REST_S, GROWS_S = 1.0, 10.0  # as in the demo: a payload that is hung on
 STEPS = 8  # of the payload; between two of them forces go straight
 BEYOND_CONE_TRIES = 12
 

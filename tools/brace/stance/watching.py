@@ -21,6 +21,7 @@ _SOFT = "SOFT"
 ALARM_SHARE = 0.02  # of the weight
 _ALARM_ENDS = 1.5  # times its level, so that a margin at the level is one alarm and not many
 _ALARM_EVERY_S = 0.05
+_ALARM_AFTER = 3  # times in succession: a margin of few readings is now and then low by their noise
 _WHOLE_WITHIN_S = 1.0
 _FACTOR_MOST = 1000.0
 _EVENT_WORDS = {"load": "what the body carries has changed", "moved": "its foot has moved",
@@ -113,6 +114,7 @@ class Alarms:
     def __init__(self, stance: Stance, level_n: float) -> None:
         self._names = [limb.name for limb in stance.limbs]
         self._level_n, self._next_s = level_n, -np.inf
+        self._low = np.zeros(len(self._names), int)  # how many times in succession
         self.limbs: tuple[str, ...] = ()
 
     def begin(self, observer: Observer, now_s: float) -> list[str]:
@@ -122,8 +124,10 @@ class Alarms:
         self._next_s = now_s + _ALARM_EVERY_S
         margin_n, sigma_n = observer.margins()
         ends = np.array([_ALARM_ENDS if name in self.limbs else 1.0 for name in self._names])
-        low = margin_n - NINETY * sigma_n < self._level_n * ends
-        before, self.limbs = self.limbs, tuple(name for name, is_low in zip(self._names, low, strict=True) if is_low)
+        self._low = np.where(margin_n - NINETY * sigma_n < self._level_n * ends, self._low + 1, 0)
+        alarmed = [name for name, count in zip(self._names, self._low, strict=True)
+                   if count >= _ALARM_AFTER or (count and name in self.limbs)]  # fmt: skip
+        before, self.limbs = self.limbs, tuple(alarmed)
         return [name for name in self.limbs if name not in before]
 
 
