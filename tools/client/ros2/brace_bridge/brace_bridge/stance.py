@@ -1,4 +1,4 @@
-"""From CAN frames to what the bridge's message of a stance holds. Knows nothing of ROS."""
+"""Turns CAN frames into what the bridge sends of a stance. This module knows nothing of ROS."""
 
 from __future__ import annotations
 
