@@ -8,7 +8,19 @@ from collections.abc import Sequence
 from statistics import median
 from typing import Any
 
-from scoring import VISIBLE_GAP_N, Judged, Share, calibration, closed, coverage, of_removable, share, strong, weak
+from scoring import (
+    VISIBLE_GAP_N,
+    Judged,
+    Share,
+    calibration,
+    calibration_scatter,
+    closed,
+    coverage,
+    of_removable,
+    share,
+    strong,
+    weak,
+)
 from seeds import REPORTED_CASES
 
 HOW = """Effects are hidden in simulated loading tests by a simulator and a generator that share no code with the tool
@@ -90,8 +102,9 @@ def figures(
     lines.append(share_line("90 % intervals that hold the true parameter", "86-94 %", held,
                              held.value is not None and 0.86 <= held.value <= 0.94))  # fmt: skip
     error, claims, bins = calibration(judged)
+    middle, high = calibration_scatter(judged)
     lines.append(line("expected calibration error of the confidence", "at most 0.04", if_any(error <= 0.04, claims),
-                       f"{error:.3f}", "", claims))  # fmt: skip
+                       f"{error:.3f}", f"exact confidences: median {middle:.3f}, 95th {high:.3f}", claims))  # fmt: skip
     rows = after["cases"]
     then = Share(sum(r["exact_after"] for r in rows), len(rows)) if any(r["played"] for r in rows) else Share(0, 0)
     lines.append(at_least("after the tool's own next experiment: exactly right, s >= 12", then, 0.95))

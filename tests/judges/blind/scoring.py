@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import csv
 import math
+import random
 import re
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from statistics import median
 from typing import Any
@@ -238,6 +239,22 @@ def calibration(cases: Iterable[Judged], bins: int = 10) -> tuple[float, int, li
             table.append((sum(c for c, _ in inside) / len(inside), right, len(inside)))
     total = len(claims)
     return (sum(n * abs(c - r) for c, r, n in table) / total if total else math.nan), total, table
+
+
+def calibration_scatter(cases: Iterable[Judged], draws: int = 1000) -> tuple[float, float]:
+    """The calibration error of a tool whose confidences are exact, from so few claims: median and 95th percentile of
+    draws in which each claim is right as often as it says."""
+    cases = list(cases)
+    rng = random.Random(0)
+    said = [confidence for j in cases for confidence, _ in j.claims]
+    if not said:
+        return math.nan, math.nan
+    errors = []
+    for _ in range(draws):
+        drawn = [(confidence, rng.random() < confidence) for confidence in said]
+        errors.append(calibration([replace(cases[0], claims=drawn)])[0])
+    errors.sort()
+    return errors[draws // 2], errors[int(0.95 * draws)]
 
 
 def coverage(cases: Iterable[Judged]) -> Share:

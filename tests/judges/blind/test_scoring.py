@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 from report import promises
-from scoring import Share, calibration, judge
+from scoring import Share, calibration, calibration_scatter, judge
 
 
 def truth(kind: str = "single", *names: str, **more: Any) -> dict[str, Any]:
@@ -90,6 +90,9 @@ def test_figures() -> None:
     cases = [judge(truth("single", n), said("effect", "creep@creep")) for n in ("creep@creep", "gravity@gravity")]
     error, claims, _ = calibration(cases)
     assert claims == 2 and error == pytest.approx(0.4)
+    # of n claims at 0.9 the share right scatters by 0.3 / sqrt(n), whose mean size is 0.8 of it
+    middle, high = calibration_scatter(50 * cases)
+    assert middle == pytest.approx(0.8 * 0.3 / 10, rel=0.4) and 1.5 < high / middle < 4.0
 
 
 def test_disguised() -> None:
