@@ -238,7 +238,7 @@ static uint32_t read_exception(const uint8_t *pdu, uint32_t length)
     const bool there = pdu[0] == 4u
                            ? holds(start, count, 0, BRACE_MEASURED_COUNT) || holds(start, count, 4096, ANSWERED)
                            : holds(start, count, 0, WORDS) || holds(start, count, 16384, COMMANDS);
-    return there ? 0u : 2u;
+    return there && (count == 1u || start % 2u == 0u) ? 0u : 2u;
 }
 
 typedef struct {

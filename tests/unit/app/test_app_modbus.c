@@ -89,7 +89,7 @@ static void test_every_part_of_a_block_is_the_same_block(void)
 {
     reply_t whole = read_asks(3, 0, 125);
     TEST_ASSERT_EQUAL(252, whole.count);
-    for (uint32_t start = 0; start < 8u; start++) {
+    for (uint32_t start = 0; start < 8u; start += 2u) {
         for (uint32_t count = 1; count < 30u; count += 3) {
             const reply_t part = read_asks(3, start, count);
             TEST_ASSERT_EQUAL(2u + 2u * count, part.count);
@@ -100,6 +100,27 @@ static void test_every_part_of_a_block_is_the_same_block(void)
     const reply_t last = read_asks(3, 2 * brace_parameter_number(BRACE_PARAMETER_CONTROLLER_MODBUS_ADDRESS), 4);
     TEST_ASSERT_EQUAL(UNIT, value_at(&last, 0));
     TEST_ASSERT_EQUAL(115200, value_at(&last, 1));
+}
+
+/* A master that counts registers from 1 would get the second half of one value and the first of the next, which is a
+ * number like any other. One register alone is no number of 32 bits, and may be asked for. */
+static void test_a_read_that_begins_within_a_value_is_refused(void)
+{
+    static const struct {
+        uint8_t function;
+        uint32_t first;
+    } area[] = {{4, 0}, {4, 4096}, {3, 0}, {3, 16384}};
+    for (uint32_t i = 0; i < sizeof area / sizeof *area; i++) {
+        for (uint32_t start = area[i].first + 1u; start < area[i].first + 30u; start += 2u) {
+            for (uint32_t count = 2; count < 10u; count++) {
+                refused(read_asks(area[i].function, start, count), area[i].function, 2);
+            }
+            TEST_ASSERT_EQUAL(4, read_asks(area[i].function, start, 1).count);
+        }
+    }
+    refused(read_asks(4, 21, 2), 4, 2); /* k_xx lies at 20 */
+    refused(read_asks(4, 21, 10), 4, 2);
+    TEST_ASSERT_EQUAL(8, read_asks(4, 20, 3).count);
 }
 
 static void test_reads_have_their_limits(void)
@@ -246,6 +267,7 @@ int main(void)
     RUN_TEST(test_what_is_not_known_is_nan_and_all_ones_never_zero);
     RUN_TEST(test_a_block_is_one_snapshot);
     RUN_TEST(test_every_part_of_a_block_is_the_same_block);
+    RUN_TEST(test_a_read_that_begins_within_a_value_is_refused);
     RUN_TEST(test_reads_have_their_limits);
     RUN_TEST(test_who_answers);
     RUN_TEST(test_device_identification);

@@ -47,21 +47,25 @@ static void put_values(const uint8_t *values, registers_area_t area, uint32_t pl
     }
 }
 
-/* Registers from the block's first on. One register of a value may be asked for alone. */
+/* Registers from the block's first on. One register of a value may be asked for alone; more begin with a value. */
 static void put_registers(const uint8_t *values, const registers_block_t *block, uint32_t count, uint8_t *bytes)
 {
-    uint32_t at = block->first;
-    const uint32_t end = at + count;
-    if (at % 2u != 0u) {
-        put_16(bytes, value_at(values, block->area, at / 2u));
-        bytes += 2;
-        at++;
+    const uint32_t place = block->first / 2u, whole = count / 2u;
+    if (block->first % 2u != 0u) {
+        put_16(bytes, value_at(values, block->area, place));
+        return;
     }
-    const uint32_t whole = (end - at) / 2u;
-    put_values(values, block->area, at / 2u, whole, bytes);
-    if (at + 2u * whole < end) {
-        put_16(bytes + 4u * whole, value_at(values, block->area, end / 2u) >> 16);
+    put_values(values, block->area, place, whole, bytes);
+    if (count % 2u != 0u) {
+        put_16(bytes + 4u * whole, value_at(values, block->area, place + whole) >> 16);
     }
+}
+
+/* A master that counts registers from 1 asks for the second half of a value and the first of the next. Every area
+ * begins at an even address. */
+static bool splits_a_value(const registers_block_t *block, uint32_t count)
+{
+    return count > 1u && block->first % 2u != 0u;
 }
 
 modbus_exception_t modbus_read(const modbus_server_t *server, const wire_tick_t *tick, uint8_t *pdu, uint32_t length,
@@ -76,7 +80,7 @@ modbus_exception_t modbus_read(const modbus_server_t *server, const wire_tick_t 
     if (count < 1u || count > READ_MOST) {
         return MODBUS_E_VALUE;
     }
-    if (!registers_find(pdu[0] == MODBUS_READ_INPUT, start, count, &block)) {
+    if (!registers_find(pdu[0] == MODBUS_READ_INPUT, start, count, &block) || splits_a_value(&block, count)) {
         return MODBUS_E_ADDRESS;
     }
     pdu[1] = (uint8_t)(2u * count);

@@ -6,7 +6,8 @@
 #include "wire/modbus/server.h"
 #include "wire/wire.h"
 
-/* Reads up to 125 registers; the answer takes the request's place. What is measured is of one snapshot, because all of
+/* Reads up to 125 registers; the answer takes the request's place. Several registers begin with a value's first half:
+ * else MODBUS_E_ADDRESS. What is measured is of one snapshot, because all of
  * it comes from the tick's own block.
  *   pdu: room for MODBUS_PDU_BYTES
  *   answer (out): its length [bytes]; untouched when refused
