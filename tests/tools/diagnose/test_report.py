@@ -26,8 +26,11 @@ from brace.diagnose.diagnosis import (
     Residuals,
     StiffnessAt,
 )
-from brace.diagnose.report.facts import _k_sigma, facts
+from brace.diagnose.digits import with_sigma
+from brace.diagnose.report.facts import facts
 from brace.diagnose.report.page import page
+from brace.diagnose.report.what_k_becomes import k_sigma, what_k_becomes
+from brace.diagnose.stiffness_change import stiffness_change
 from brace.diagnose.provenance import Provenance, provenance
 from brace.diagnose.write import contents
 from brace.model import LimbModel, load_limb
@@ -260,4 +263,50 @@ def test_k_has_its_uncertainty_where_limb_toml_has_one(limb: Path) -> None:
     at = StiffnessAt(0.74, 1.0, 1.0, 0.0, 1.0)
     sure = model.with_values({key: 0.0 for key in model.values if key.startswith("uncertainty.")})
     unsure = sure.with_values({"uncertainty.compliance_rel": 0.05})
-    assert _k_sigma(sure, at) == () and all(sigma > 0.0 for sigma in _k_sigma(unsure, at))
+    assert k_sigma(sure, at) == () and all(sigma > 0.0 for sigma in k_sigma(unsure, at))
+
+
+def test_k_of_the_first_screen_is_paired_entry_by_entry(
+    made: tuple[Dataset, LimbModel, Diagnosis],
+) -> None:
+    """Old and new of an entry stand in one line, both to the place of the uncertainty's second digit."""
+    dataset, believed, found = made
+    model = found.model.with_values({"joint.tibia.compliance_rad_per_n_mm": 2.4e-5})
+    found = replace(found, model=model, stiffness=stiffness_change(dataset, believed, model))
+    question, short, more = what_k_becomes(believed, found)
+    lines = short.split("\n")
+    assert question.endswith("[N/mm]") and [line.split()[0] for line in lines] == ["xx", "xz", "zz"]
+    for line in lines:
+        was, now, sigma = re.fullmatch(r"x?[xz]z? (\S+) → (\S+) ± (\S+)", line).groups()  # type: ignore[union-attr]
+        assert len({part.partition(".")[2].__len__() for part in (was, now, sigma)}) == 1, line
+    assert "GAP_OPEN" in more and "not valid" not in more  # K of an open gap is a lower bound (docs/errors.md)
+    assert "\n" in page(dataset, believed, found, _origin(dataset)).partition("What K becomes")[2].partition("</b>")[0]
+
+
+def test_what_the_named_effect_does_not_do_to_k_is_not_laid_on_it(
+    made: tuple[Dataset, LimbModel, Diagnosis],
+) -> None:
+    """Backlash leaves K as it is once it is taken up; a softer knee does not; of both, the share of each is said."""
+    dataset, believed, found = made
+    knee = "joint.tibia.compliance_rad_per_n_mm"
+    softer = NamedEffect("joint_compliance", "joint.tibia", 0.97, {knee: Interval(2.4e-5, 2.3e-5, 2.5e-5)}, 0.9)
+
+    def words_of(effects: tuple[NamedEffect, ...], **values: float) -> str:
+        model = found.model.with_values(values)
+        change = stiffness_change(dataset, believed, model)
+        return what_k_becomes(believed, replace(found, effects=effects, model=model, stiffness=change))[2]
+
+    assert "The cause is not backlash (knee joint), but" in words_of(found.effects, **{knee: 2.4e-5})
+    assert "refits" not in words_of((softer,), **{knee: 2.4e-5})
+    both = words_of((softer,), **{knee: 2.4e-5, "link.tibia.bending_mm_per_n": 0.35})
+    assert "Alone, " in both and "the rest comes from" in both
+    assert "The cause is limb.toml" in words_of((), **{knee: 2.4e-5})
+
+
+@pytest.mark.parametrize(
+    ("value", "sigma", "words"),
+    [(20.984, 0.62, "20.98 ± 0.62"), (10.919, 0.4, "10.92 ± 0.40"), (0.0123, 0.12, "0.01 ± 0.12"),
+     (3.4, 0.0996, "3.40 ± 0.10"), (1234.5, 57.0, "1234 ± 57")],
+)  # fmt: skip
+def test_a_value_has_the_digits_of_its_uncertainty(value: float, sigma: float, words: str) -> None:
+    assert with_sigma(value, sigma) == words

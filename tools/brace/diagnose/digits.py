@@ -24,6 +24,13 @@ def number(value: float) -> str:
     return f"{value:.4g}" if abs(value) >= 1000 else f"{value:.3g}"
 
 
+def with_sigma(value: float, sigma: float) -> str:
+    """`10.92 ± 0.40`: two digits of the uncertainty, and the value to the same place. `sigma` is above 0."""
+    two = float(f"{sigma:.1e}")  # 0.0996 has the place of 0.10
+    places = max(0, 1 - math.floor(math.log10(two)))
+    return f"{value:.{places}f} ± {sigma:.{places}f}"
+
+
 def percent(share: float) -> str:
     """The share in percent, as `97 %`. A share below 1 is at most `over 99 %`: only 1 gives `100 %`."""
     if not math.isfinite(share):

@@ -16,13 +16,12 @@ from brace.diagnose.export import changed
 from brace.diagnose.limb_change import inspections, limb_change
 from brace.diagnose.provenance import Provenance
 from brace.diagnose.report.views import View, view
+from brace.diagnose.report.what_k_becomes import JOINTS, what_k_becomes
 from brace.model import LimbModel
 from brace.model.keys import KEY_BY_NAME
 
 MOST_FAULTS, MOST_CANDIDATES = 60, 14
 MOST_SURE = 0.999  # of what a number of played tests says
-SAME_K = 0.01  # relative, Frobenius: as where the members of a class are said to give one K
-JOINTS = ("joint.coxa", "joint.femur", "joint.tibia")
 MOST_TIMES = 1000.0  # beyond that only the order of magnitude is said
 COULD_BE_TIMES = 100.0  # less likely by more than this is not called possible
 
@@ -156,7 +155,7 @@ def facts(dataset: Dataset, believed: LimbModel | None, found: Diagnosis, origin
         headline=_headline(believed, found),
         sentence=found.sentence,
         cautions=found.cautions,
-        answers=(_missing(believed, found), _sure(found), _becomes(believed, found), _to_do(believed, found)),
+        answers=(_missing(believed, found), _sure(found), Answer(*what_k_becomes(believed, found)), _to_do(believed, found)),
         misfit=_misfit(found, given),
         unit=_unit(found),
         faults=faults[:MOST_FAULTS],
@@ -251,31 +250,6 @@ def _sure(found: Diagnosis) -> Answer:
     if found.verdict == "data_fault":
         return Answer(question, "The rows are listed below", left)
     return Answer(question, "That it is none of the catalogue", left)
-
-
-def _becomes(believed: LimbModel | None, found: Diagnosis) -> Answer:
-    question = "What K becomes"
-    if found.joint is not None:
-        return Answer(question, "By the joint below", "; ".join(words.joint_sizes(found.joint)))
-    changes = believed is None or bool(changed(believed, found.model))
-    if not changes:
-        why = {"none": "nothing is missing", "ambiguous": "the explanations below give different K"}
-        return Answer(question, "As believed", f"limb.toml is unchanged: {why.get(found.verdict, 'nothing was added')}")
-    if found.stiffness is None:
-        return Answer(question, "See limb.toml", "this record names no angles at which K could be compared")
-    before, after = found.stiffness.believed, found.stiffness.exported
-    size = _off(before, after)
-    plays = [joint for joint in JOINTS if found.model.number(f"{joint}.gap_rad") > 0.0]
-    play = f"; while the play of {' and '.join(plays)} is open, K is not valid (flag GAP_OPEN)" if plays else ""
-    at = f"without load at theta1 {before.theta1_rad:.3f}, theta2 {before.theta2_rad:.3f} rad"
-    if size < SAME_K:
-        taken_up = "with the play taken up, " if plays else ""
-        return Answer(question, "As believed, within 1 %", f"{taken_up}at every posture of the record{play}")
-    sigma = _k_sigma(found.model, after)
-    shown = f"{', '.join(_entries(before))} → {', '.join(_entries(after, sigma))} N/mm"
-    trust = "; ± one sigma, by limb.toml’s [uncertainty]" if sigma else ""
-    most = f"where it changes most: by {percent(size)} of the believed K (Frobenius norm)"
-    return Answer(question, shown, f"xx, xz, zz as believed → as limb.toml has it now, {at}, {most}{trust}{play}")
 
 
 def _to_do(believed: LimbModel | None, found: Diagnosis) -> Answer:
@@ -553,36 +527,9 @@ def _end(pair: GapPair) -> float:
     return pair.fitted if pair.held_out is None else pair.held_out
 
 
-def _entries(k: StiffnessAt, sigma: Sequence[float] = ()) -> tuple[str, str, str]:
-    """xx, xz, zz, with one sigma of each where it is given."""
-    plus = [f" ± {one:.2g}" for one in sigma] or ["", "", ""]
-    return (
-        number(k.k_xx_n_per_mm) + plus[0],
-        number(k.k_xz_n_per_mm) + plus[1],
-        number(k.k_zz_n_per_mm) + plus[2],
-    )
-
-
-def _k_sigma(model: LimbModel, at: StiffnessAt) -> tuple[float, ...]:
-    """One sigma of xx, xz, zz from the model's [uncertainty] [N/mm]; empty where nothing is uncertain, or K unknown."""
-    import numpy as np
-
-    from brace.stiffness.at_rest import planar_limb
-
-    limb = planar_limb(model)
-    theta1_rad, theta2_rad = limb.true_angles(np.array(at.theta1_rad), np.array(at.theta2_rad))
-    sigma = limb.sigma(float(theta1_rad), float(theta2_rad))
-    found = tuple(sigma.get(f"sigma_k_{axes}_n_per_mm", 0.0) for axes in ("xx", "xz", "zz"))
-    return found if any(found) and all(map(math.isfinite, found)) else ()
-
-
-def _off(before: StiffnessAt, after: StiffnessAt) -> float:
-    import numpy as np
-
-    from brace.diagnose.stiffness_change import apart
-
-    pair = [np.array([one.k_xx_n_per_mm, one.k_xz_n_per_mm, one.k_zz_n_per_mm]) for one in (after, before)]
-    return float(apart(*pair))
+def _entries(k: StiffnessAt) -> tuple[str, str, str]:
+    """xx, xz, zz."""
+    return number(k.k_xx_n_per_mm), number(k.k_xz_n_per_mm), number(k.k_zz_n_per_mm)
 
 
 def _shown(model: LimbModel, key: str) -> str:
