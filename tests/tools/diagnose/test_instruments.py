@@ -253,7 +253,7 @@ def test_what_begins_with_the_record_is_no_step(tmp_path: Path, limb: Path, what
 
     found = spoiled(tmp_path / "record", limb, spoil, values={})
     assert found.verdict == "unknown" and not found.data_faults, found.sentence
-    assert f"looks as if {words}" in found.sentence, found.sentence
+    assert f": the error looks as if {words}" in found.sentence, found.sentence  # one verb
 
 
 @pytest.mark.minutes

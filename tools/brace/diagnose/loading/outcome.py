@@ -470,8 +470,8 @@ def _sentence(
         return "Model and record agree within the noise and what calibration leaves open; nothing is missing."
     if verdict == "unknown":
         return (
-            "The record disagrees with the model in a way that no effect of the catalogue makes: it shows "
-            f"{_changing(final) or structure.strongest.words}. Nothing was added to the model."
+            "The record disagrees with the model in a way that no effect of the catalogue makes: "
+            f"{_changing(final) or f'it shows {structure.strongest.words}'}. Nothing was added to the model."
         )
     if verdict == "ambiguous":
         names = [effect.label for effect in effects]
