@@ -27,7 +27,8 @@ from brace.diagnose.diagnosis import (
     StiffnessAt,
 )
 from brace.diagnose.digits import with_sigma
-from brace.diagnose.report.facts import facts
+from brace.diagnose.plain_words import interval
+from brace.diagnose.report.facts import Facts, facts
 from brace.diagnose.report.page import page
 from brace.diagnose.report.what_k_becomes import k_sigma, what_k_becomes
 from brace.diagnose.stiffness_change import stiffness_change
@@ -301,6 +302,27 @@ def test_what_the_named_effect_does_not_do_to_k_is_not_laid_on_it(
     both = words_of((softer,), **{knee: 2.4e-5, "link.tibia.bending_mm_per_n": 0.35})
     assert "Alone, " in both and "the rest comes from" in both
     assert "The cause is limb.toml" in words_of((), **{knee: 2.4e-5})
+
+
+def answers(said: Facts) -> dict[str, str]:
+    """What each tile of the first screen says, by its question."""
+    return {one.question: f"{one.short}. {one.more}" for one in said.answers}
+
+
+def test_a_sensor_may_be_the_rigs(made: tuple[Dataset, LimbModel, Diagnosis]) -> None:
+    """A drift is said by the hour, too; and whoever uploads its [sensor] is asked whose sensor it is."""
+    dataset, believed, found = made
+    key = "sensor.drift_x_n_per_s"
+    drift = NamedEffect("sensor_drift", "sensor", 0.98, {key: Interval(2.42e-5, 2.04e-5, 2.79e-5)}, 0.9)
+    said = facts(dataset, believed, replace(found, effects=(drift,)), _origin(dataset))
+    assert "0.0871 N in an hour" in answers(said)["What is missing"] and "90 %: " in answers(said)["What is missing"]
+    assert "leave it out if that is the rig" in answers(said)["What to do next"]
+    assert "leave it out" not in answers(facts(dataset, believed, found, _origin(dataset)))["What to do next"]
+
+
+def test_both_ends_of_an_interval_have_one_notation() -> None:
+    assert interval(Interval(0.00106, 9.84e-4, 0.00114)) == "0.000984 to 0.00114"
+    assert interval(Interval(2.4e-5, 2.04e-5, 2.79e-5)) == "2.04e-5 to 2.79e-5"
 
 
 @pytest.mark.parametrize(

@@ -90,15 +90,20 @@ def key_unit(key: str) -> str:
 
 def value_alone(key: str, value: float) -> str:
     """`0.0061`; a switch as limb.toml writes it, true or false."""
+    return toml_value(KEY_BY_NAME[key], value) if is_switch(key, value) else number(value)
+
+
+def is_switch(key: str, value: float) -> bool:
+    """Whether limb.toml writes the value as true or false."""
     entry = KEY_BY_NAME.get(key)
-    if entry is not None and entry.kind == "ratio" and value in (0.0, 1.0):
-        return toml_value(entry, value)
-    return number(value)
+    return entry is not None and entry.kind == "ratio" and value in (0.0, 1.0)
 
 
 def value_with_unit(key: str, value: float) -> str:
-    """`0.0061 rad (21 arcmin)`: small angles also as gear makers print them."""
+    """`0.0061 rad (21 arcmin)`: small angles also as gear makers print them; a drift also by the hour."""
     text = f"{value_alone(key, value)} {key_unit(key)}".strip()
+    if key.endswith("_n_per_s") and value:
+        return f"{text} ({number(3600.0 * value)} N in an hour)"
     if key.endswith(("gap_rad", "offset_rad", "rotation_rad", "tilt_rad")) and math.isfinite(value) and value:
         arcmin = value * _ARCMIN
         return (
@@ -115,6 +120,9 @@ def interval(found: Interval) -> str:
         return f"at least {number(found.low)}"
     if not math.isfinite(found.low):
         return f"at most {number(found.high)}"
+    least, most = sorted((abs(found.low), abs(found.high)))
+    if 1e-4 <= least < 1e-3 <= most < 1.0:  # both ends in one notation
+        return f"{found.low:.3g} to {found.high:.3g}"
     return f"{number(found.low)} to {number(found.high)}"
 
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from brace.dataset import Dataset
 from brace.diagnose import plain_words as words
 from brace.diagnose.already import only_sizes
-from brace.diagnose.diagnosis import Diagnosis, Gap, GapPair, NamedEffect, StiffnessAt
+from brace.diagnose.diagnosis import Diagnosis, Gap, GapPair, Interval, NamedEffect, StiffnessAt
 from brace.diagnose.digits import number, percent, unit
 from brace.diagnose.export import changed
 from brace.diagnose.limb_change import inspections, limb_change
@@ -23,6 +23,7 @@ from brace.model.keys import KEY_BY_NAME
 MOST_FAULTS, MOST_CANDIDATES = 60, 14
 MOST_SURE = 0.999  # of what a number of played tests says
 MOST_TIMES = 1000.0  # beyond that only the order of magnitude is said
+PUSH = "To the controller: brace params push limb.toml --bus URL."
 COULD_BE_TIMES = 100.0  # less likely by more than this is not called possible
 
 
@@ -225,10 +226,15 @@ def _missing(believed: LimbModel | None, found: Diagnosis) -> Answer:
             shown.append(change.words)
             continue
         shown += [
-            f"{key} = {words.value_with_unit(key, held.value)} ({words.interval(held)})"
+            f"{key} = {words.value_with_unit(key, held.value)}{_ninety(key, held)}"
             for key, held in effect.parameters.items()
         ]
     return Answer(question, between.join(words.named(effect) for effect in found.effects), "; ".join(shown))
+
+
+def _ninety(key: str, held: Interval) -> str:
+    """The 90 % interval behind a value; a switch has none."""
+    return "" if words.is_switch(key, held.value) else f", 90 %: {words.interval(held)}"
 
 
 def _sure(found: Diagnosis) -> Answer:
@@ -264,8 +270,12 @@ def _to_do(believed: LimbModel | None, found: Diagnosis) -> Answer:
         return Answer(question, "Measure again", measure or "with smaller steps, where it shows most")
     if found.verdict == "ambiguous" and believed is not None and not changed(believed, found.model):
         return Answer(question, "Measure what tells them apart", measure)
-    done = "limb.toml has it: brace params push limb.toml --bus URL"
-    surer = f"{done}. To be surer: {measure[:1].lower()}{measure[1:]}" if measure else done
+    done = f"it is your model with what was missing. {PUSH}"
+    if any(effect.where == "sensor" for effect in found.effects):
+        done += (
+            " Its [sensor] describes the sensor that read this record: leave it out if that is the rig’s, not the limb’s."
+        )
+    surer = f"{done} To be surer: {measure[:1].lower()}{measure[1:]}" if measure else done
     inspect = inspections(believed, found)
     if inspect:
         return Answer(question, "Inspect the limb", f"{'. '.join(inspect)}. {surer}")
