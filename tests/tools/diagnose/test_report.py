@@ -309,6 +309,39 @@ def answers(said: Facts) -> dict[str, str]:
     return {one.question: f"{one.short}. {one.more}" for one in said.answers}
 
 
+def test_a_record_without_an_effect_says_what_was_compared_and_which_file_to_use(
+    made: tuple[Dataset, LimbModel, Diagnosis],
+) -> None:
+    """No number of the first screen is of a model that the same screen says was not made."""
+    dataset, believed, found = made
+    gap = Gap("n", 0.1, GapPair(0.2, 0.15), GapPair(0.1, 0.105))
+    model = believed.with_values({"link.tibia.bending_mm_per_n": 0.24})
+    none = replace(found, verdict="none", effects=(), gap=gap, model=model, details={"refit_pull_sigma": 1.0})
+    said = facts(dataset, believed, none, _origin(dataset))
+    sure, next_ = answers(said)["How sure"], answers(said)["What to do next"]
+    assert "1.5 times the noise as believed, and by 1.05 times the noise with its numbers refitted" in sure
+    assert "Go on with limb.toml" in next_ and "params push limb.toml" in next_
+    assert "configurations that took no part in the fit: 0.15 N" in said.misfit
+    assert "0.105 N with its numbers refitted" in said.misfit
+    assert "Where they disagreed" not in page(dataset, believed, none, _origin(dataset))
+    unknown = facts(dataset, believed, replace(none, verdict="unknown", model=believed), _origin(dataset))
+    assert "which limb.toml does not have" in unknown.misfit and "as found" not in unknown.misfit
+    same = facts(dataset, believed, replace(none, model=believed), _origin(dataset))
+    next_ = answers(same)["What to do next"]
+    assert "Go on with your model" in next_ and "push" not in next_
+
+
+def test_two_equal_k_are_no_change(made: tuple[Dataset, LimbModel, Diagnosis]) -> None:
+    dataset, believed, found = made
+    faulty = replace(
+        found, verdict="data_fault", effects=(), data_faults=(FAULT,), model=believed, gap=None,
+        stiffness=stiffness_change(dataset, believed, believed),
+    )  # fmt: skip
+    said = facts(dataset, believed, faulty, _origin(dataset))
+    assert said.k_lines == () and "What was refitted" not in page(dataset, believed, faulty, _origin(dataset))
+    assert "No probability" in answers(said)["How sure"]
+
+
 def test_a_sensor_may_be_the_rigs(made: tuple[Dataset, LimbModel, Diagnosis]) -> None:
     """A drift is said by the hour, too; and whoever uploads its [sensor] is asked whose sensor it is."""
     dataset, believed, found = made

@@ -151,12 +151,17 @@ def facts(dataset: Dataset, believed: LimbModel | None, found: Diagnosis, origin
     )
     return Facts(
         record=origin.name,
-        limb=f"limb “{believed.name}”" if believed is not None else "no model given: a spring alone",
+        limb=_limb_of(believed, origin) if believed is not None else "no model given: a spring alone",
         verdict=found.verdict,
         headline=_headline(believed, found),
         sentence=found.sentence,
         cautions=found.cautions,
-        answers=(_missing(believed, found), _sure(found), Answer(*what_k_becomes(believed, found)), _to_do(believed, found)),
+        answers=(
+            _missing(believed, found),
+            _sure(found),
+            Answer(*what_k_becomes(believed, found)),
+            _to_do(believed, found),
+        ),
         misfit=_misfit(found, given),
         unit=_unit(found),
         faults=faults[:MOST_FAULTS],
@@ -198,6 +203,11 @@ def facts(dataset: Dataset, believed: LimbModel | None, found: Diagnosis, origin
         notes=found.notes,
         origin=_origin(found, origin),
     )
+
+
+def _limb_of(believed: LimbModel, origin: Provenance) -> str:
+    """Empty where the record has the limb's name."""
+    return "" if believed.name == origin.name else f"limb “{believed.name}”"
 
 
 def _headline(believed: LimbModel | None, found: Diagnosis) -> str:
@@ -247,15 +257,23 @@ def _sure(found: Diagnosis) -> Answer:
         each = "; ".join(f"{percent(one.confidence)} {words.effect(one.name)}" for one in found.effects)
         kind = "what is left is the others’" if found.verdict == "ambiguous" else "each by itself"
         return Answer(question, each, f"probability that a name is right; {kind}{f'. {could_be}' if could_be else ''}")
-    if found.gap is None:
-        return Answer(question, "–", "no misfit was counted")
-    times = _end(found.gap.before) / max(found.gap.noise_floor, 1e-12)
-    left = f"the believed model misses the record by {number(times)} noise floors"
-    if found.verdict == "none":
-        return Answer(question, "Within the noise", f"{left}, with what its calibration leaves open")
     if found.verdict == "data_fault":
-        return Answer(question, "The rows are listed below", left)
-    return Answer(question, "That it is none of the catalogue", left)
+        return Answer(question, "No probability", "each fault stands below, with the reason why it is one")
+    if found.gap is None:
+        return Answer(question, "No probability", "and no misfit was computed")
+    ends = [(found.gap.before, "as believed")]
+    ends += [(found.gap.after, "with its numbers refitted")] if _is_refit(found) else []
+    sizes = [f"{number(_end(pair) / max(found.gap.noise_floor, 1e-12))} times the noise {of}" for pair, of in ends]
+    left = f"the model misses the record by {', and by '.join(sizes)}"
+    if found.verdict == "none":
+        left += ". An effect that is too small for this record would not show"
+        return Answer(question, "No sign of an effect", left)
+    return Answer(question, "No probability", f"only a named effect has one; {left}")
+
+
+def _is_refit(found: Diagnosis) -> bool:
+    """Whether what is left is of the believed model with its numbers refitted, and nothing added."""
+    return found.verdict in ("none", "unknown") and found.details.get("refit_pull_sigma") is not None
 
 
 def _to_do(believed: LimbModel | None, found: Diagnosis) -> Answer:
@@ -263,7 +281,9 @@ def _to_do(believed: LimbModel | None, found: Diagnosis) -> Answer:
     after = found.next_experiment
     measure = "" if after is None else f"{_capital(after.action)}."
     if found.verdict == "none":
-        return Answer(question, "Go on with the model", "limb.toml has its numbers as this record refits them")
+        if believed is not None and not changed(believed, found.model):
+            return Answer(question, "Go on with your model", "limb.toml is the same model")
+        return Answer(question, "Go on with limb.toml", f"it has your model’s numbers, refitted to this record. {PUSH}")
     if found.verdict == "data_fault":
         return Answer(question, "Mend the record", "correct the faults listed below, or measure again, then diagnose anew")
     if found.verdict == "unknown":
@@ -273,12 +293,13 @@ def _to_do(believed: LimbModel | None, found: Diagnosis) -> Answer:
     done = f"it is your model with what was missing. {PUSH}"
     if any(effect.where == "sensor" for effect in found.effects):
         done += (
-            " Its [sensor] describes the sensor that read this record: leave it out if that is the rig’s, not the limb’s."
+            " Its [sensor] describes the sensor that read this record: leave it out if that is the rig’s, not the "
+            "limb’s."
         )
     surer = f"{done} To be surer: {measure[:1].lower()}{measure[1:]}" if measure else done
     inspect = inspections(believed, found)
     if inspect:
-        return Answer(question, "Inspect the limb", f"{'. '.join(inspect)}. {surer}")
+        return Answer(question, "Inspect the limb", f"{'. '.join(inspect)}. Then use limb.toml: {surer}")
     return Answer(question, "Use limb.toml", surer)
 
 
@@ -287,11 +308,19 @@ def _misfit(found: Diagnosis, given: str) -> str:
     gap = found.gap
     if gap is None:
         return ""
-    on = "on what took no part" if gap.after.held_out is not None else f"on what was fitted; {_not_held_out(found)}"
-    ends = f"{number(_end(gap.before))} {unit(gap.unit)} of {given}"
-    if found.verdict in ("effect", "ambiguous", "unknown"):
-        ends += f" → {number(_end(gap.after))} {unit(gap.unit)} of the model as found"
-    return f"Misfit (rms of measured less model) {on}: {ends}. Noise floor: {number(gap.noise_floor)} {unit(gap.unit)}."
+    if gap.after.held_out is None:
+        on = f"on what was fitted; {_not_held_out(found)}"
+    else:
+        kind = "configurations" if gap.unit == "n" else "tests" if gap.unit == "n_mm" else "postures"
+        on = f"on {kind} that took no part in the fit"
+    size = unit(gap.unit)
+    ends = f"{number(_end(gap.before))} {size} of {given}"
+    if _is_refit(found):
+        not_written = ", which limb.toml does not have" if found.verdict == "unknown" else ""
+        ends += f" → {number(_end(gap.after))} {size} with its numbers refitted{not_written}"
+    elif found.verdict in ("effect", "ambiguous", "unknown"):
+        ends += f" → {number(_end(gap.after))} {size} of the model as found"
+    return f"Misfit (rms of measured less model) {on}: {ends}. Noise floor: {number(gap.noise_floor)} {size}."
 
 
 def _refit(found: Diagnosis) -> str:
@@ -359,7 +388,7 @@ def _k(found: Diagnosis) -> tuple[str, tuple[KLine, ...]]:
         at = members[0].k
         lines = [KLine(one.label, percent(one.probability), _entries(one.k)) for one in members]
         why = "where the explanations differ most"
-    elif found.stiffness is not None:
+    elif found.stiffness is not None and found.stiffness.believed != found.stiffness.exported:
         at = found.stiffness.believed
         lines = [
             KLine("as believed", "", _entries(at)),

@@ -45,8 +45,9 @@ def _top(said: Facts) -> str:
     *short, to_do = said.answers
     answers = "".join(html.answer(one.question, one.short, one.more) for one in short)
     answers += html.answer(to_do.question, to_do.short, to_do.more, is_wide=True)
+    names = " · ".join(one for one in (said.record, said.limb) if one)
     return (
-        f'<header style="--accent:var(--{said.verdict})">\n<h1>{text(said.record)} · {text(said.limb)}</h1>\n'
+        f'<header style="--accent:var(--{said.verdict})">\n<h1>{text(names)}</h1>\n'
         f'<span class="badge">{text(said.headline)}</span>\n<p class="lead">{text(said.sentence)}</p>\n'
         f'{"".join(html.paragraph(one, "caution") for one in said.cautions)}'
         f'<div class="tiles">{answers}</div>\n{html.paragraph(said.misfit, "small") if said.misfit else ""}\n</header>'
@@ -71,7 +72,7 @@ def _disagreement(said: Facts) -> str:
     if said.view is not None and said.view.refitted is not None:
         shown = f"The same model with its calibrated numbers refitted and nothing added. {BAND}"
         parts.append(html.pictures(pictures.disagreement(said.view, said.view.refitted, "refitted"), shown))
-    return html.section("Where they disagreed", *parts)
+    return html.section("The model beside the record" if said.verdict == "none" else "Where they disagreed", *parts)
 
 
 def _missing(said: Facts) -> str:

@@ -32,7 +32,8 @@ def what_k_becomes(believed: LimbModel | None, found: Diagnosis) -> tuple[str, s
         return question, "See limb.toml", "this record names no angles at which K could be compared"
     before, after = found.stiffness.believed, found.stiffness.exported
     plays = [words.place(joint) for joint in JOINTS if found.model.number(f"{joint}.gap_rad") > 0.0]
-    play = f" While the play of the {' and the '.join(plays)} is open, the limb is softer (flag GAP_OPEN)." if plays else ""
+    of = " and the ".join(plays)
+    play = f" While the play of the {of} is open, the limb is softer (flag GAP_OPEN)." if plays else ""
     size = float(apart(entries(after), entries(before)))
     if size < SAME_K:
         taken_up = "with the play taken up, " if plays else ""
@@ -44,9 +45,10 @@ def what_k_becomes(believed: LimbModel | None, found: Diagnosis) -> tuple[str, s
     )
     trust = " ± is one sigma, by limb.toml’s [uncertainty]." if sigma else ""
     taken_up = ", with the play taken up" if plays else ""
+    whose = _whose(believed, found, size)
     more = (
         f"As believed → as limb.toml has it now, without load{taken_up}, at theta1 {before.theta1_rad:.3f}, theta2 "
-        f"{before.theta2_rad:.3f} rad, where it changes most: by {percent(size)}.{_whose(believed, found, size)}{trust}{play}"
+        f"{before.theta2_rad:.3f} rad, where it changes most: by {percent(size)}.{whose}{trust}{play}"
     )
     return f"{question} [N/mm]", shown, more
 
