@@ -5,6 +5,8 @@ const ELLIPSE_SHARE = 0.3; // of the reach: the longer half axis
 const SCALE_SHARE = 0.1; // of the reach: room for the scale's bar below
 const AVERAGE_MS = 1000; // of force and displacement, which jitter from message to message
 const SMALL_N = 0.05; // no arrow below
+const NO_SIGMA = 1e-6; // of a value: less is the rounding of a mean of equal readings
+const LONGEST_N = 20; // this and more has the longest arrow
 const ROUND = [1, 2, 5];
 const JOINTS = ["coxa", "femur", "tibia"];
 
@@ -25,17 +27,23 @@ function number(value, digits = 3) {
 }
 
 function numbers(values, unit, digits = 3) {
-  return values.every((value) => value === null) ? "-" : `${values.map((v) => number(v, digits)).join("  ")} ${unit}`;
+  return values.every((value) => value === null) ? "-" : `${values.map((v) => number(v, digits)).join(", ")} ${unit}`;
 }
 
-// Values with one sigma of each behind them, where it is known.
+// Values with one sigma of each behind them, where it is known. A line does not end between a value and its sigma.
 function trusted(values, sigmas, unit) {
-  const one = (value, i) => number(value) + trust(value, sigmas?.[i] ?? null);
-  return values.every((value) => value === null) ? "-" : `${values.map(one).join(",  ")} ${unit}`;
+  const one = (value, i) => withSigma(value, sigmas?.[i] ?? null);
+  return values.every((value) => value === null) ? "-" : `${values.map(one).join(", ")} ${unit}`;
 }
 
-function trust(value, sigma) {
-  return value === null || sigma === null ? "" : ` \u00b1 ${number(sigma, 2)}`;
+// Two digits of the sigma, and the value to the same place: what is beyond it is noise.
+function withSigma(value, sigma) {
+  if (value === null || sigma === null || !(sigma > NO_SIGMA * Math.abs(value))) {
+    return number(value);
+  }
+  const places = Math.max(0, 1 - Math.floor(Math.log10(Number(sigma.toPrecision(2)))));
+  const rounded = Number(value.toFixed(places)) === 0 ? 0 : value; // not -0.00
+  return `${rounded.toFixed(places).replace("-", "\u2212")}\u00a0\u00b1\u00a0${sigma.toFixed(places)}`;
 }
 
 // Of rows of values, the mean of each column and the standard deviation of its readings; null where none has one.
@@ -92,8 +100,8 @@ export class Limb {
       this.find(".mode"),
       silent ? `silent for ${view.silent_s.toFixed(0)} s: what follows is old` : `${view.mode}: ${view.mode_text}`,
     );
-    this.draw(view);
     this.tell(view);
+    this.draw(view);
     this.list(".backlash", view.play.map((one) => `${one.joint}: ${one.text}`));
     this.list(".faults", view.faults.map((one) => `${one.name}. ${one.text}`));
     this.list(".flags", view.flags.map((one) => `${one.name}. ${one.text}`));
@@ -135,7 +143,9 @@ export class Limb {
     this.row("\u00b1 one sigma", unsure ? "not known: neither sent nor in a model" : null);
     const load = view.load;
     const now = performance.now();
-    this.loads = load === null ? [] : [...this.loads.filter((one) => now - one.at < AVERAGE_MS), { at: now, load }];
+    if (load === null || this.loads.length === 0 || view.silent_s === null) { // of a silent limb the last second stays
+      this.loads = load === null ? [] : [...this.loads.filter((one) => now - one.at < AVERAGE_MS), { at: now, load }];
+    }
     const second = (name, unit) => `${trusted(...averaged(this.loads.map((one) => one.load[name])), unit)}, last second`;
     this.row("force x, z", load === null ? view.load_why : second("force_n", "N"));
     this.row("tip moved x, z", load === null ? null : second("moved_mm", "mm"));
@@ -147,7 +157,7 @@ export class Limb {
       this.row(`theta${i}, ${name}`, i === 0 && angle === null ? null : degrees(angle));
     });
     const age = view.age_ms === null ? "over 127 ms" : `${view.age_ms} ms`;
-    const silent = view.silent_s === null ? null : `nothing comes for ${view.silent_s.toFixed(0)} s`;
+    const silent = view.silent_s === null ? null : `nothing for ${view.silent_s.toFixed(0)} s`;
     this.row("age of K's samples", silent === null ? age : `over ${view.silent_s.toFixed(0)} s`);
     this.row("K comes", silent ?? `${view.rate_hz.toFixed(0)} times a second`);
   }
@@ -192,7 +202,7 @@ export class Limb {
     });
     set(this.find(".tip"), { cx: tip[0], cy: tip[1], r: 1.2 * width, "stroke-width": width / 2 });
     this.drawEllipse(view, reach, tip, width, box);
-    this.drawForce(view, reach, tip, width);
+    this.drawForce(reach, tip, width);
     set(svg, { "aria-label": `limb of node ${view.node}, its posture and its stiffness ellipse` });
   }
 
@@ -233,15 +243,17 @@ export class Limb {
     text(label, `${bar} N/mm`);
   }
 
-  drawForce(view, reach, tip, width) {
-    const [x, z] = view.load?.force_n ?? [null, null];
+  // The mean of the last second, as the row of numbers has it. A force within its scatter points anywhere: it has no arrow.
+  drawForce(reach, tip, width) {
+    const [[x = null, z = null], scatter] = averaged(this.loads.map((one) => one.load.force_n));
     const size = x === null || z === null ? 0 : Math.hypot(x, z);
+    const isSeen = size > Math.max(SMALL_N, Math.hypot(...scatter.map((sigma) => sigma ?? 0)));
     const arrow = this.find(".force");
-    arrow.style.display = size > SMALL_N ? "" : "none";
-    if (size <= SMALL_N) {
+    arrow.style.display = isSeen ? "" : "none";
+    if (!isSeen) {
       return;
     }
-    const length = 0.3 * reach * Math.min(1, size / 20); // 20 N and more have the longest one
+    const length = 0.3 * reach * Math.min(1, size / LONGEST_N);
     set(arrow, {
       x1: tip[0] - (length * x) / size, y1: tip[1] + (length * z) / size, x2: tip[0], y2: tip[1], "stroke-width": width,
     });
@@ -268,7 +280,8 @@ export class Limb {
     const values = this.history.flatMap((one) => [one.least, one.most]).filter((value) => value !== null && value > 0);
     pen.clearRect(0, 0, canvas.width, canvas.height);
     if (values.length === 0) {
-      text(this.find("figcaption"), "no K above zero in the last minute");
+      const isThere = this.history.some((one) => one.most !== null);
+      text(this.find("figcaption"), isThere ? "no K above zero in the last minute" : "no K has come in the last minute");
       return;
     }
     const low = Math.log(Math.min(...values) / 1.2);
@@ -294,7 +307,7 @@ export class Limb {
     text(
       this.find("figcaption"),
       `last minute, logarithmic, ${number(Math.min(...values))} to ${number(Math.max(...values))} N/mm: ` +
-        "stiffest (solid), softest (dashed)",
+        `stiffest (solid), ${this.history.some((one) => one.least > 0) ? "softest (dashed)" : "softest is 0: no line"}`,
     );
   }
 }
