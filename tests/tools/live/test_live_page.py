@@ -67,7 +67,7 @@ def test_a_limb_is_told_with_its_place_and_its_trust(limb_file: Path) -> None:
     assert play["text"] == "backlash is open; brace take-up tibia- --bus URL (or tibia+) takes it up"
     assert words["faults"][0]["name"] == "ENCODER_STUCK" and words["faults"][0]["text"].endswith(".")
     assert words["flags"][0]["name"] == "GAP_OPEN" and words["mode_text"]
-    assert "load_hz" in words["load_why"]
+    assert "load_hz" in words["load_why"] and "params push" in words["load_why"]  # what it is, and how to get it
     json.dumps([words, view], allow_nan=False)
 
 

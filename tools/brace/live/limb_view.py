@@ -21,7 +21,7 @@ SILENT_S = 2.0  # a heartbeat comes each second
 LOAD_LATE_S = 2.0  # it may come more seldom than K
 _KNOWN_MOST = 256  # so many words are kept, because the page asks for them thirty times a second and they hardly change
 
-_NO_LOAD_SENT = "not sent: controller.load_hz is 0"
+_NO_LOAD_SENT = "not sent: controller.load_hz is 0 (set it in limb.toml, then brace params push)"
 _NO_LOAD_COUNTED = "no load is counted: K is the one without load"
 
 _PLAY_WORDS = {  # of one joint: which side of its backlash is loaded
