@@ -353,6 +353,17 @@ def test_a_sensor_may_be_the_rigs(made: tuple[Dataset, LimbModel, Diagnosis]) ->
     assert "leave it out" not in answers(facts(dataset, believed, found, _origin(dataset)))["What to do next"]
 
 
+def test_of_several_explanations_limb_toml_has_one(made: tuple[Dataset, LimbModel, Diagnosis]) -> None:
+    """It is not said to have all that may be missing; and no line ends within a number."""
+    dataset, believed, found = made
+    held = {"base.rotation_rad_per_n_mm": Interval(2.63e-5, 2.52e-5, 2.74e-5)}
+    other = NamedEffect("base_compliance", "base", 0.33, held, 0.9)
+    several = replace(found, verdict="ambiguous", effects=(*found.effects, other))
+    said = answers(facts(dataset, believed, several, _origin(dataset)))
+    assert "with one of them added" in said["What to do next"] and "what was missing" not in said["What to do next"]
+    assert '<span class="whole">2.74e-5</span>' in page(dataset, believed, several, _origin(dataset))
+
+
 def test_both_ends_of_an_interval_have_one_notation() -> None:
     assert interval(Interval(0.00106, 9.84e-4, 0.00114)) == "0.000984 to 0.00114"
     assert interval(Interval(2.4e-5, 2.04e-5, 2.79e-5)) == "2.04e-5 to 2.79e-5"

@@ -290,7 +290,8 @@ def _to_do(believed: LimbModel | None, found: Diagnosis) -> Answer:
         return Answer(question, "Measure again", measure or "with smaller steps, where it shows most")
     if found.verdict == "ambiguous" and believed is not None and not changed(believed, found.model):
         return Answer(question, "Measure what tells them apart", measure)
-    done = f"it is your model with what was missing. {PUSH}"
+    added = "one of them added; which one stands above" if found.verdict == "ambiguous" else "what was missing"
+    done = f"it is your model with {added}. {PUSH}"
     if any(effect.where == "sensor" for effect in found.effects):
         done += (
             " Its [sensor] describes the sensor that read this record: leave it out if that is the rig’s, not the "

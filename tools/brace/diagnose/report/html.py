@@ -60,10 +60,11 @@ def tile(big: str, small: str) -> str:
     return f'<div class="tile"><b>{text(big)}</b><span>{text(small)}</span></div>'
 
 
-def answer(question: str, short: str, more: str, is_wide: bool = False) -> str:
-    """A question that everybody has, with its answer."""
-    kind = "tile wide-tile" if is_wide else "tile"
-    return f'<div class="{kind}"><i>{text(question)}</i><b>{text(short)}</b><span>{text(more)}</span></div>'
+def answer(question: str, short: str, more: str, width: str = "") -> str:
+    """A question that everybody has, with its answer; `width` "wide": a row for itself, "broad": more of its row."""
+    kind = f"tile {width}-tile" if width else "tile"
+    whole = re.sub(r"-?[\d.]+e-\d+", r'<span class="whole">\g<0></span>', text(more))  # a line would end at the minus
+    return f'<div class="{kind}"><i>{text(question)}</i><b>{text(short)}</b><span>{whole}</span></div>'
 
 
 def bar(share: float, kind: str = "") -> str:

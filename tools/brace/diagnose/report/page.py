@@ -42,9 +42,10 @@ def page(
 
 
 def _top(said: Facts) -> str:
-    *short, to_do = said.answers
-    answers = "".join(html.answer(one.question, one.short, one.more) for one in short)
-    answers += html.answer(to_do.question, to_do.short, to_do.more, is_wide=True)
+    widths = ("", "", "broad", "wide")
+    answers = "".join(
+        html.answer(one.question, one.short, one.more, width) for one, width in zip(said.answers, widths, strict=True)
+    )
     names = " · ".join(one for one in (said.record, said.limb) if one)
     return (
         f'<header style="--accent:var(--{said.verdict})">\n<h1>{text(names)}</h1>\n'

@@ -20,10 +20,11 @@ p{margin:6px 0 10px;max-width:78ch}
 padding:2px 12px;font-size:.85rem;margin-bottom:6px}
 .tiles{display:flex;flex-wrap:wrap;gap:12px;margin-top:14px}
 .tile{flex:1 1 190px;background:var(--wash);border-radius:8px;padding:10px 14px}
-.wide-tile{flex-basis:100%}.tile:nth-child(3){flex-grow:2}
+.wide-tile{flex-basis:100%}.broad-tile{flex-grow:2}
 .tile i{display:block;font-style:normal;color:var(--soft);font-size:.88rem}
 .tile b{overflow-wrap:anywhere;white-space:pre-line;display:block;font-size:1.3rem;line-height:1.3}
-.tile span,.small{color:var(--soft);font-size:.88rem}.tile span{display:block;line-height:1.4}
+.tile>span,.small{color:var(--soft);font-size:.88rem}.tile>span{display:block;line-height:1.4}
+.whole{white-space:nowrap}
 table{border-collapse:collapse;width:100%;font-size:.93rem;margin:8px 0 4px}
 th,td{text-align:left;padding:6px 10px 6px 0;border-bottom:1px solid var(--line);vertical-align:top}
 th{color:var(--soft);font-weight:600}
