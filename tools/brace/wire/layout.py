@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import struct
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -37,6 +37,11 @@ class Field:
     def bit_names(self) -> tuple[str, ...]:
         """The names of the bits, from bit 0 on; empty: they have none."""
         return tuple(code.name for code in self.codes.codes) if self.codes is not None and self.codes.is_bits else ()
+
+    @property
+    def is_whole_float(self) -> bool:
+        """A float that begins with a byte."""
+        return self.kind == "f32" and self.start % 8 == 0
 
     def decoder(self) -> Callable[[int], Value]:
         """A function: bits of a frame -> value in its unit; None: not known. Made once, because frames come by the
@@ -85,6 +90,22 @@ class Field:
         return (code & mask) << self.start
 
 
+class _Floats:
+    """All floats of a frame in one call, for a CAN FD frame has a dozen."""
+
+    def __init__(self, fields: Iterable[Field]) -> None:
+        ordered, at, pattern = sorted(fields, key=lambda item: item.start), 0, "<"
+        for item in ordered:
+            pattern += f"{item.start // 8 - at}xf"
+            at = item.start // 8 + 4
+        self.names = tuple(item.name for item in ordered)
+        self._pattern = struct.Struct(pattern)
+
+    def unpacked(self, data: bytes) -> tuple[float, ...]:
+        """In the order of the names."""
+        return self._pattern.unpack_from(data)
+
+
 @dataclass(frozen=True)
 class Layout:
     """One frame."""
@@ -103,16 +124,31 @@ class Layout:
 
     def decode(self, data: bytes) -> dict[str, Value]:
         """Name -> value."""
-        bits = int.from_bytes(data[: self.size].ljust(self.size, b"\0"), "little")
-        return {name: decode(bits) for name, decode in self._decoders}
+        whole = data[: self.size].ljust(self.size, b"\0")
+        bits = int.from_bytes(whole, "little")
+        values: dict[str, Value] = dict.fromkeys(self._names)
+        for name, value in zip(self._floats.names, self._floats.unpacked(whole), strict=True):
+            if value == value:  # not NaN, which means not known
+                values[name] = value
+        for name, decode in self._decoders:
+            values[name] = decode(bits)
+        return values
 
     @cached_property
     def _codes(self) -> Mapping[str, CodeTable]:
         return {item.name: item.codes for item in self.fields if item.codes is not None}
 
     @cached_property
+    def _names(self) -> tuple[str, ...]:
+        return tuple(item.name for item in self.fields)
+
+    @cached_property
+    def _floats(self) -> _Floats:
+        return _Floats(item for item in self.fields if item.is_whole_float)
+
+    @cached_property
     def _decoders(self) -> tuple[tuple[str, Callable[[int], Value]], ...]:
-        return tuple((item.name, item.decoder()) for item in self.fields)
+        return tuple((item.name, item.decoder()) for item in self.fields if not item.is_whole_float)
 
     def encode(self, values: Mapping[str, Value], token: int = 0) -> bytes:
         """`size` bytes. KeyError for a field that is missing, ValueError for one that does not fit."""
