@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from brace.bus.frame import Bus, Frame
     from brace.stance.watching import Shown, Watching
 
-_PERIOD_S = 0.01
+_FETCH_S = 0.005  # some adapters' frames have the time at which they were fetched
 _LINE_S = 1.0
 _SILENCE_S = 3.0
 
@@ -109,19 +109,22 @@ def _follow(arguments: argparse.Namespace, bus: Bus, watching: Watching, ended: 
 
 
 def _periods(bus: Bus) -> Iterator[tuple[list[Frame], float]]:
-    """What has come in each hundredth of a second, and when: by the clock, or by a log's own times until it ends."""
+    """What has come in each period, and when: by the clock, or by a log's own times until it ends."""
     from brace.bus.frame import EndOfLog
     from brace.bus.log import LogBus
+    from brace.stance.watching import PERIOD_S
 
     if not isinstance(bus, LogBus):
         while True:
-            at_s = time.monotonic()
-            yield bus.receive_all(), time.time()
-            time.sleep(max(0.0, _PERIOD_S - (time.monotonic() - at_s)))
+            until_s, came = time.monotonic() + PERIOD_S, bus.receive_all()
+            while (left_s := until_s - time.monotonic()) > 0.0:
+                time.sleep(min(_FETCH_S, left_s))
+                came += bus.receive_all()
+            yield came, time.time()
     frames: list[Frame] = []
     with contextlib.suppress(EndOfLog):
         while (frame := bus.receive(0.0)) is not None:
-            if frames and frame.time_s - frames[0].time_s >= _PERIOD_S:
+            if frames and frame.time_s - frames[0].time_s >= PERIOD_S:
                 yield frames, frames[-1].time_s
                 frames = []
             frames.append(frame)

@@ -11,9 +11,8 @@ from brace.stance.limb_law import UNSURE_N
 from brace.stance.observer import NINETY
 from brace.stance.stance_file import Stance
 from brace.stance.statics import LooseError
-from brace.stance.watching import Shown, Watching, event_line
+from brace.stance.watching import PERIOD_S, Shown, Watching, event_line
 
-_PERIOD_S = 0.01  # frames that came within it are taken together
 _EVERY_S = 0.1  # what is worked out for the page
 _EVENTS = 6
 
@@ -65,7 +64,7 @@ class StanceFeed:
         part: list[Frame] = []
         try:
             for frame in frames:
-                if part and frame.time_s - part[0].time_s >= _PERIOD_S:
+                if part and frame.time_s - part[0].time_s >= PERIOD_S:
                     self._take(part, part[-1].time_s)
                     part = []
                 part.append(frame)

@@ -28,6 +28,7 @@ _UNKNOWN_SPREAD_N = 2.0
 _INTERVAL_WITHIN_S = 1.0  # it comes beside the load; what the first forces hide stays in every later answer
 _STANDS_RAD = 0.002  # a joint that is elsewhere by more, twice in a row, has been moved; less is the force's noise
 _STANDS_FOLLOWS = 0.1
+_SHAPE_S = 0.05  # a shape is worked out so often: the observer takes a new one every tenth of a second
 _ACROSS_UNKNOWN_N = 1e3  # one sigma of a force's component that no sensor measures
 
 
@@ -115,6 +116,7 @@ class _Stands:
         self._rad: np.ndarray | None = None
         self._seen: tuple[float, ...] = ()
         self._elsewhere = self._count = 0
+        self._shaped_s = -np.inf
         self._knows_load = False  # of what _rad is from
 
     def shape(self, state: NodeState) -> Shape:
@@ -133,7 +135,7 @@ class _Stands:
             knows_load = state.load is not None and state.load.load is not None and state.load.load.is_counted
             if knows_load and not self._knows_load:  # what was known without it says nothing
                 self._rad, self._knows_load, self._count = None, bool(known.all()), 0
-            self._take(np.array(seen[:3]) - np.where(known, self._turned_rad(state.load), 0.0))
+            self._take(np.array(seen[:3]) - np.where(known, self._turned_rad(state.load), 0.0), seen[3])
         return self._shape
 
     def _turned_rad(self, sent: Snapshot | None) -> np.ndarray:
@@ -142,8 +144,8 @@ class _Stands:
         force, _ = _components(sent.load)
         return np.asarray(self._yields * self._law.torques_n_mm(self._law.shape.from_plane @ force))
 
-    def _take(self, rad: np.ndarray) -> None:
-        before = self._rad
+    def _take(self, rad: np.ndarray, time_s: float) -> None:
+        before, is_due = self._rad, not 0.0 <= time_s - self._shaped_s < _SHAPE_S
         if before is not None and np.abs(rad - before).max() < _STANDS_RAD:
             self._elsewhere, self._count = 0, self._count + 1
             rad = before + max(_STANDS_FOLLOWS, 1.0 / self._count) * (rad - before)
@@ -151,8 +153,10 @@ class _Stands:
             self._elsewhere += 1
             if self._elsewhere < 2:
                 return
-            self._count = 0
-        self._rad, self._shape = rad, shape_of(self._limb, self._limb.model, rad)
+            self._count, is_due = 0, True
+        self._rad = rad
+        if is_due or before is None:
+            self._shaped_s, self._shape = time_s, shape_of(self._limb, self._limb.model, rad)
 
 
 class _Noise:
