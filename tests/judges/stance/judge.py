@@ -3,9 +3,12 @@
     .venv/bin/python tests/judges/stance/judge.py --seed 1 --count 100 --jobs 2
     .venv/bin/python tests/judges/stance/judge.py --seed 1 --count 100 --exact
 
+    .venv/bin/python tests/judges/stance/judge.py --seed 1 --count 100 --changes
+
 Seeds below 1000 are for practice. A case is a drawn stance in which all feet hold before the payload, the nearest by
 5 % of the weight, and some foot slips within 60 N; its payload is then scaled so that a foot slips at a factor drawn
-between 0.6 and 2.5. Writes a line of JSON a case to --out, and the table on stdout.
+between 0.6 and 2.5. With --changes, a limb's tip is commanded by 0.3 to 1 mm, and in a stance of its own a foot is let
+go, both without payload; the foot is one without which the others hold, if there is one. Writes a line of JSON a case to --out, and the table on stdout.
 """
 
 from __future__ import annotations
@@ -19,16 +22,20 @@ from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
+from typing import Any
 
 import baselines
 import numpy as np
 from limbs import Array
-from truth import NoStance, Siconos, State, first_slip, margins, payload, stand
-from world import Hidden, Stance, draw, write, write_measured
+from truth import NoStance, Siconos, State, execute, first_slip, lift, margins, payload, stand
+from world import Hidden, Stance, draw, moved_rad, unit, write, write_measured
 
+FALLS = "exit 5: the body does not stand"
 SPARE_BEFORE = 0.05  # of the weight; the sensors' noise is 1 % of it, in each direction
 SLIPS_AT = (0.6, 2.5)
 NEAR = 0.05  # of the load: two feet so near are not told apart
+NEAR_CHANGE = 0.05  # of the payload, or of the weight
+MOVES_MM = (0.3, 1.0)
 MOST = 6.0  # times 10 N
 COLLAPSES_N = 0.1  # no foot is so near its cone, and yet there is no further stance: a limb gave way
 TIME_OUT_S = 120.0
@@ -49,6 +56,24 @@ class Asked:
     finite: bool
     measured: bool
     brace: list[str]
+    changes: bool = False
+
+
+@dataclass(frozen=True)
+class Change:
+    """What moved set-points or a lifted foot change, without payload: `kind` is "set-point" or "lift", `limb` the one.
+    A law's `said` is empty where it has no answer."""
+
+    kind: str
+    limb: int
+    slipped: bool  # some foot
+    change_n: Forces
+    said: dict[str, Forces | None]
+    failed: str = ""
+
+    def feet(self) -> list[int]:
+        """That bear the body after it."""
+        return [foot for foot in range(len(self.change_n)) if self.kind != "lift" or foot != self.limb]
 
 
 @dataclass(frozen=True)
@@ -79,6 +104,8 @@ class Case:
     change_n: Forces | None
     residual_n: float
     said: dict[str, Said] = field(default_factory=dict)
+    changes: list[Change] = field(default_factory=list)
+    weight_n: float = 0.0
 
 
 def _stands(stance: Stance, solver: Siconos, steps: int = 8) -> State | None:
@@ -103,8 +130,8 @@ def case(asked: Asked, number: int, solver: Siconos) -> Case | None:
     if asked.finite and not _stands(draw(asked.seed, number, asked.hidden, finite=False), solver):
         return None
     stance = draw(asked.seed, number, asked.hidden, asked.finite)
-    state = _stands(stance, solver)
-    if state is None or (slip := first_slip(stance.world, solver, state, MOST)) is None:
+    state = standing = _stands(stance, solver)
+    if standing is None or state is None or (slip := first_slip(stance.world, solver, state, MOST)) is None:
         return None
     if margins(stance.world, slip.before.force_n)[slip.foot] > COLLAPSES_N:
         return None
@@ -123,31 +150,91 @@ def case(asked: Asked, number: int, solver: Siconos) -> Case | None:
     load = float(np.linalg.norm(world.weight_n + factor * world.payload_n))
     forces, change = (None, None) if after is None else (after.tolist(), (after - before).tolist())
     found = Case(number, stance.name.split()[0], slip.foot, factor, slip.spare_n / load,
-                 float(np.linalg.norm(world.payload_n)), forces, change, state.residual_n)
+                 float(np.linalg.norm(world.payload_n)), forces, change, state.residual_n,
+                 weight_n=float(np.linalg.norm(world.weight_n)))
     read = before + stance.noise_n
     found.said["brace"] = _ask(asked, stance, read)
     for name, law in (("convex", baselines.convex(stance, read)), ("rigid", baselines.rigid(stance))):
         found.said[name] = Said(law.foot, law.factor, None if law.change_n is None else law.change_n.tolist())
+    if asked.changes:
+        found.changes.extend(_changes(asked, number, stance, standing, solver))
     return found
 
 
-def _ask(asked: Asked, stance: Stance, read_n: Array) -> Said:
-    """What the command says of the files it gets."""
+def _changes(asked: Asked, number: int, stance: Stance, before: State, solver: Siconos) -> Iterator[Change]:
+    """A set-point that moves; a foot that is let go: the first, in a drawn order, without which the body stands."""
+    rng = np.random.default_rng([asked.seed, number, 2])
+    stance = replace(stance, world=replace(stance.world, payload_n=np.zeros(3)))
+    world, read = stance.world, _in_body(before, asked.finite) + stance.noise_n
+    limb, n = int(rng.integers(len(read))), len(read)
+    way = np.zeros((n, 3))
+    way[limb] = rng.uniform(*MOVES_MM) * unit(rng.normal(size=3))
+    theta = world.limbs.theta_rad + moved_rad(stance, way) - stance.nominal.theta_rad
+    order = rng.permutation(n)
+    try:
+        after = execute(world, solver, before, theta, 0.0)[1]
+    except NoStance:
+        after = None
+    if after is not None:
+        said = {"convex": baselines.convex_change(stance, read, way_mm=way)}
+        move = f"{stance.names()[limb]}:" + ",".join(repr(float(part)) for part in way[limb])
+        yield _change(asked, stance, "set-point", limb, before, after, said, read, ["set", "--move", move])
+    for foot in order:
+        if not baselines.may_stand(stance, foot):
+            continue
+        try:
+            after = lift(world, solver, before, int(foot))
+        except NoStance:
+            continue
+        said = {"convex": baselines.convex_change(stance, read, lifted=int(foot))}
+        ask = ["lift", "--limb", stance.names()[foot]]
+        yield _change(asked, stance, "lift", int(foot), before, after, said, read, ask)
+        return
+
+
+def _change(asked: Asked, stance: Stance, kind: str, limb: int, before: State, after: State,
+            said: dict[str, Array | None], read_n: Array, ask: list[str]) -> Change:
+    """With the command's answer."""
+    true = _in_body(after, asked.finite) - _in_body(before, asked.finite)
+    laws = {name: None if change is None else change.tolist() for name, change in said.items()}
+    found = Change(kind, limb, bool(after.slipped.any()), true.tolist(), laws)
+    answer = _run(asked, stance, read_n, ask)
+    if isinstance(answer, str):
+        found.said["brace"] = None
+        return replace(found, failed=answer)
+    if kind == "lift":
+        (answer,) = answer["lifted"]
+    changes = {one["name"]: one["change_n"] for one in answer["limbs"]}
+    nothing = [0.0, 0.0, 0.0]  # of the lifted foot itself: it is not counted
+    found.said["brace"] = [changes.get(name, nothing) for name in stance.names()] if changes else None
+    return found
+
+
+def _run(asked: Asked, stance: Stance, read_n: Array, ask: list[str]) -> dict[str, Any] | str:
+    """What the command says of the files it gets, or why it does not. `ask`: the action, and its own options."""
     with tempfile.TemporaryDirectory() as name:
-        ask = [*asked.brace, "stance", "load", str(write(stance, Path(name))), "--json"]
+        whole = [*asked.brace, "stance", ask[0], str(write(stance, Path(name))), *ask[1:], "--json"]
         if asked.measured:
             measured = Path(name) / "measured.csv"
             write_measured(stance, read_n, measured)
-            ask += ["--measured", str(measured), "--measured-sd", str(max(asked.hidden.sensor_n, LEAST_SENSOR_N))]
+            whole += ["--measured", str(measured), "--measured-sd", str(max(asked.hidden.sensor_n, LEAST_SENSOR_N))]
         try:
-            done = subprocess.run(ask, capture_output=True, text=True, timeout=TIME_OUT_S)
+            done = subprocess.run(whole, capture_output=True, text=True, timeout=TIME_OUT_S)
         except subprocess.TimeoutExpired:
-            return Said(failed=f"no answer in {TIME_OUT_S:.0f} s")
+            return f"no answer in {TIME_OUT_S:.0f} s"
     if done.returncode == 5:
-        return Said(falls=True)
+        return FALLS
     if done.returncode:
-        return Said(failed=f"exit {done.returncode}: {(done.stderr.strip().splitlines() or ['no word'])[0]}")
-    said = json.loads(done.stdout)
+        return f"exit {done.returncode}: {(done.stderr.strip().splitlines() or ['no word'])[0]}"
+    said: dict[str, Any] = json.loads(done.stdout)
+    return said
+
+
+def _ask(asked: Asked, stance: Stance, read_n: Array) -> Said:
+    """What `brace stance load` says."""
+    said = _run(asked, stance, read_n, ["load"])
+    if isinstance(said, str):
+        return Said(falls=True) if said == FALLS else Said(failed=said)
     slip = said["first_slip"]
     foot = stance.names().index(slip["limb"]) if slip["limb"] else -1
     interval = None if slip["low"] is None or slip["high"] is None else (slip["low"], slip["high"])
@@ -185,6 +272,39 @@ def _row(name: str, cases: list[Case]) -> str:
     return f"| {name} | " + " | ".join(map(share, (foot, ten, two, changes[True], changes[False]))) + " |"
 
 
+def _errors_n(change: Change, name: str) -> Array:
+    """Of each foot's change; infinite without an answer."""
+    said, feet = change.said.get(name), change.feet()
+    if said is None:
+        return np.full(len(feet), np.inf)
+    errors: Array = np.linalg.norm(np.array(said)[feet] - np.array(change.change_n)[feet], axis=1)
+    return errors
+
+
+def changes_table(cases: list[Case]) -> list[str]:
+    """A row for each kind of change and each law. A payload's change has rows of its own, as before it slips."""
+    payloads = [(one, Change("payload", -1, one.factor <= 1, one.change_n,
+                             {name: one.said[name].change_n for name in ("brace", "convex")}))
+                for one in cases if one.change_n is not None]
+    every = payloads + [(one, change) for one in cases for change in one.changes]
+    lines = ["| change by | law | within 5 % of the payload, all hold | where one has slipped | both "
+             "| 95 % of the feet are within, of the payload | within 5 % of the weight, both |", "|" + "---|" * 7]
+    for kind in ("payload", "set-point", "lift", "all three"):
+        those = [(one, change) for one, change in every if kind in (change.kind, "all three")]
+        for name in ("brace", "convex"):
+            rows = [(change.slipped, _errors_n(change, name) / one.payload_n, _errors_n(change, name) / one.weight_n)
+                    for one, change in those]
+            hold, slipped = ([bool(off <= NEAR_CHANGE) for slips, errors, _ in rows if slips == one for off in errors]
+                             for one in (False, True))
+            errors = [float(off) for _, errors, _ in rows for off in errors]
+            most = f"{100 * np.percentile(errors, 95, method='higher'):.1f} %" if errors else "-"
+            weight = [bool(off <= NEAR_CHANGE) for _, _, errors in rows for off in errors]
+            lines.append(f"| {kind} | {name} | " + " | ".join(
+                [share(hold), share(slipped), share(hold + slipped), most, share(weight)]) + " |")
+    return lines + [f"failed: stance {one.number}, {change.kind} of limb {change.limb}: {change.failed}"
+                    for one in cases for change in one.changes if change.failed]
+
+
 def table(cases: list[Case]) -> str:
     """Markdown: a row for the command and for each of the others, then intervals, falls and failures."""
     lines = ["| law | first foot, where the next is 5 % of the load away | factor within 10 % | within 2 % | "
@@ -205,6 +325,8 @@ def table(cases: list[Case]) -> str:
               f"{len(cases)} stances: " + ", ".join(f"{kinds.count(kind)} {kind}" for kind in sorted(set(kinds))) + ".",
               f"The body fell in {len(fell)}: the command said so of {sum(fell)}, and of {sum(stood)} that stood."]
     lines += [f"failed: stance {one.number}: {one.said['brace'].failed}" for one in cases if one.said["brace"].failed]
+    if any(one.changes for one in cases):
+        lines += ["", *changes_table(cases)]
     return "\n".join(lines)
 
 
@@ -241,6 +363,7 @@ def main() -> int:
     parser.add_argument("--tell-play", action="store_true", help="limb.toml says how wide the play is")
     parser.add_argument("--small", action="store_true", help="the world of small displacements")
     parser.add_argument("--unmeasured", action="store_true", help="no forces are measured before the payload")
+    parser.add_argument("--changes", action="store_true", help="changes by a set-point and by a lift, too")
     parser.add_argument("--friction-rel", type=float, default=0.0, help="hidden spread of friction, one sigma")
     parser.add_argument("--brace", nargs="+", default=[str(Path(sys.executable).parent / "brace")], help="the judged")
     parser.add_argument("--out", type=Path, help="a line of JSON a case")
@@ -253,7 +376,7 @@ def main() -> int:
     hidden = Hidden(friction_rel=options.friction_rel, tells_play=options.tell_play)
     known = {key: 0.0 for name, key in HIDES.items() if options.exact or name not in options.hide}
     hidden = Hidden(**{**asdict(hidden), **known})
-    asked = Asked(options.seed, hidden, not options.small, not options.unmeasured, options.brace)
+    asked = Asked(options.seed, hidden, not options.small, not options.unmeasured, options.brace, options.changes)
     cases: list[Case] = []
     with (options.out or Path("/dev/null")).open("w") as out:
         for one in run(asked, options.count, options.jobs):

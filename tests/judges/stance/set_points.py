@@ -26,14 +26,13 @@ from pathlib import Path
 import numpy as np
 from judge import SPARE_BEFORE, TIME_OUT_S, _stands, share
 from limbs import Array, loaded
-from truth import NoStance, Siconos, State, World, crossing, margins, payload, stand, step
+from truth import NoStance, Siconos, State, World, crossing, execute, margins, payload, stand
 from world import Hidden, Stance, draw, write, write_measured
 
 TRAVEL_MM = 3.0
 WANTED_MM = 1.0
 TRIES = 100_000
 CHUNK = 10_000
-STEPS = 4  # in which set-points are executed
 ROUNDS = 2
 GOOD = 0.95  # of the best margin
 NEAR = 0.05  # of the load, from the wanted force
@@ -97,16 +96,6 @@ def _best(world: World, state: State, by_ways: Array, rng: np.random.Generator) 
     return best
 
 
-def _execute(world: World, solver: Siconos, state: State, theta_rad: Array) -> tuple[World, State, int]:
-    """The set-points move in steps; the world and the state then, and how many feet have slipped."""
-    start, slipped = world.limbs.theta_rad, np.zeros(len(world.friction), bool)
-    for k in range(1, STEPS + 1):
-        theta = start + (theta_rad - start) * k / STEPS
-        state = step(replace(world, limbs=replace(world.limbs, theta_rad=theta)), solver, state, 1.0, 1.0)
-        slipped |= state.slipped
-    return replace(world, limbs=replace(world.limbs, theta_rad=theta_rad)), state, int(slipped.sum())
-
-
 @dataclass(frozen=True)
 class Round:
     """What the command has said: angles (n, 3), the footholds' offsets then, seconds of processor."""
@@ -146,9 +135,9 @@ def _rounds(
         wanted = None if wanted_n is None else wanted_n @ state.turned
         said = _ask(brace, stance, offset, read, wanted)
         stance = replace(stance, nominal=replace(stance.nominal, theta_rad=said.theta_rad))
-        world, state, slipped = _execute(world, solver, state, said.theta_rad)
+        world, state = execute(world, solver, state, said.theta_rad, 1.0)
         offset = said.offset_mm
-        yield state, slipped, said.seconds
+        yield state, int(state.slipped.sum()), said.seconds
 
 
 def case(seed: int, number: int, hidden: Hidden, brace: list[str], solver: Siconos) -> Case | None:

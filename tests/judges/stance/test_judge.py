@@ -47,6 +47,24 @@ def test_a_row_counts_right_and_wrong() -> None:
     assert "forces hold in 100.0 %" in row[6] and "of the factor in 100.0 %" in row[6]
 
 
+def test_changes_are_counted_by_foot_of_the_payload_and_of_the_weight() -> None:
+    """The lifted foot itself does not count; a law without an answer has none right."""
+    change = [[0.0, 0.0, 1.0], [0.0, 0.0, 2.0], [0.0, 0.0, -3.0]]
+    said = judge.Said(0, 1.2, change)
+    near = [[0.0, 0.0, 1.4], [0.0, 0.0, 3.2], [0.0, 0.0, 9.0]]  # 4 and 12 % of the payload, 1.6 and 4.8 % of the weight
+    moves = [judge.Change("lift", 2, False, change, {"brace": near, "convex": None}),
+             judge.Change("set-point", 0, True, change, {"brace": change, "convex": near}, "")]
+    case = judge.Case(0, "floor", 1, 1.2, 0.2, 10.0, change, change, 0.0,
+                      dict.fromkeys(("brace", "convex", "rigid"), said), moves, 25.0)
+    rows = {tuple(cell.strip() for cell in row.split("|")[1:3]): [cell.split(" (")[0].strip() for cell in row.split("|")[3:8]]
+            for row in judge.changes_table([case])[2:]}
+    assert rows["lift", "brace"] == ["50.0 %", "-", "50.0 %", "12.0 %", "100.0 %"]
+    assert rows["lift", "convex"] == ["0.0 %", "-", "0.0 %", "inf %", "0.0 %"]
+    assert rows["set-point", "brace"] == ["-", "100.0 %", "100.0 %", "0.0 %", "100.0 %"]
+    assert rows["set-point", "convex"] == ["-", "33.3 %", "33.3 %", "120.0 %", "66.7 %"]
+    assert rows["all three", "brace"][2] == "87.5 %"
+
+
 def test_a_command_that_fails_is_named(solver: Siconos) -> None:
     fails = [sys.executable, "-c", "raise SystemExit('no such verb')"]
     one = _cases(replace(EXACT, brace=fails), solver, 1)[0]
@@ -84,6 +102,40 @@ def test_the_command_names_the_foot(solver: Siconos) -> None:
         assert not said.failed
         assert one.spare < judge.NEAR or said.foot == one.foot, (one.number, one.kind)
         assert said.factor is not None and abs(said.factor / one.factor - 1) < 0.05, (one.number, one.kind)
+
+
+def test_the_command_says_what_a_set_point_and_a_lift_change(solver: Siconos) -> None:
+    """With nothing hidden; forces of feet that slide as another lets go hang on how it does."""
+    asked = replace(EXACT, finite=True, seed=6, changes=True)
+    those = [change for one in _cases(asked, solver, 2) for change in one.changes]
+    assert {change.kind for change in those} == {"set-point", "lift"}
+    for change in those:
+        off = np.linalg.norm(np.array(change.said["brace"]) - change.change_n, axis=1)[change.feet()]
+        assert off.max() < (0.5 if change.slipped else 0.03), (change, off)
+
+
+def test_a_lifted_foot_leaves_what_the_feet_bear_without_it(solver: Siconos) -> None:
+    """Stuck feet of linear limbs: the same as from the stance's own law, put down anew; and no foot has lost balance."""
+    for number in range(40):
+        drawn = world.draw(8, number, world.Hidden.none(), finite=False)
+        bare = replace(drawn.world, payload_n=np.zeros(3))
+        if len(bare.friction) < 4:
+            continue
+        try:
+            before = truth.stand(bare, solver, 2)
+            after = truth.lift(bare, solver, before, 0)
+        except truth.NoStance:
+            continue
+        assert not after.force_n[0].any() and after.gone[0]
+        assert np.abs(after.force_n.sum(axis=0) + bare.weight_n).max() < 1e-6
+        if before.slipped.any() or after.slipped.any():
+            continue
+        gone = replace(truth.begin(bare), gone=after.gone)
+        anew = truth.step(bare, solver, gone, 1.0, 0.0)
+        if not anew.slipped.any():
+            assert after.force_n == pytest.approx(anew.force_n, abs=1e-4)
+            return
+    raise AssertionError("no foot can be lifted")
 
 
 def test_an_alarm_comes_before_a_slip_and_not_where_all_hold() -> None:

@@ -31,6 +31,7 @@ BALANCE_N = 1e-7  # forces, moments by LEVER_MM, and the law's residual of a sol
 LEVER_MM = 100.0
 SLIP_MM = 1e-5  # a solved step leaves some 1e-8 mm N/mm of slip in a foot that sticks
 ITERATIONS = 250
+STEPS = 4  # in which set-points move
 FAR_MM = 80.0  # a body that went so far has fallen
 
 
@@ -291,3 +292,30 @@ def payload(world: World, solver: Solver, state: State, low: float, high: float,
     for start, end in zip(factors, factors[1:]):
         state = _advance(world, solver, state, np.array([1.0, start]), np.array([1.0, end]))
     return state
+
+
+def execute(world: World, solver: Solver, state: State, theta_rad: Array, factor: float) -> tuple[World, State]:
+    """Set-points move to `theta_rad` (n, 3) in steps, at the payload's factor: the world, and the state, whose
+    `slipped` is that of any step."""
+    start, slipped = world.limbs.theta_rad, np.zeros(len(world.friction), bool)
+    for k in range(1, STEPS + 1):
+        theta = start + (theta_rad - start) * k / STEPS
+        state = step(replace(world, limbs=replace(world.limbs, theta_rad=theta)), solver, state, 1.0, factor)
+        slipped |= state.slipped
+    return replace(world, limbs=replace(world.limbs, theta_rad=theta_rad)), replace(state, slipped=slipped)
+
+
+def lift(world: World, solver: Solver, state: State, foot: int, steps: int = 4) -> State:
+    """A foot is taken off the ground, without payload: what it bears fades in steps, and it is gone. `slipped` is that
+    of any step."""
+    place = world.commanded_mm[foot] + world.offset_mm[foot] + state.away_mm[foot]
+    at = state.turned.T @ (place - state.moved_mm) if world.finite else world.commanded_mm[foot]
+    fading = replace(world, payload_n=state.force_n[foot], payload_at_mm=at)
+    gone, force, slipped = state.gone.copy(), state.force_n.copy(), np.zeros(len(world.friction), bool)
+    gone[foot], force[foot] = True, 0.0
+    state = replace(state, gone=gone, force_n=force)
+    for k in range(steps):
+        start, end = (np.array([1.0, 1 - one / steps]) for one in (k, k + 1))
+        state = _advance(fading, solver, state, start, end, halvings=1)
+        slipped |= state.slipped
+    return replace(state, slipped=slipped)

@@ -68,7 +68,7 @@ def _limbs(rng: np.random.Generator, n: int) -> Limbs:
     return Limbs(**{name: np.concatenate([getattr(limb, name) for limb in made]) for name in vars(made[0])})
 
 
-def _unit(v: Array) -> Array:
+def unit(v: Array) -> Array:
     unit: Array = v / np.linalg.norm(v, axis=-1, keepdims=True)
     return unit
 
@@ -89,9 +89,9 @@ def draw(seed: int, number: int, hidden: Hidden = Hidden(), finite: bool = True)
     heading = rng.uniform(0, 2 * np.pi)
     down = np.array([np.sin(leans) * np.cos(heading), np.sin(leans) * np.sin(heading), -np.cos(leans)])
     grips = where in ("wall", "ceiling")
-    normal = _unit(np.array([0, 0, 1.0]) + np.c_[rng.normal(0, 0.1, (n, 2)), np.zeros(n)])
+    normal = unit(np.array([0, 0, 1.0]) + np.c_[rng.normal(0, 0.1, (n, 2)), np.zeros(n)])
     friction = rng.uniform(0.6, 1.1, n)
-    pull = _unit(down + rng.normal(0, 0.15, 3)) if rng.uniform() < 0.5 else _unit(rng.normal(size=3))
+    pull = unit(down + rng.normal(0, 0.15, 3)) if rng.uniform() < 0.5 else unit(rng.normal(size=3))
     world = World(
         limbs=nominal, zero_rad=rng.normal(0, 1, (n, 3)) * hidden.zero_rad, mount_mm=mount, turn=turn, commanded_mm=tip,
         offset_mm=rng.normal(0, 1, (n, 3)) * hidden.offset_mm, normal=normal,
@@ -104,6 +104,20 @@ def draw(seed: int, number: int, hidden: Hidden = Hidden(), finite: bool = True)
                     gap_rad=np.full((n, 3), hidden.play_rad))
     return Stance(f"{where} {seed}-{number}", replace(world, limbs=limbs), nominal, rpy, friction, hidden,
                   rng.normal(0, 1, (n, 3)) * hidden.sensor_n)
+
+
+def moved_rad(stance: Stance, way_mm: Array) -> Array:
+    """(n, 3): the angles to command, by the limbs that limb.toml has, for tips that move by `way_mm` (n, 3) in the
+    body's frame."""
+    limbs, nothing = stance.nominal, np.zeros_like(way_mm)
+    theta, own = limbs.theta_rad.copy(), np.einsum("nab,na->nb", stance.world.turn, way_mm)
+    wanted = small(limbs, nothing)[0] + own
+    for _ in range(20):
+        tip = small(replace(limbs, theta_rad=theta), nothing)[0]
+        slope = np.stack([(small(replace(limbs, theta_rad=theta + 1e-6 * one), nothing)[0] - tip) / 1e-6
+                          for one in np.eye(3)], axis=2)
+        theta = theta + np.linalg.solve(slope, (wanted - tip)[..., None])[..., 0]
+    return theta
 
 
 def _list(values: Array) -> str:

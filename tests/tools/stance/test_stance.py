@@ -356,3 +356,35 @@ def test_set_points_take_the_sag_away(brace: Callable[..., Outcome], stance: Pat
     for limb in found["limbs"]:
         assert limb["force_n"] == pytest.approx(limb["force_before_n"], abs=0.05)
         assert limb["tip_moves_mm"][2] < -0.5
+
+
+def test_a_given_way_of_a_set_point_changes_the_forces_as_k_says(brace: Callable[..., Outcome], stance: Path) -> None:
+    """Every foot sticks: forces change as when the foot moved back, and what all feet bear together stays. A foot that
+    moves takes its force along, and so a moment that a set-point does not make: 4 % here."""
+    name, way = list(CORNERS)[1], np.array([0.1, -0.2, 0.3])
+    move = f"{name}:" + ",".join(map(str, way))
+    found = json.loads(brace("stance", "set", stance, "--move", move, "--json").out)["limbs"]
+    change = np.array([limb["change_n"] for limb in found])
+    world = believed(load_stance(stance))
+    _, state = world.load(world.stand(), [world.payload])
+    _, stiffness = world.statics_at(state).linear(state, [*world.weight, world.payload])
+    expected = -(stiffness[:, 3:6] @ way).reshape(-1, 3)
+    assert np.abs(expected).max() > 0.2
+    assert change == pytest.approx(expected, abs=0.06 * np.abs(expected).max())
+    assert change.sum(axis=0) == pytest.approx([0.0, 0.0, 0.0], abs=1e-6)
+    assert np.array([limb["tip_moves_mm"] for limb in found]) == pytest.approx(np.outer([0, 1, 0, 0], way))
+    assert brace("stance", "set", stance, "--move", move, "--for", "sag").code == 2
+    for wrong in ("nobody:0,0,1", f"{name}:0,1", f"{name}:0,0,nan"):
+        assert brace("stance", "set", stance, "--move", wrong).code == 2
+
+
+def test_a_lift_says_what_it_changes(brace: Callable[..., Outcome], stance: Path) -> None:
+    """The others take what the foot has borne."""
+    lifted = json.loads(brace("stance", "lift", stance, "--json").out)["lifted"]
+    loaded = json.loads(brace("stance", "load", stance, "--json").out)["limbs"]
+    before = {limb["name"]: limb["force_n"] for limb in loaded}
+    one = next(one for one in lifted if one["stands"])
+    change = sum(np.array(limb["change_n"]) for limb in one["limbs"])
+    assert change == pytest.approx(before[one["name"]], abs=0.05)
+    for limb in one["limbs"]:
+        assert np.array(limb["force_n"]) - limb["change_n"] == pytest.approx(before[limb["name"]], abs=0.05)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import json
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -15,6 +15,8 @@ from brace.cli.subcommands import SUBCOMMANDS
 from brace.ground.errors import EXIT_DEVICE_FAULT, EXIT_OK, EXIT_USAGE, UsageError
 
 if TYPE_CHECKING:
+    import numpy as np
+
     from brace.stance.stance_file import Stance
     from brace.stance.world import Measured, NoStanceError
 
@@ -155,6 +157,9 @@ def _add_set(actions: Subcommands) -> None:
         default="margin",
         help="the largest smallest margin (default), the forces of --wanted, or the body where it is without load",
     )
+    parser.add_argument(
+        "--move", metavar="LIMB:X,Y,Z", nargs="+", help="what these ways of tips' set-points do instead [mm, body's frame]"
+    )
     parser.add_argument("--wanted", type=common.path, metavar="CSV", help="with --for forces: limb,fx_n,fy_n,fz_n")
     parser.add_argument(
         "--travel", type=common.positive_length, default=5.0, metavar="MM", help="most way in x, y and z; default 5"
@@ -284,6 +289,12 @@ def _set(arguments: argparse.Namespace) -> int:
             next_step="give both, or neither",
         )
 
+    if arguments.move and arguments.aim != "margin":
+        raise UsageError(
+            f"--move and --for {arguments.aim}",
+            why="--move says the ways, --for asks for them",
+            next_step="leave one of them out",
+        )
     if arguments.with_payload and arguments.measured is None:
         raise UsageError(
             "--with-payload without --measured",
@@ -294,7 +305,9 @@ def _set(arguments: argparse.Namespace) -> int:
     def ask(stance: Stance) -> dict[str, object] | str:
         measured = _measured(arguments, stance, arguments.measured)
         begun = setpoints.Begun(stance, measured, arguments.with_payload)
-        if arguments.aim == "forces":
+        if arguments.move:
+            found = setpoints.moved(begun, _ways_mm(stance, arguments.move))
+        elif arguments.aim == "forces":
             wanted = _measured(arguments, stance, arguments.wanted)
             assert wanted is not None
             found = setpoints.wanted_forces(begun, wanted.force_n, arguments.travel)
@@ -305,6 +318,28 @@ def _set(arguments: argparse.Namespace) -> int:
         return found.as_json() if arguments.json else set_points(found)
 
     return _answer_or_reason(arguments, ask, arguments.stance)
+
+
+def _ways_mm(stance: Stance, moves: Sequence[str]) -> np.ndarray:
+    """A row a limb."""
+    import numpy as np
+
+    names = [limb.name for limb in stance.limbs]
+    ways = np.zeros((len(names), 3))
+    for move in moves:
+        name, _, said = move.rpartition(":")
+        try:
+            way = np.array([float(part) for part in said.split(",")])
+        except ValueError:
+            way = np.zeros(0)
+        if name not in names or way.shape != (3,) or not np.all(np.isfinite(way)):
+            raise UsageError(
+                f"--move {move!r}",
+                why=f"it takes one of {', '.join(names)}, a colon, and three numbers [mm]",
+                next_step=f"for instance --move {names[0] + ':0,0,0.5'!r}",
+            )
+        ways[names.index(name)] += way
+    return ways
 
 
 def _choose(arguments: argparse.Namespace) -> int:

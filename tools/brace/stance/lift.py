@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from brace.stance.stance_file import Stance
-from brace.stance.statics import SLIDES
+from brace.stance.statics import SLIDES, State
 from brace.stance.world import Measured, NoStanceError, Standing, World, believed
 
 
@@ -19,6 +19,7 @@ class Lifted:
     name: str
     reason: str
     force_n: np.ndarray
+    change_n: np.ndarray
     margin_n: list[float]
     slides: list[str]
     moved_mm: np.ndarray
@@ -27,7 +28,7 @@ class Lifted:
         """One foot's entry."""
         stands = not self.reason
         others = [
-            {"name": limb.name, "force_n": self.force_n[i], "margin_n": self.margin_n[i]}
+            {"name": limb.name, "force_n": self.force_n[i], "change_n": self.change_n[i], "margin_n": self.margin_n[i]}
             for i, limb in enumerate(self.stance.limbs)
             if stands and limb.name != self.name
         ]
@@ -48,27 +49,28 @@ def lift(stance: Stance, name: str | None = None, measured: Measured | None = No
     standing = world.stand(measured)
     _, under_all = world.load(standing, [world.payload])
     return [
-        _without(stance, world, standing, index, under_all.displacement_mm)
+        _without(stance, world, standing, index, under_all)
         for index, limb in enumerate(stance.limbs)
         if name in (None, limb.name)
     ]
 
 
-def _without(stance: Stance, world: World, standing: Standing, index: int, before_mm: np.ndarray) -> Lifted:
+def _without(stance: Stance, world: World, standing: Standing, index: int, before: State) -> Lifted:
     lifted = Standing(world, standing.statics, standing.state.copy())
     lifted.state.lift(index)
     name = stance.limbs[index].name
     try:
         statics, state = world.load(lifted, [world.payload])
     except NoStanceError as error:
-        return Lifted(stance, name, error.why, np.zeros((0, 3)), [], [], np.zeros(3))
+        return Lifted(stance, name, error.why, np.zeros((0, 3)), np.zeros((0, 3)), [], [], np.zeros(3))
     forces = state.force_n
     return Lifted(
         stance,
         name,
         "",
         forces,
+        forces - before.force_n,
         [statics.margin_n(i, force) for i, force in enumerate(forces)],
         [limb.name for limb, contact in zip(stance.limbs, state.contact, strict=True) if contact == SLIDES],
-        state.displacement_mm - before_mm,
+        state.displacement_mm - before.displacement_mm,
     )

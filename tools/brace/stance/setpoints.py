@@ -68,6 +68,7 @@ class SetPoints:
                     "offset_mm": self.offset_mm[i],
                     "force_before_n": self.before_n[i],
                     "force_n": self.after_n[i],
+                    "change_n": self.after_n[i] - self.before_n[i],
                     "margin_before_n": self.margin_before_n[i],
                     "margin_n": self.margin_after_n[i],
                 }
@@ -104,6 +105,12 @@ def least_sag(begun: Begun) -> SetPoints:
         [state.displacement_mm + np.cross(state.rotation_rad, law.tip_mm) for law in world.laws]
     )
     return _executed(begun.stance, world, state, way)
+
+
+def moved(begun: Begun, way_mm: np.ndarray) -> SetPoints:
+    """Ways that are given (a row a limb). Raises NoStanceError."""
+    world, state = begun.under_load()
+    return _executed(begun.stance, world, state, way_mm)
 
 
 def _linear(world: World, state: State) -> tuple[np.ndarray, np.ndarray]:
