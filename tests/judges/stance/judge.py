@@ -2,13 +2,14 @@
 
     .venv/bin/python tests/judges/stance/judge.py --seed 1 --count 100 --jobs 2
     .venv/bin/python tests/judges/stance/judge.py --seed 1 --count 100 --exact
-
     .venv/bin/python tests/judges/stance/judge.py --seed 1 --count 100 --changes
 
 Seeds below 1000 are for practice. A case is a drawn stance in which all feet hold before the payload, the nearest by
 5 % of the weight, and some foot slips within 60 N; its payload is then scaled so that a foot slips at a factor drawn
 between 0.6 and 2.5. With --changes, a limb's tip is commanded by 0.3 to 1 mm, and in a stance of its own a foot is let
-go, both without payload; the foot is one without which the others hold, if there is one. Writes a line of JSON a case to --out, and the table on stdout.
+go, both without payload; the foot is one without which the others hold, if there is one. With --currents the forces
+before the payload come from servos' currents (servos.py). Writes a line of JSON a case to --out, and the table on
+stdout.
 """
 
 from __future__ import annotations
@@ -26,9 +27,10 @@ from typing import Any
 
 import baselines
 import numpy as np
+import servos
 from limbs import Array
-from truth import NoStance, Siconos, State, execute, first_slip, lift, margins, payload, stand
-from world import Hidden, Stance, draw, moved_rad, unit, write, write_measured
+from truth import NoStance, Siconos, State, by_joints, execute, first_slip, lift, margins, payload, stand
+from world import Hidden, Stance, draw, moved_rad, unit, write, write_measured, write_torques
 
 FALLS = "exit 5: the body does not stand"
 SPARE_BEFORE = 0.05  # of the weight; the sensors' noise is 1 % of it, in each direction
@@ -77,6 +79,21 @@ class Change:
 
 
 @dataclass(frozen=True)
+class Reading:
+    """What is known of the feet before the payload (n, 3): forces in the body's frame, or the motors' torques by their
+    currents, and the forces that these would be without friction."""
+
+    force_n: Array
+    torque_n_mm: Array | None = None
+
+    def write(self, stance: Stance, path: Path) -> None:
+        if self.torque_n_mm is None:
+            write_measured(stance, self.force_n, path)
+        else:
+            write_torques(stance, self.torque_n_mm, path)
+
+
+@dataclass(frozen=True)
 class Said:
     """An answer. `foot` -1 and no factor: none slips; `falls`: no stance exists; `failed`: why there is no answer."""
 
@@ -84,8 +101,12 @@ class Said:
     factor: float | None = None
     change_n: Forces | None = None
     factor_interval: tuple[float, float] | None = None
+    force_n: Forces | None = None
     force_low_n: Forces | None = None
     force_high_n: Forces | None = None
+    before_n: Forces | None = None
+    before_low_n: Forces | None = None
+    before_high_n: Forces | None = None
     falls: bool = False
     failed: str = ""
 
@@ -106,6 +127,8 @@ class Case:
     said: dict[str, Said] = field(default_factory=dict)
     changes: list[Change] = field(default_factory=list)
     weight_n: float = 0.0
+    load_n: float = 0.0  # weight and payload
+    before_n: Forces = field(default_factory=list)
 
 
 def _stands(stance: Stance, solver: Siconos, steps: int = 8) -> State | None:
@@ -151,22 +174,35 @@ def case(asked: Asked, number: int, solver: Siconos) -> Case | None:
     forces, change = (None, None) if after is None else (after.tolist(), (after - before).tolist())
     found = Case(number, stance.name.split()[0], slip.foot, factor, slip.spare_n / load,
                  float(np.linalg.norm(world.payload_n)), forces, change, state.residual_n,
-                 weight_n=float(np.linalg.norm(world.weight_n)))
-    read = before + stance.noise_n
+                 weight_n=float(np.linalg.norm(world.weight_n)),
+                 load_n=float(np.linalg.norm(world.weight_n + world.payload_n)), before_n=before.tolist())
+    read = _read(asked, number, stance, standing)
     found.said["brace"] = _ask(asked, stance, read)
-    for name, law in (("convex", baselines.convex(stance, read)), ("rigid", baselines.rigid(stance))):
+    for name, law in (("convex", baselines.convex(stance, read.force_n)), ("rigid", baselines.rigid(stance))):
         found.said[name] = Said(law.foot, law.factor, None if law.change_n is None else law.change_n.tolist())
     if asked.changes:
-        found.changes.extend(_changes(asked, number, stance, standing, solver))
+        found.changes.extend(_changes(asked, number, stance, standing, read, solver))
     return found
 
 
-def _changes(asked: Asked, number: int, stance: Stance, before: State, solver: Siconos) -> Iterator[Change]:
+def _read(asked: Asked, number: int, stance: Stance, state: State) -> Reading:
+    """Before the payload."""
+    if not asked.hidden.currents:
+        return Reading(_in_body(state, asked.finite) + stance.noise_n)
+    rng = np.random.default_rng([asked.seed, number, 4])
+    by = by_joints(stance.world, state)
+    torque = servos.read(rng, by, np.einsum("nic,nc->ni", by, state.force_n))
+    in_body = by @ state.turned if asked.finite else by
+    return Reading(np.linalg.solve(in_body, torque[..., None])[..., 0].astype(np.float64), torque)
+
+
+def _changes(asked: Asked, number: int, stance: Stance, before: State, read: Reading,
+             solver: Siconos) -> Iterator[Change]:
     """A set-point that moves; a foot that is let go: the first, in a drawn order, without which the body stands."""
     rng = np.random.default_rng([asked.seed, number, 2])
     stance = replace(stance, world=replace(stance.world, payload_n=np.zeros(3)))
-    world, read = stance.world, _in_body(before, asked.finite) + stance.noise_n
-    limb, n = int(rng.integers(len(read))), len(read)
+    world, n = stance.world, len(stance.friction)
+    limb = int(rng.integers(n))
     way = np.zeros((n, 3))
     way[limb] = rng.uniform(*MOVES_MM) * unit(rng.normal(size=3))
     theta = world.limbs.theta_rad + moved_rad(stance, way) - stance.nominal.theta_rad
@@ -176,7 +212,7 @@ def _changes(asked: Asked, number: int, stance: Stance, before: State, solver: S
     except NoStance:
         after = None
     if after is not None:
-        said = {"convex": baselines.convex_change(stance, read, way_mm=way)}
+        said = {"convex": baselines.convex_change(stance, read.force_n, way_mm=way)}
         move = f"{stance.names()[limb]}:" + ",".join(repr(float(part)) for part in way[limb])
         yield _change(asked, stance, "set-point", limb, before, after, said, read, ["set", "--move", move])
     for foot in order:
@@ -186,19 +222,19 @@ def _changes(asked: Asked, number: int, stance: Stance, before: State, solver: S
             after = lift(world, solver, before, int(foot))
         except NoStance:
             continue
-        said = {"convex": baselines.convex_change(stance, read, lifted=int(foot))}
+        said = {"convex": baselines.convex_change(stance, read.force_n, lifted=int(foot))}
         ask = ["lift", "--limb", stance.names()[foot]]
         yield _change(asked, stance, "lift", int(foot), before, after, said, read, ask)
         return
 
 
 def _change(asked: Asked, stance: Stance, kind: str, limb: int, before: State, after: State,
-            said: dict[str, Array | None], read_n: Array, ask: list[str]) -> Change:
+            said: dict[str, Array | None], read: Reading, ask: list[str]) -> Change:
     """With the command's answer."""
     true = _in_body(after, asked.finite) - _in_body(before, asked.finite)
     laws = {name: None if change is None else change.tolist() for name, change in said.items()}
     found = Change(kind, limb, bool(after.slipped.any()), true.tolist(), laws)
-    answer = _run(asked, stance, read_n, ask)
+    answer = _run(asked, stance, read, ask)
     if isinstance(answer, str):
         found.said["brace"] = None
         return replace(found, failed=answer)
@@ -210,14 +246,16 @@ def _change(asked: Asked, stance: Stance, kind: str, limb: int, before: State, a
     return found
 
 
-def _run(asked: Asked, stance: Stance, read_n: Array, ask: list[str]) -> dict[str, Any] | str:
+def _run(asked: Asked, stance: Stance, read: Reading, ask: list[str]) -> dict[str, Any] | str:
     """What the command says of the files it gets, or why it does not. `ask`: the action, and its own options."""
     with tempfile.TemporaryDirectory() as name:
         whole = [*asked.brace, "stance", ask[0], str(write(stance, Path(name))), *ask[1:], "--json"]
         if asked.measured:
             measured = Path(name) / "measured.csv"
-            write_measured(stance, read_n, measured)
-            whole += ["--measured", str(measured), "--measured-sd", str(max(asked.hidden.sensor_n, LEAST_SENSOR_N))]
+            read.write(stance, measured)
+            whole += ["--measured", str(measured)]
+            if not asked.hidden.currents:
+                whole += ["--measured-sd", str(max(asked.hidden.sensor_n, LEAST_SENSOR_N))]
         try:
             done = subprocess.run(whole, capture_output=True, text=True, timeout=TIME_OUT_S)
         except subprocess.TimeoutExpired:
@@ -230,17 +268,23 @@ def _run(asked: Asked, stance: Stance, read_n: Array, ask: list[str]) -> dict[st
     return said
 
 
-def _ask(asked: Asked, stance: Stance, read_n: Array) -> Said:
+def _ask(asked: Asked, stance: Stance, read: Reading) -> Said:
     """What `brace stance load` says."""
-    said = _run(asked, stance, read_n, ["load"])
+    said = _run(asked, stance, read, ["load"])
     if isinstance(said, str):
         return Said(falls=True) if said == FALLS else Said(failed=said)
     slip = said["first_slip"]
     foot = stance.names().index(slip["limb"]) if slip["limb"] else -1
     interval = None if slip["low"] is None or slip["high"] is None else (slip["low"], slip["high"])
-    low, high = ([limb[key] for limb in said["limbs"]] for key in ("force_low_n", "force_high_n"))
     change = [limb["force_n"] for limb in said["change"]["limbs"]]
-    return Said(foot, slip["payload_factor"], change, interval, low, high)
+    force, before = _ends(said["limbs"]), _ends(said["before"]["limbs"])
+    return Said(foot, slip["payload_factor"], change, interval, *force, *before)
+
+
+def _ends(limbs: list[dict[str, Any]]) -> tuple[Forces, Forces, Forces]:
+    """What is said of forces, and their intervals' low and high ends."""
+    said, low, high = ([limb[key] for limb in limbs] for key in ("force_n", "force_low_n", "force_high_n"))
+    return said, low, high
 
 
 def share(values: list[bool]) -> str:
@@ -305,25 +349,44 @@ def changes_table(cases: list[Case]) -> list[str]:
                     for one in cases for change in one.changes if change.failed]
 
 
+def _forces(cases: list[Case], name: str) -> tuple[list[bool], list[float]]:
+    """Of the command's forces, `before` the payload or under it (`force`): does each component lie in its interval, and
+    how far is each foot's off, of what the body carries?"""
+    inside, errors = [], []
+    for one in cases:
+        true, load = (one.before_n, one.weight_n) if name == "before" else (one.force_n, one.load_n)
+        said, low, high = (getattr(one.said["brace"], f"{name}{end}_n") for end in ("", "_low", "_high"))
+        if not true or low is None or high is None:
+            continue
+        inside += ((np.array(low) <= true) & (true <= np.array(high))).ravel().tolist()
+        if said is not None:
+            errors += (np.linalg.norm(np.array(said) - true, axis=1) / load).tolist()
+    return inside, errors
+
+
 def table(cases: list[Case]) -> str:
     """Markdown: a row for the command and for each of the others, then intervals, falls and failures."""
     lines = ["| law | first foot, where the next is 5 % of the load away | factor within 10 % | within 2 % | "
              "change within 5 % of the payload, all hold | where one has slipped |", "|---|---|---|---|---|---|"]
     lines += [_row(name, cases) for name in ("brace", "convex", "rigid")]
-    inside, factors = [], []
+    factors = []
     for one in cases:
         said = one.said["brace"]
-        if said.force_low_n is not None and one.force_n is not None:
-            low, high, force = (np.array(values) for values in (said.force_low_n, said.force_high_n, one.force_n))
-            inside += ((low <= force) & (force <= high)).ravel().tolist()
         if said.factor_interval is not None:
             factors.append(said.factor_interval[0] <= one.factor <= said.factor_interval[1])
+    inside, _ = _forces(cases, "force")
     kinds = [one.kind for one in cases]
     fell = [one.said["brace"].falls for one in cases if one.force_n is None]
     stood = [one.said["brace"].falls for one in cases if one.force_n is not None]
     lines += ["", f"90 % intervals of the forces hold in {share(inside)}, of the factor in {share(factors)}.",
               f"{len(cases)} stances: " + ", ".join(f"{kinds.count(kind)} {kind}" for kind in sorted(set(kinds))) + ".",
               f"The body fell in {len(fell)}: the command said so of {sum(fell)}, and of {sum(stood)} that stood."]
+    for name, of in (("before", "before the payload, in % of the weight"), ("force", "under it, of the load")):
+        inside, errors = _forces(cases, name)
+        if errors:
+            half, most = (100 * np.percentile(errors, q, method="higher") for q in (50, 95))
+            lines.append(f"Forces {of}: of {len(errors)} feet 50 % are off by less than {half:.1f} %, 95 % by "
+                         f"{most:.1f} %; 90 % intervals hold in {share(inside)}.")
     lines += [f"failed: stance {one.number}: {one.said['brace'].failed}" for one in cases if one.said["brace"].failed]
     if any(one.changes for one in cases):
         lines += ["", *changes_table(cases)]
@@ -363,6 +426,7 @@ def main() -> int:
     parser.add_argument("--tell-play", action="store_true", help="limb.toml says how wide the play is")
     parser.add_argument("--small", action="store_true", help="the world of small displacements")
     parser.add_argument("--unmeasured", action="store_true", help="no forces are measured before the payload")
+    parser.add_argument("--currents", action="store_true", help="servos' currents instead of sensors at the tips")
     parser.add_argument("--changes", action="store_true", help="changes by a set-point and by a lift, too")
     parser.add_argument("--friction-rel", type=float, default=0.0, help="hidden spread of friction, one sigma")
     parser.add_argument("--brace", nargs="+", default=[str(Path(sys.executable).parent / "brace")], help="the judged")
@@ -373,8 +437,8 @@ def main() -> int:
     except OSError as error:
         print(error, file=sys.stderr)
         return 4
-    hidden = Hidden(friction_rel=options.friction_rel, tells_play=options.tell_play)
-    known = {key: 0.0 for name, key in HIDES.items() if options.exact or name not in options.hide}
+    hidden = Hidden(friction_rel=options.friction_rel, tells_play=options.tell_play, currents=options.currents)
+    known: dict[str, float] = {key: 0.0 for name, key in HIDES.items() if options.exact or name not in options.hide}
     hidden = Hidden(**{**asdict(hidden), **known})
     asked = Asked(options.seed, hidden, not options.small, not options.unmeasured, options.brace, options.changes)
     cases: list[Case] = []

@@ -64,6 +64,11 @@ def _chain(limbs: Limbs, moved: Array) -> tuple[Array, Array, Array, Array]:
     return tip, direction, place, lever
 
 
+def levers(limbs: Limbs, moved: Array) -> Array:
+    """(n, 3, 3): how yaw, femur and knee move the tips, at coordinates `moved` (n, 9)."""
+    return _chain(limbs, moved)[3][:, HINGES]
+
+
 def _springs(limbs: Limbs, load: Array) -> tuple[Array, Array, Array]:
     """How far each coordinate's spring gives way under its load, its compliance there, and the ratio (its secant).
 

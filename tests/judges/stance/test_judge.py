@@ -16,6 +16,8 @@ pytest.importorskip("daqp", reason="daqp is not installed: pip install -e 'tools
 import alarms
 import baselines
 import judge
+import limbs
+import servos
 import truth
 import world
 from truth import Siconos
@@ -37,7 +39,8 @@ def _cases(asked: judge.Asked, solver: Siconos, count: int) -> list[judge.Case]:
 def test_a_row_counts_right_and_wrong() -> None:
     change = [[0.0, 0.0, 1.0], [0.0, 0.0, 2.0], [0.0, 0.0, 3.0]]
     truth = judge.Case(0, "floor", 1, 1.2, 0.2, 10.0, change, change, 0.0)
-    right = judge.Said(1, 1.21, [[0.0, 0.0, 1.4], [0.0, 0.0, 2.0], [0.0, 0.0, 3.6]], (1.1, 1.3), change, change)
+    right = judge.Said(1, 1.21, [[0.0, 0.0, 1.4], [0.0, 0.0, 2.0], [0.0, 0.0, 3.6]], (1.1, 1.3),
+                       force_low_n=change, force_high_n=change)
     wrong = judge.Said(0, 1.5, None)
     laws = ("brace", "convex", "rigid")
     row = judge.table([replace(truth, said=dict.fromkeys(laws, right)),
@@ -56,8 +59,8 @@ def test_changes_are_counted_by_foot_of_the_payload_and_of_the_weight() -> None:
              judge.Change("set-point", 0, True, change, {"brace": change, "convex": near}, "")]
     case = judge.Case(0, "floor", 1, 1.2, 0.2, 10.0, change, change, 0.0,
                       dict.fromkeys(("brace", "convex", "rigid"), said), moves, 25.0)
-    rows = {tuple(cell.strip() for cell in row.split("|")[1:3]): [cell.split(" (")[0].strip() for cell in row.split("|")[3:8]]
-            for row in judge.changes_table([case])[2:]}
+    cells = [[cell.split(" (")[0].strip() for cell in row.split("|")] for row in judge.changes_table([case])[2:]]
+    rows = {(row[1], row[2]): row[3:8] for row in cells}
     assert rows["lift", "brace"] == ["50.0 %", "-", "50.0 %", "12.0 %", "100.0 %"]
     assert rows["lift", "convex"] == ["0.0 %", "-", "0.0 %", "inf %", "0.0 %"]
     assert rows["set-point", "brace"] == ["-", "100.0 %", "100.0 %", "0.0 %", "100.0 %"]
@@ -115,7 +118,7 @@ def test_the_command_says_what_a_set_point_and_a_lift_change(solver: Siconos) ->
 
 
 def test_a_lifted_foot_leaves_what_the_feet_bear_without_it(solver: Siconos) -> None:
-    """Stuck feet of linear limbs: the same as from the stance's own law, put down anew; and no foot has lost balance."""
+    """Stuck feet of linear limbs: the same as where the others were put down without it."""
     for number in range(40):
         drawn = world.draw(8, number, world.Hidden.none(), finite=False)
         bare = replace(drawn.world, payload_n=np.zeros(3))
@@ -136,6 +139,50 @@ def test_a_lifted_foot_leaves_what_the_feet_bear_without_it(solver: Siconos) -> 
             assert after.force_n == pytest.approx(anew.force_n, abs=1e-4)
             return
     raise AssertionError("no foot can be lifted")
+
+
+def test_a_current_says_no_more_than_the_published_friction_lets_it() -> None:
+    """Torques that may hold a load of 2 N m, by hand from model M5; and where none of it rubs, currents are loads."""
+    rng = np.random.default_rng(1)
+    drawn = servos.Servos.draw(rng, 1)
+    m5 = {name: np.array([servos.fits()[0].get(name, 0.0)]) for name in drawn.fit}
+    one = replace(drawn, constant=m5["kt"], factor=np.ones(1), fit=m5)
+    load, a, b, c = 2.0, 0.2076 + 0.1952, 0.0227 + 0.0849, 0.1224
+    assert one.end(np.array([load]), -1.0) == pytest.approx((load * (1 - b) - c) / (1 + a), rel=1e-3)
+    assert one.end(np.array([load]), 1.0) == pytest.approx((load * (1 + b) + c) / (1 - a), rel=1e-3)
+    grown = one.torques(rng, [np.array([load])])
+    assert grown == pytest.approx(one.end(np.array([load]), -1.0))  # a load that has only grown
+    fallen = [one.torques(rng, [np.array([most]), np.array([load])]) for most in (5.0, 10.0)]
+    assert fallen[0] == pytest.approx(one.end(np.array([5.0]), -1.0))  # friction holds it all the way back
+    assert fallen[1] == pytest.approx(one.end(np.array([load]), 1.0))
+    free = replace(one, factor=np.zeros(1))
+    read = free.read_n_mm(rng, free.torques(rng, [np.array([load])]))
+    assert read == pytest.approx(1000 * load, abs=4 * 1e3 * 2.2 * servos.CURRENT_NOISE_A)
+
+
+def test_loads_of_joints_are_a_forces_work(solver: Siconos) -> None:
+    """A joint that turns a little under a force: work over angle, in the finite world, under load."""
+    drawn = world.draw(3, 3, world.Hidden.none())
+    state = truth.begin(drawn.world)
+    force = np.array([[1.0, -2.0, 5.0]] * len(drawn.friction))
+    by = truth.by_joints(drawn.world, state)
+    for joint in range(3):
+        turned = drawn.nominal.theta_rad + 1e-6 * np.eye(3)[joint]
+        tips = [limbs.small(replace(drawn.nominal, theta_rad=theta), 0 * force)[0]
+                for theta in (drawn.nominal.theta_rad, turned)]
+        way = np.einsum("nab,nb->na", drawn.world.turn, tips[1] - tips[0])
+        assert (force * way).sum(axis=1) / 1e-6 == pytest.approx((by[:, joint] * force).sum(axis=1), rel=1e-4, abs=1e-2)
+
+
+def test_currents_are_asked_and_forces_counted(solver: Siconos) -> None:
+    hidden = world.Hidden(tells_play=True, currents=True)
+    one = _cases(replace(EXACT, hidden=hidden, seed=7), solver, 1)[0]
+    said = one.said["brace"]
+    assert not said.failed and said.before_n is not None
+    width = np.array(said.before_high_n) - np.array(said.before_low_n)
+    assert np.median(width) > 1.0  # a sensor of 0.3 N has less
+    text = judge.table([one])
+    assert "Forces before the payload, in % of the weight" in text and "Forces under it, of the load" in text
 
 
 def test_an_alarm_comes_before_a_slip_and_not_where_all_hold() -> None:

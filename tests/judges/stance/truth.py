@@ -22,7 +22,7 @@ from pathlib import Path
 from typing import TypeAlias
 
 import numpy as np
-from limbs import Array, Limbs, loaded, small
+from limbs import Array, Limbs, levers, loaded, small
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
@@ -127,6 +127,15 @@ def margins(world: World, force_n: Array) -> Array:
     sideways = np.linalg.norm(force_n - pressing[:, None] * world.normal, axis=1)
     margin: Array = world.friction * (pressing + world.grip_n) - sideways
     return margin
+
+
+def by_joints(world: World, state: State) -> Array:
+    """(n, 3, 3): how yaw, femur and knee move the tips in the world's frame, a row a joint. A force's loads of the
+    joints, in the sense of their angles, follow."""
+    limbs = replace(world.limbs, theta_rad=world.limbs.theta_rad + world.zero_rad)
+    turn = state.turned @ world.turn if world.finite else world.turn
+    by: Array = np.einsum("nab,nib->nia", turn, levers(limbs, state.coordinates))
+    return by
 
 
 def _places(world: World, limbs: Limbs, state: State, secant: bool) -> tuple[Array, Array, Array, Array, Array]:

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
+import servos
 from limbs import Array, Limbs, compliance, small
 from scipy.spatial.transform import Rotation
 from truth import World
@@ -29,6 +30,7 @@ class Hidden:
     sensor_n: float = SENSOR_N
     friction_rel: float = 0.0
     tells_play: bool = False  # limb.toml says how wide the play is; where in it a joint lies stays hidden
+    currents: bool = False  # no sensor at the tips: servos' currents, whose friction limb.toml tells
 
     @staticmethod
     def none() -> Hidden:
@@ -134,6 +136,8 @@ def _limb_toml(limbs: Limbs, i: int, hidden: Hidden) -> str:
     for name, value in zip(("coxa", "femur", "tibia"), joint):
         lines += [f"[joint.{name}]", f"compliance_rad_per_n_mm = {float(value)!r}"]
         lines += [f"gap_rad = {float(hidden.play_rad)!r}"] * hidden.tells_play
+    if hidden.currents:
+        lines += [line for name in ("coxa", "femur", "tibia") for line in servos.toml(name)]
     lines += ["[uncertainty]", f"angle_rad = {max(hidden.zero_rad, 1e-6)!r}",
               f"compliance_rel = {max(hidden.compliance_rel, 1e-6)!r}", "length_mm = 0.001"]
     return "\n".join(lines) + "\n"
@@ -162,5 +166,14 @@ def write(stance: Stance, folder: Path, offset_mm: Array | None = None) -> Path:
 
 def write_measured(stance: Stance, read_n: Array, path: Path) -> None:
     """What the tips' sensors read before the payload (n, 3), in the body's frame."""
-    rows = [f"{name}," + ",".join(repr(float(value)) for value in read) for name, read in zip(stance.names(), read_n)]
-    path.write_text("limb,fx_n,fy_n,fz_n\n" + "\n".join(rows) + "\n")
+    _write_table("limb,fx_n,fy_n,fz_n", stance, read_n, path)
+
+
+def write_torques(stance: Stance, read_n_mm: Array, path: Path) -> None:
+    """What the joints' motors give before the payload (n, 3), by their currents."""
+    _write_table("limb,tau0_n_mm,tau1_n_mm,tau2_n_mm", stance, read_n_mm, path)
+
+
+def _write_table(header: str, stance: Stance, values: Array, path: Path) -> None:
+    rows = [f"{name}," + ",".join(repr(float(value)) for value in row) for name, row in zip(stance.names(), values)]
+    path.write_text(header + "\n" + "\n".join(rows) + "\n")

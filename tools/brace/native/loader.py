@@ -36,6 +36,7 @@ FIRMWARE_HEADERS = (
     "uncertainty_causes.h",
     "slope.h",
     "contact.h",
+    "load_band.h",
     "parameters.h",
     "play_parameters.h",
     "status_text.h",

@@ -2,21 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 from statistics import mode
 
 import numpy as np
 
-from brace.stance.posterior import likely_forces
+from brace.stance.draws import DRAWS, before_payload, span
 from brace.stance.stance_file import Stance
 from brace.stance.statics import LET_GO, OPEN, SLIDES, State
-from brace.stance.world import AtSlip, Measured, NoStanceError, Standing, World, believed, drawn
+from brace.stance.world import AtSlip, Measured, NoStanceError, Standing, World
 
-DRAWS = 100
 FACTOR_MOST = 1000.0
-_LOW_HIGH = (5.0, 95.0)
-_SEED = 20  # the same question has the same answer
 _UNBALANCED_SIGMAS = 4.0
 _HALVINGS = 10
 
@@ -51,6 +47,9 @@ class Answer:
     force_n: np.ndarray
     force_low_n: np.ndarray
     force_high_n: np.ndarray
+    before_n: np.ndarray  # the payload
+    before_low_n: np.ndarray
+    before_high_n: np.ndarray
     change_n: np.ndarray
     change_low_n: np.ndarray
     change_high_n: np.ndarray
@@ -97,6 +96,17 @@ class Answer:
                     for i, name in enumerate(names)
                 ]
             },
+            "before": {
+                "limbs": [
+                    {
+                        "name": name,
+                        "force_n": self.before_n[i],
+                        "force_low_n": self.before_low_n[i],
+                        "force_high_n": self.before_high_n[i],
+                    }
+                    for i, name in enumerate(names)
+                ]
+            },
             "first_slip": self.first_slip.as_json(),
             "flags": self.flags,
         }
@@ -139,10 +149,8 @@ def answer(stance: Stance, measured: Measured | None = None, draws: int = DRAWS)
     may have let go, the median of the draws, for then no one world is likely. Intervals are the draws'. Raises
     NoStanceError where what is believed has no equilibrium, OverloadedError where that, or most of the draws, has one
     without the payload only; draws that have none are counted in a flag."""
-    middle = believed(stance, measured.sigma_n) if measured else believed(stance)
-    standing = middle.stand(measured, measured.force_n if measured else None)
-    standings = [standing, *_drawn(stance, middle, standing, measured, draws)]
-    is_median = measured is not None and any(one.world.has_play or LET_GO in one.state.contact for one in standings)
+    standings, is_median = before_payload(stance, measured, draws)
+    standing = standings[0]
     slips: list[AtSlip] = []
     others: list[_Outcome] = []
     overloaded: list[tuple[Standing, NoStanceError]] = []
@@ -160,14 +168,18 @@ def answer(stance: Stance, measured: Measured | None = None, draws: int = DRAWS)
         raise OverloadedError(error, first_slip)
     those = others if is_median else others[:1]
     force_n = np.median([one.after.force_n for one in those], axis=0)
-    force_low, force_high = _span(other.after.force_n for other in others)
-    change_low, change_high = _span(other.change_n for other in others)
-    moved_low, moved_high = _span(other.moved_mm for other in others)
+    force_low, force_high = span(other.after.force_n for other in others)
+    before_low, before_high = span(one.state.force_n for one in standings)
+    change_low, change_high = span(other.change_n for other in others)
+    moved_low, moved_high = span(other.moved_mm for other in others)
     return Answer(
         stance,
         force_n,
         force_low,
         force_high,
+        np.median([one.state.force_n for one in (standings if is_median else standings[:1])], axis=0),
+        before_low,
+        before_high,
         np.median([one.change_n for one in those], axis=0),
         change_low,
         change_high,
@@ -183,22 +195,6 @@ def answer(stance: Stance, measured: Measured | None = None, draws: int = DRAWS)
     )
 
 
-def _drawn(stance: Stance, middle: World, standing: Standing, measured: Measured | None, draws: int) -> list[Standing]:
-    """What else may be."""
-    chance = np.random.default_rng(_SEED)
-    worlds = [drawn(stance, middle, chance) for _ in range(draws)]
-    forces_n = np.array([standing.state.force_n] * draws)
-    if measured:
-        worlds, forces_n = likely_forces(worlds, middle, measured, chance)
-    found = []
-    for world, force_n in zip(worlds, forces_n, strict=True):
-        try:
-            found.append(world.rest_at(force_n) if measured else world.stand(near_n=force_n))
-        except NoStanceError:
-            continue
-    return found
-
-
 def _in_cones(stance: Stance, force_n: np.ndarray, others: list[_Outcome]) -> tuple[np.ndarray, np.ndarray]:
     """Each foot's force out of the ground and along it: low, most probable, high."""
     normal = np.array([limb.normal for limb in stance.limbs])
@@ -207,7 +203,7 @@ def _in_cones(stance: Stance, force_n: np.ndarray, others: list[_Outcome]) -> tu
         pressing = np.einsum("nc,nc->n", normal, force_n)
         return np.stack([pressing, np.linalg.norm(force_n - pressing[:, None] * normal, axis=1)])
 
-    low, high = _span(split(other.after.force_n) for other in others)
+    low, high = span(split(other.after.force_n) for other in others)
     pressing, along = np.stack([low, split(force_n), high], -1)
     return pressing, along
 
@@ -233,11 +229,6 @@ def _borne_share(standing: Standing) -> float:
     return borne
 
 
-def _span(values: Iterable[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
-    low, high = np.percentile(np.array(list(values)), _LOW_HIGH, axis=0)
-    return low, high
-
-
 def _state(stance: Stance, index: int, state: State) -> str:
     contact = state.contact[index]
     if contact in (OPEN, LET_GO):
@@ -253,7 +244,7 @@ def _first_slip(stance: Stance, slips: list[AtSlip], is_median: bool) -> FirstSl
     if limb < 0:
         return FirstSlip(None, None, None, None, None)
     factors = np.minimum([slip.factor for slip in slips], FACTOR_MOST)
-    low, high = np.percentile(factors, _LOW_HIGH)
+    low, high = span(factors)
     factor = np.median(factors) if is_median else factors[0]
     surely = float(np.mean([slip.limb == limb for slip in slips]))
     return FirstSlip(stance.limbs[limb].name, float(factor), float(low), float(high), surely)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from copy import copy
 from dataclasses import dataclass
 
 import numpy as np
@@ -79,6 +80,12 @@ class LimbLaw:
         self._last: tuple[tuple[bytes, bytes], Spring] | None = None
         self._last_without_play: tuple[bytes, tuple[np.ndarray, np.ndarray]] | None = None
         self._loaded = LoadedLimbInSpace(self._model.with_values(_gravity(self._from_plane.T @ down)))
+
+    def at(self, way_mm: np.ndarray) -> LimbLaw:
+        """The same spring, its tip without load elsewhere by a short way: K changes by as little as the angles."""
+        moved = copy(self)
+        moved.tip_mm = self.tip_mm + way_mm
+        return moved
 
     def points_mm(self) -> np.ndarray:
         """4 x 3: mount, hip, knee and tip, in the body's frame."""

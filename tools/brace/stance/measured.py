@@ -9,13 +9,16 @@ import numpy as np
 
 from brace.ground.errors import BadFileError, place
 from brace.ground.files import TOML_LIMIT_BYTES, read_text
+from brace.native import library
 from brace.stance.stance_file import Limb, Stance
 from brace.stance.limb_law import JOINTS
 from brace.stance.world import Measured, World
 
 FORCES = ("fx_n", "fy_n", "fz_n")
 TORQUES = ("tau0_n_mm", "tau1_n_mm", "tau2_n_mm")
-_SD_OF_BAND = 1.0 / np.sqrt(3.0)  # friction that is anywhere within a band
+# Of a load within the band that friction leaves it, one sigma as a share of half the band. A load that grew until its
+# joint slipped stands at an end, others anywhere: as many of either have a variance of (1 + 1/3) / 2.
+_SD_OF_BAND = np.sqrt(2.0 / 3.0)
 
 
 def load_measured(path: Path, stance: Stance, middle: World, sd_n: float) -> Measured:
@@ -82,14 +85,39 @@ def _from_torques(stance: Stance, middle: World, torques: list[np.ndarray], sd_n
     forces, covariances = [], []
     for limb, law, torque in zip(stance.limbs, middle.laws, torques, strict=True):
         by_torque = law.force_by_torque()
-        hidden = np.array([_hidden_n_mm(limb, joint, abs(load)) for joint, load in zip(JOINTS, torque, strict=True)])
-        variance = (hidden * _SD_OF_BAND) ** 2
-        forces.append(law.force_of_torques_n(torque))
-        covariances.append((by_torque * variance) @ by_torque.T + sd_n**2 * np.eye(3))
+        bands = np.array([_band_n_mm(limb, joint, one) for joint, one in zip(JOINTS, torque, strict=True)])
+        forces.append(law.force_of_torques_n(bands[:, 0]))
+        covariances.append((by_torque * bands[:, 1]) @ by_torque.T + sd_n**2 * np.eye(3))
     return Measured(np.array(forces), tuple(covariances))
 
 
-def _hidden_n_mm(limb: Limb, joint: str, load_n_mm: float) -> float:
-    """How far friction lets a joint's torque differ from what its motor gives."""
-    number = limb.model.number
-    return number(f"motor.{joint}.friction_n_mm") + number(f"joint.{joint}.coulomb_per_load_ratio") * load_n_mm
+def _band_n_mm(limb: Limb, joint: str, torque_n_mm: float) -> tuple[float, float]:
+    """The load behind a gear whose motor gives a torque: middle, and variance of what friction, noise and the torque
+    constant hide."""
+    native, number = library(), limb.model.number
+    gear = native.ffi.new(
+        "brace_gear_t *",
+        {
+            "friction_n_mm": number(f"motor.{joint}.friction_n_mm"),
+            "per_torque_ratio": number(f"motor.{joint}.friction_per_torque_ratio"),
+            "per_load_ratio": number(f"motor.{joint}.friction_per_load_ratio"),
+            "tolerance_ratio": _given(limb, f"motor.{joint}.friction_tolerance_ratio"),
+            "sliding_ratio": 1.0,  # the joint stands
+            "joint_n_mm": number(f"joint.{joint}.coulomb_n_mm"),
+            "joint_per_load_ratio": number(f"joint.{joint}.coulomb_per_load_ratio"),
+        },
+    )
+    band = native.ffi.new("brace_load_band_t *")
+    native.lib.brace_load_band(gear, torque_n_mm, 0.0, False, band)
+    middle = float(band.middle_n_mm)
+    sd = np.array([
+        _SD_OF_BAND * float(band.half_n_mm),
+        _given(limb, f"motor.{joint}.torque_gain_rel") * middle,
+        _given(limb, f"motor.{joint}.torque_noise_n_mm"),
+    ])  # fmt: skip
+    return middle, float(sd @ sd)
+
+
+def _given(limb: Limb, key: str) -> float:
+    """What limb.toml says; a torque of which it says nothing is taken as exact, as a model without [uncertainty] is."""
+    return limb.model.number(key) if key in limb.model.given else 0.0

@@ -73,6 +73,11 @@ class State:
         """Of the body, as a rotation vector."""
         return np.array(list(self.data.rotation_rad))
 
+    def move(self, way_mm: np.ndarray) -> None:
+        """Moves the feet from their tips' places without load, a row a limb; the next settle shows what follows."""
+        for limb, place in enumerate(self.place_mm + way_mm):
+            self.data.foot[limb].place_mm = place.tolist()
+
     def lift(self, limb: int) -> None:
         """Takes a foot off the ground; the next settle shows what follows."""
         self._native.lib.brace_stance_lift(self.data, limb)

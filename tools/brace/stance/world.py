@@ -168,6 +168,17 @@ class World:
             near_n = state.force_n
         return statics, state
 
+    def moved(self, standing: Standing, way_mm: np.ndarray) -> Standing:
+        """After the tips' set-points have moved by ways (a row a limb), under the weight: tips where they then are
+        without load, feet where they stand. A limb's K is that of before."""
+        laws = tuple(law.at(way) for law, way in zip(self.laws, way_mm, strict=True))
+        world = replace(self, laws=laws, offset_mm=standing.state.place_mm - way_mm)
+        statics, state = world._statics(), standing.state.copy()
+        state.move(-way_mm)
+        step = _to(statics, state, self.weight, 1)
+        state = world._step(statics, step, state.force_n, 1.0, is_payload=True)
+        return Standing(world, statics, state)
+
     def first_slip(self, standing: Standing, most: float) -> AtSlip:
         """When the payload grows up to `most` times. Feet stick until then, so the way there is straight from one joint
         that crosses its play to the next."""
@@ -349,6 +360,11 @@ def drawn(stance: Stance, middle: World, chance: np.random.Generator) -> World:
         offsets.append(foothold - law.tip_mm)
         frictions.append(max(0.0, limb.friction_ratio + limb.friction_sd * chance.standard_normal()))
     return _world(stance, tuple(laws), np.array(offsets), frictions)
+
+
+def carrying(world: World) -> World:
+    """The same with the payload as a part of its weight."""
+    return replace(world, weight=(*world.weight, world.payload), payload=(np.zeros(3), np.zeros(3)))
 
 
 def _world(stance: Stance, laws: tuple[LimbLaw, ...], offset_mm: np.ndarray, frictions: Sequence[float]) -> World:
