@@ -397,6 +397,10 @@ def test_a_given_way_of_a_set_point_changes_the_forces_as_k_says(brace: Callable
     assert np.abs(expected).max() > 0.2
     assert change == pytest.approx(expected, abs=0.06 * np.abs(expected).max())
     assert change.sum(axis=0) == pytest.approx([0.0, 0.0, 0.0], abs=1e-6)
+    low, high = (np.array([limb[f"change_{end}_n"] for limb in found]) for end in ("low", "high"))
+    assert np.all(low < high) and np.mean((low <= change) & (change <= high)) > 0.7
+    words = brace("stance", "set", stance, "--move", move).out
+    assert "what that changes [N], with 90 % between" in words and f"({low[0][0]:.2f} to {high[0][0]:.2f})" in words
     assert np.array([limb["tip_moves_mm"] for limb in found]) == pytest.approx(np.outer([0, 1, 0, 0], way))
     assert brace("stance", "set", stance, "--move", move, "--for", "sag").code == 2
     for wrong in ("nobody:0,0,1", f"{name}:0,1", f"{name}:0,0,nan"):
@@ -413,3 +417,26 @@ def test_a_lift_says_what_it_changes(brace: Callable[..., Outcome], stance: Path
     assert change == pytest.approx(before[one["name"]], abs=0.05)
     for limb in one["limbs"]:
         assert np.array(limb["force_n"]) - limb["change_n"] == pytest.approx(before[limb["name"]], abs=0.05)
+        for of in ("force", "change"):
+            assert np.all(np.array(limb[f"{of}_low_n"]) < limb[f"{of}_high_n"])
+
+
+def test_what_a_way_changes_is_the_median_of_draws_where_joints_have_play(
+    brace: Callable[..., Outcome], stance: Path, tmp_path: Path
+) -> None:
+    """Forces were measured: the draws' forces before, the change, and those after it fit each other."""
+    (stance.parent / "limb.toml").write_text(LIMB.replace("1e-5\n", "1e-5\ngap_rad = 0.006\n"))
+    table = tmp_path / "m.csv"
+    rows = [(-2.0, -2.0, 7.5), (-2.0, 2.0, 7.5), (2.0, -2.0, 7.5), (2.0, 2.0, 7.5)]
+    lines = [f"{name},{x},{y},{z}\n" for name, (x, y, z) in zip(CORNERS, rows)]
+    table.write_text("limb,fx_n,fy_n,fz_n\n" + "".join(lines))
+    asked = ("--measured", table, "--json", "--move", f"{list(CORNERS)[0]}:0,0,-0.5")
+    for with_payload in (("--with-payload",), ()):
+        found = json.loads(brace("stance", "set", stance, *asked, *with_payload).out)["limbs"]
+        before, change, after = (
+            np.array([limb[key] for limb in found]) for key in ("force_before_n", "change_n", "force_n")
+        )
+        assert change == pytest.approx(after - before, abs=0.15)  # medians of each
+        assert change[0][2] > 0.1 and abs(change.sum(axis=0)).max() < 0.1
+    loaded = json.loads(brace("stance", "load", stance, "--measured", table, "--json").out)
+    assert before == pytest.approx(forces(loaded), abs=0.1)

@@ -158,7 +158,10 @@ def _add_set(actions: Subcommands) -> None:
         help="the largest smallest margin (default), the forces of --wanted, or the body where it is without load",
     )
     parser.add_argument(
-        "--move", metavar="LIMB:X,Y,Z", nargs="+", help="what these ways of tips' set-points do instead [mm, body's frame]"
+        "--move",
+        metavar="LIMB:X,Y,Z",
+        nargs="+",
+        help="instead: what these ways of tips' set-points do [mm, body's frame]",
     )
     parser.add_argument("--wanted", type=common.path, metavar="CSV", help="with --for forces: limb,fx_n,fy_n,fz_n")
     parser.add_argument(

@@ -9,10 +9,11 @@ import numpy as np
 from scipy.optimize import linprog, lsq_linear
 
 from brace.model.travel import travel_rad
+from brace.stance.draws import DRAWS, before_payload, span
 from brace.stance.limb_law import JOINTS, LimbLaw
 from brace.stance.stance_file import Limb, Stance
 from brace.stance.statics import LET_GO, OPEN, State
-from brace.stance.world import Measured, NoStanceError, World, believed
+from brace.stance.world import Measured, NoStanceError, World, believed, carrying
 
 _CUTS_MOST = 40
 _CUT_N = 1e-4  # a cone's side is met so closely
@@ -36,14 +37,15 @@ class Begun:
         if not self.with_payload:
             _, state = world.load(world.stand(self.measured), [world.payload])
             return world, state
-        world = replace(world, weight=(*world.weight, world.payload), payload=(np.zeros(3), np.zeros(3)))
+        world = carrying(world)
         return world, world.stand(self.measured).state
 
 
 @dataclass(frozen=True)
 class SetPoints:
     """Arrays have a row a limb. way_mm: of the tip's set-point in the body's frame. before and after: forces and
-    margins under weight and payload. beyond: joints that leave their travel. offset_mm: where each foothold then lies,
+    margins under weight and payload. beyond: joints that leave their travel. change_low_n,
+    change_high_n: of ways that were given, 90 %. offset_mm: where each foothold then lies,
     from the tip that the new angles mean without load: for stance.toml."""
 
     stance: Stance
@@ -56,9 +58,13 @@ class SetPoints:
     margin_after_n: list[float]
     displacement_mm: np.ndarray
     beyond: list[str]
+    change_n: np.ndarray
+    change_low_n: np.ndarray | None = None
+    change_high_n: np.ndarray | None = None
 
     def as_json(self) -> dict[str, object]:
         """For scripts."""
+        low, high = self.change_low_n, self.change_high_n
         return {
             "limbs": [
                 {
@@ -68,7 +74,8 @@ class SetPoints:
                     "offset_mm": self.offset_mm[i],
                     "force_before_n": self.before_n[i],
                     "force_n": self.after_n[i],
-                    "change_n": self.after_n[i] - self.before_n[i],
+                    "change_n": self.change_n[i],
+                    **({} if low is None or high is None else {"change_low_n": low[i], "change_high_n": high[i]}),
                     "margin_before_n": self.margin_before_n[i],
                     "margin_n": self.margin_after_n[i],
                 }
@@ -107,10 +114,35 @@ def least_sag(begun: Begun) -> SetPoints:
     return _executed(begun.stance, world, state, way)
 
 
-def moved(begun: Begun, way_mm: np.ndarray) -> SetPoints:
-    """Ways that are given (a row a limb). Raises NoStanceError."""
+def moved(begun: Begun, way_mm: np.ndarray, draws: int = DRAWS) -> SetPoints:
+    """Ways that are given (a row a limb). Forces and what changes are what is believed, or the draws' median, with
+    intervals, as in `answer`. Raises NoStanceError."""
     world, state = begun.under_load()
-    return _executed(begun.stance, world, state, way_mm)
+    said = _executed(begun.stance, world, state, way_mm)
+    standings, is_median = before_payload(begun.stance, begun.measured, draws, begun.with_payload)
+    found: list[tuple[np.ndarray, np.ndarray]] = []
+    for standing in standings:
+        loaded = carrying(standing.world)
+        try:
+            _, under = standing.world.load(standing, [standing.world.payload])
+            after = loaded.moved(replace(standing, world=loaded, state=under), way_mm).state
+        except NoStanceError:
+            continue
+        found.append((under.force_n, after.force_n))
+    before, after_n = np.swapaxes(np.array(found), 0, 1)
+    low, high = span(after_n - before)
+    said = replace(said, change_low_n=low, change_high_n=high)
+    if not is_median:
+        return said
+    force, contacts = np.median(after_n, axis=0), world.statics_at(state)
+    return replace(
+        said,
+        before_n=np.median(before, axis=0),
+        after_n=force,
+        change_n=np.median(after_n - before, axis=0),
+        margin_before_n=[contacts.margin_n(i, one) for i, one in enumerate(np.median(before, axis=0))],
+        margin_after_n=[contacts.margin_n(i, one) for i, one in enumerate(force)],
+    )
 
 
 def _linear(world: World, state: State) -> tuple[np.ndarray, np.ndarray]:
@@ -198,6 +230,7 @@ def _executed(stance: Stance, world: World, state: State, way_mm: np.ndarray) ->
         [standing.statics.margin_n(i, force) for i, force in enumerate(found.force_n)],
         found.displacement_mm,
         [f"{limb.name}, {joint}" for limb in limbs for joint in _beyond(limb)],
+        found.force_n - state.force_n,
     )
 
 

@@ -12,6 +12,7 @@ from brace.stance.choose import Choice
 from brace.stance.histories import Ranges
 from brace.stance.lift import Lifted
 from brace.stance.setpoints import SetPoints
+from brace.stance.stance_file import Stance
 from brace.stance.view import N_MM_PER_N_M, View
 from brace.stance.world import NoStanceError
 
@@ -34,18 +35,22 @@ def loaded(answer: Answer) -> str:
         held = f"{answer.state[i]}, margin {_two(answer.margin_n[i])} N"
         lines.append(f"  {limb.name:{width}}  {'  '.join(parts)}  {held}")
     lines.append("what the payload changes [N], with 90 % between")
-    for i, limb in enumerate(answer.stance.limbs):
-        parts = [
-            f"{axis} {_two(answer.change_n[i][j]):>8} "
-            f"({_two(answer.change_low_n[i][j])} to {_two(answer.change_high_n[i][j])})"
-            for j, axis in enumerate("xyz")
-        ]
-        lines.append(f"  {limb.name:{width}}  {'  '.join(parts)}")
+    lines += changes(answer.stance, answer.change_n, answer.change_low_n, answer.change_high_n)
     moved = " ".join(_two(part) for part in answer.displacement_mm)
     turned = " ".join(_two(part * 1000.0) for part in answer.rotation_rad)
     lines.append(f"the payload moves the body by {moved} mm and turns it by {turned} mrad (x, y, z)")
     lines.append(first_slip_words(answer.first_slip))
     return "\n".join([*lines, *(f"note: {flag}" for flag in answer.flags)])
+
+
+def changes(stance: Stance, change_n: np.ndarray, low_n: np.ndarray, high_n: np.ndarray) -> list[str]:
+    """A line a limb; arrays have a row a limb."""
+    width = max(len(limb.name) for limb in stance.limbs)
+    lines = []
+    for limb, change, low, high in zip(stance.limbs, change_n, low_n, high_n, strict=True):
+        parts = [f"{axis} {_two(change[j]):>8} ({_two(low[j])} to {_two(high[j])})" for j, axis in enumerate("xyz")]
+        lines.append(f"  {limb.name:{width}}  {'  '.join(parts)}")
+    return lines
 
 
 def first_slip_words(slip: FirstSlip) -> str:
@@ -89,6 +94,7 @@ def lifted(found: Sequence[Lifted]) -> str:
         least = min((m, name) for m, name in zip(one.margin_n, names, strict=True) if name != one.name)
         moved = " ".join(_two(part) for part in one.moved_mm)
         slid = f"; {', '.join(one.slides)} slides" if one.slides else ""
+        slid += f"; stands in {100.0 * one.stands_in:.0f} % of what may be" if one.stands_in < 1.0 else ""
         lines.append(
             f"without {one.name}: stands; the body moves by {moved} mm; "
             f"least margin {_two(least[0])} N at {least[1]}{slid}"
@@ -128,6 +134,9 @@ def set_points(found: SetPoints) -> str:
     lines.append("then in stance.toml, beside the new theta_rad, foothold.offset_mm =")
     for i, limb in enumerate(found.stance.limbs):
         lines.append(f"  {limb.name:{width}}  [{', '.join(_two(part) for part in found.offset_mm[i])}]")
+    if found.change_low_n is not None and found.change_high_n is not None:
+        lines.append("what that changes [N], with 90 % between")
+        lines += changes(found.stance, found.change_n, found.change_low_n, found.change_high_n)
     return "\n".join([*lines, *(f"note: {joint} leaves its travel" for joint in found.beyond)])
 
 
