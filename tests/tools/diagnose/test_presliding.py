@@ -10,8 +10,17 @@ from brace.dataset import Dataset, load_dataset
 from brace.diagnose.diagnosis import Diagnosis
 from brace.diagnose.loading.fit import Fit, fit
 from brace.diagnose.loading.run import diagnose_loading
+from brace.diagnose.loading.troubles import likeliest
 from brace.diagnose.loading.space import space_of, trust_of
-from brace.diagnose.loading.troubles.presliding import STRAINS, friction_n_mm, presliding_columns, sliding_rad
+from brace.diagnose.loading.troubles.presliding import (
+    STRAINS,
+    by_place,
+    friction_n_mm,
+    presliding_columns,
+    sliding_rad,
+    turned_columns,
+    turned_rad,
+)
 from brace.diagnose.options import Options, silent
 from brace.identify.record import Record, levers, load_record
 from brace.model import LimbModel, load_limb
@@ -19,6 +28,7 @@ from brace.native.plant_batch import number_index, reference_planar_many
 from handmade import loading_record
 
 LEVEL_N_MM, STRAIN_RAD = 60.0, 1.5e-3
+KEPT_N_MM, SHAKEN_OFF = 80.0, 0.3
 
 
 def bent_before_it_slides(way_rad: np.ndarray, run: np.ndarray) -> np.ndarray:
@@ -46,6 +56,28 @@ def way_and_push(data: Dataset, limb: LimbModel, joint: str) -> tuple[np.ndarray
     xx, xz, zz = reference_planar_many(numbers[None], angles[None])[0, :, :3].T
     way = yields * np.sum(arms * np.stack([data["fx_n"], data["fz_n"]]), axis=0)
     return way, yields * np.stack([xx * arms[0] + xz * arms[1], xz * arms[0] + zz * arms[1]])
+
+
+def kept_by_a_joint_that_rings(way_rad: np.ndarray, run: np.ndarray) -> np.ndarray:
+    """Dry friction's torque where the joint rings after each step: it stands against the last step, and the further the
+    steps of a run take the joint, the more it rings and the less it keeps."""
+    begins = np.diff(run, prepend=-1) != 0
+    step = np.where(begins, way_rad, np.diff(way_rad, prepend=0.0))
+    longest = np.array([np.abs(step[run == one]).max() for one in run])
+    return np.asarray(KEPT_N_MM * np.sign(step) * (1.0 - SHAKEN_OFF * longest / longest.max()))
+
+
+def ringing(folder: Path, limb: Path, joint: str) -> Dataset:
+    """A record of the limb with such friction in one joint."""
+    data = load_dataset(loading_record(folder, limb, values={}, rig="step_mm = 1.6\n"))
+    way, push = way_and_push(data, load_limb(limb), joint)
+    held = push * kept_by_a_joint_that_rings(way, data["run"])
+    return data.with_columns({"fx_n": data["fx_n"] + held[0], "fz_n": data["fz_n"] + held[1]})
+
+
+def kept_in(data: Dataset, limb: Path) -> np.ndarray:
+    """The torque that the knee's friction has in that record, nearly: its forces are the limb's with the friction."""
+    return kept_by_a_joint_that_rings(way_and_push(data, load_limb(limb), "tibia")[0], data["run"])
 
 
 def rubbing(folder: Path, limb: Path, joint: str) -> Dataset:
@@ -83,6 +115,31 @@ def test_the_model_gets_no_law_that_it_lacks(found: tuple[str, Diagnosis]) -> No
         assert any(f"coulomb_friction@joint.{joint}" in members for members in diagnosis.indistinguishable)
 
 
+def test_a_joint_that_rings_has_friction_and_nothing_beside_it(tmp_path: Path, paper_limb: Path) -> None:
+    """Of what dry friction would be, the record lacks the part that was shaken off, another one in each run: a link
+    that changed, or play in the contact, makes up for it."""
+    data = ringing(tmp_path / "record", paper_limb, "tibia")
+    found = diagnose_loading(data, load_limb(paper_limb), Options(processes=1), silent)
+    assert [(one.name, one.where) for one in found.effects] == [("presliding_friction", "joint.tibia")]
+    assert found.effects[0].confidence > 0.9
+    assert found.effects[0].parameters["joint.tibia.coulomb_n_mm"].value == pytest.approx(
+        np.mean(np.abs(kept_in(data, paper_limb))), rel=0.25
+    )
+
+
+def test_friction_that_is_not_far_ahead_puts_in_doubt_what_stands_beside_it(
+    tmp_path: Path, paper_limb: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Where the evidence does not suffice to take the joint's friction for another law, whatever was chosen with the
+    plain law is no surer than the odds between the two."""
+    monkeypatch.setattr(likeliest, "MUST_LEAD", 1e3)
+    data = ringing(tmp_path / "record", paper_limb, "tibia")
+    found = diagnose_loading(data, load_limb(paper_limb), Options(processes=1), silent)
+    sure = {one.name: one.confidence for one in found.effects}
+    assert "presliding_friction" in sure
+    assert all(of < 0.8 for name, of in sure.items() if not name.endswith("_friction"))
+
+
 @pytest.fixture
 def plain(tmp_path: Path, paper_limb: Path) -> tuple[Record, Fit]:
     """A sound limb's record and the refitted limb."""
@@ -118,6 +175,33 @@ def test_columns_push_against_the_way(plain: tuple[Record, Fit]) -> None:
     steps = np.where(begins, moved, np.diff(moved, axis=1, prepend=0.0))
     for joint in ("femur", "tibia"):
         columns = presliding_columns(record, fitted, joint, stiffness)
-        work = np.einsum("frs,fr->s", columns[:2], steps)
-        assert np.all(work[-4:] > 0.0)
-        assert np.all(friction_n_mm(record, fitted, joint)[-4:] > 0.0)
+        turned = turned_columns(record, fitted, joint, stiffness)
+        work = np.einsum("frs,fr->s", np.concatenate([columns, turned], axis=2)[:2], steps)
+        assert np.all(work[-5:] > 0.0)
+        assert np.all(friction_n_mm(record, fitted, joint)[-5:] > 0.0)
+
+
+def test_what_a_ringing_joint_keeps_turns_with_the_first_step_back(plain: tuple[Record, Fit]) -> None:
+    """However short that step is. Rows that stand still keep it; none is there before the first step of a run."""
+    record, _ = plain
+    run = record.dataset["run"]
+    way = np.zeros(record.rows)
+    way[run == 1] = 1.0 - 0.01 * np.arange(int(np.sum(run == 1)))
+    way[np.flatnonzero(run == 1)[0]] = 0.0
+    way[np.flatnonzero(run == 1)[1]] = 0.0
+    held = turned_rad(record, way)[run == 1]
+    assert held[0] == held[1] == 0.0
+    assert held[2] > 0.0 and held[3:] == pytest.approx(np.full(held.size - 3, -held[2]))
+    assert not turned_rad(record, way)[run != 1].any()
+
+
+def test_places_share_the_rows(plain: tuple[Record, Fit]) -> None:
+    """Each row counts at its posture and axis alone: the repeats of a run together."""
+    record, _ = plain
+    columns = np.ones((len(record.channels), record.rows))
+    places = by_place(record, columns)
+    assert np.array_equal(places.sum(axis=2), columns)
+    config, axis = record.dataset["config"], record.dataset["axis"]
+    assert places.shape[2] == len({*zip(config.tolist(), axis.tolist())})
+    for place in np.moveaxis(places[0] > 0.0, 1, 0):
+        assert np.ptp(config[place]) == np.ptp(axis[place]) == 0

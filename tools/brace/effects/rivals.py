@@ -219,7 +219,8 @@ def _strained(joint: str) -> RivalCause:
         PRESLIDING,
         f"joint.{joint}",
         words="friction that is strained before it slides",
-        meaning="the joint's friction builds up over a way before it slides (generalised Maxwell slip)",
+        meaning="the joint's friction builds up over a way before it slides (generalised Maxwell slip), or is partly "
+        "shaken off by a joint that rings",
         looks_like=(),
         ways=((Size(f"joint.{joint}.coulomb_n_mm", "N mm", 0.0, 1e7),),),
         in_limb=True,

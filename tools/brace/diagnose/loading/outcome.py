@@ -412,7 +412,9 @@ def _contested(resolved: Resolved, contested: Contest, effects: Sequence[NamedEf
     )
     taken = resolved.taken
     exported = (
-        f"Nothing was added to the model, because {taken.label} is no part of the limb."
+        f"Nothing was added to the model, which has no law for {taken.label}."
+        if taken is not None and taken.trouble is not None and taken.trouble.cause.in_limb
+        else f"Nothing was added to the model, because {taken.label} is no part of the limb."
         if taken is not None and taken.cause is not None and not taken.cause.in_limb
         else f"The model has {taken.label} added."
         if taken is not None

@@ -236,14 +236,16 @@ def _wider(final: Pass, cause: RivalCause, best: _InPlace) -> _InPlace:
 
 
 def _by_instruments(final: Pass, trouble: Trouble) -> Contest | None:
-    """What a trouble of the instruments leaves uncertain."""
+    """What a trouble of the instruments, or friction of another law, leaves uncertain."""
     chosen = final.decision.chosen
     disputed = chosen.labels - trouble.rest.labels
     if not disputed or not trouble.rest.labels < chosen.labels:
         return None
-    fitted = trouble.rest.best.fit
-    member = Member((trouble.cause.label,), 0.0, fitted, fitted.model, trouble.cause, trouble)
-    return _contest(final, trouble.cause, disputed, float(np.exp(min(trouble.lead, 700.0))), member)
+    fitted, cause = trouble.rest.best.fit, trouble.cause
+    if cause.in_limb:
+        cause = replace(cause, same_because="friction of another law reads as dry friction with something beside it")
+    member = Member((cause.label,), 0.0, fitted, fitted.model, cause, trouble)
+    return _contest(final, cause, disputed, float(np.exp(min(trouble.lead, 700.0))), member)
 
 
 def _contest(

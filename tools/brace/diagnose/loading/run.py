@@ -26,7 +26,7 @@ from brace.diagnose.loading.search import Hypothesis, Search
 from brace.diagnose.loading.search_pass import Pass
 from brace.diagnose.loading.space import Trust, trust_of
 from brace.diagnose.loading.structure import structure_of
-from brace.diagnose.loading.troubles.likeliest import likeliest, with_trouble
+from brace.diagnose.loading.troubles.likeliest import friction_instead, likeliest, with_trouble
 from brace.diagnose.loading.verdict import decide, undecided
 from brace.diagnose.loading.wandering_zero import with_wandering_zero
 from brace.diagnose.options import Advance, Options, silent
@@ -140,8 +140,9 @@ def _without_troubles(found: Pass, variants: Sequence[Variant], advance: Advance
             sets = with_causes(cleaner)
             trouble = trouble if sets is cleaner.sets else likeliest(cleaner.record, sets)
         if trouble is None or not trouble.far_ahead or trouble.lead < cleaner.decision.outside.lead:
-            rival = trouble if trouble is not None and trouble.is_named and not trouble.cause.in_limb else None
-            cleaner = replace(cleaner, rival=rival)  # friction of the plain law needs no stand-in that is no better
+            of_instruments = trouble is not None and trouble.is_named and not trouble.cause.in_limb
+            rival = trouble if of_instruments else friction_instead(cleaner.record, cleaner.sets)
+            cleaner = replace(cleaner, rival=rival)
             break
         first = first or trouble
         if not trouble.is_named:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from itertools import product
 from math import comb, log
 
 import numpy as np
@@ -16,7 +17,15 @@ from brace.identify.record import Record
 from brace.diagnose.loading.screen import Remover
 from brace.diagnose.loading.structure import far_among_alike
 from brace.diagnose.loading.troubles.steps import best_rows
-from brace.diagnose.loading.troubles.presliding import can_rub, friction_n_mm, presliding_columns
+from brace.diagnose.loading.troubles.presliding import (
+    SHARP,
+    STRAINS,
+    by_place,
+    can_rub,
+    friction_n_mm,
+    presliding_columns,
+    turned_columns,
+)
 from brace.effects.rivals import INSTRUMENT_TROUBLES, STRAINED_JOINTS
 from brace.native.plant_batch import number_index, reference_planar_many
 
@@ -48,16 +57,30 @@ MOST_OUT = 0.02  # of the readings: more than these are no slips
 POSE_STEP_RAD = 1e-4
 RUBS = {cause.label: cause.where.removeprefix("joint.") for cause in STRAINED_JOINTS}  # the joint of each kind
 RUB_SIGMAS = (0.01, 0.03, 0.1, 0.3, 1.0)  # what an element's stiffness may be, of the joint's own
+SHAKEN_SIGMAS = (0.1, 0.3, 1.0)  # the same, of a joint that rings
+SHAKEN_OF = (len(STRAINS) + 1, SHARP + 1)  # the elements of its friction, the last ones: all, and those of dry friction
+SHAKEN = (0.1, 0.3)  # of friction: by how much what a joint that rings keeps of it differs from place to place
+
+
+@dataclass(frozen=True)
+class Shaken:
+    """Friction that a joint which rings partly shakes off: its sizes on the mean, those of some of the elements, the
+    last ones, and what turns with each step; and by how many times a size's sigma it differs from place to place."""
+
+    sizes: np.ndarray
+    times: float
 
 
 @dataclass(frozen=True)
 class Way:
     """`columns` are channels x rows x sizes; `price` in nats, for the ways of its kind among which it was chosen.
-    `total`: what each size counts in the one number that is reported; empty: the first alone."""
+    `total`: what each size counts in the one number that is reported; empty: the first alone. `shaken`: of friction
+    that is partly shaken off, how."""
 
     columns: np.ndarray
     price: float
     total: np.ndarray = field(default_factory=lambda: np.empty(0))
+    shaken: Shaken | None = None
 
 
 @dataclass(frozen=True)
@@ -82,7 +105,7 @@ def kinds(record: Record, fitted: Fit, remover: Remover, left: np.ndarray) -> It
     displaced = _displaced(record, fitted)
     for name, joint in RUBS.items():
         if can_rub(record, fitted, joint):
-            yield Kind(name, [rubbing(record, fitted, joint)], RUB_SIGMAS)
+            yield from _rubs(record, fitted, remover, left, name)
     yield Kind(SLIP, list(_steps(record, remover, left, [displaced], MOST_SLIPS)))
     yield Kind(ELSEWHERE, [Way(_of_forces(record, displaced), 0.0)])
     ramps = list(_ramps(record))
@@ -115,10 +138,39 @@ def kinds(record: Record, fitted: Fit, remover: Remover, left: np.ndarray) -> It
         yield Kind(OUTLIERS, [Way(columns.reshape(*record.measured.shape, far.size), which)])
 
 
-def rubbing(record: Record, fitted: Fit, joint: str) -> Way:
-    """Friction of a joint that is strained before it slides."""
-    columns = presliding_columns(record, fitted, joint, _displaced(record, fitted))
-    return Way(columns, 0.0, friction_n_mm(record, fitted, joint))
+def rubbing(record: Record, fitted: Fit, joint: str, shaken: Shaken | None = None) -> Way:
+    """Friction of a joint that is strained before it slides, or of one that rings."""
+    return _rubbed(record, _elements(record, fitted, joint), shaken)
+
+
+def _elements(record: Record, fitted: Fit, joint: str) -> Way:
+    """What a joint's friction is made of: elements that are strained before they slide, then what turns with each
+    step."""
+    stiffness = _displaced(record, fitted)
+    columns = [of(record, fitted, joint, stiffness) for of in (presliding_columns, turned_columns)]
+    return Way(np.concatenate(columns, axis=2), 0.0, friction_n_mm(record, fitted, joint))
+
+
+def _rubbed(record: Record, elements: Way, shaken: Shaken | None) -> Way:
+    if shaken is None:
+        return Way(elements.columns[:, :, : len(STRAINS)], 0.0, elements.total[: len(STRAINS)])
+    columns, total = elements.columns[:, :, -shaken.sizes.size :], elements.total[-shaken.sizes.size :]
+    apart = shaken.times * by_place(record, columns @ shaken.sizes)
+    share = shaken.times * float(total @ shaken.sizes) / apart.shape[2]
+    total = np.concatenate([total, np.full(apart.shape[2], share)])
+    return Way(np.concatenate([columns, apart], axis=2), log(len(SHAKEN_OF) * len(SHAKEN)), total, shaken)
+
+
+def _rubs(record: Record, fitted: Fit, remover: Remover, left: np.ndarray, name: str) -> Iterator[Kind]:
+    """Friction of a joint that moves slowly, and of one that rings: of all elements or of those of dry friction alone,
+    with what turns with each step, kept by another part at each posture and axis."""
+    elements = _elements(record, fitted, RUBS[name])
+    yield Kind(name, [_rubbed(record, elements, None)], RUB_SIGMAS)
+    whole = remover.columns(record.whitened(elements.columns))
+    for count, spread in product(SHAKEN_OF, SHAKEN_SIGMAS):
+        bare = whole[:, -count:]
+        sizes = np.linalg.solve(bare.T @ bare + np.eye(count) / spread**2, bare.T @ left)
+        yield Kind(name, [_rubbed(record, elements, Shaken(sizes, part / spread)) for part in SHAKEN], (spread,))
 
 
 def _steps(

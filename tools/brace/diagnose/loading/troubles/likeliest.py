@@ -26,6 +26,7 @@ from brace.diagnose.loading.troubles.kinds import (
     SLIP,
     ZERO_STEP,
     ZEROS,
+    Shaken,
     kinds,
     lag_columns,
     rubbing,
@@ -110,7 +111,7 @@ def likeliest(record: Record, sets: Sequence[LabelSet]) -> Trouble | None:
     best, base = sets[0], known[frozenset()].best.fit
     if rounds_to_record(record, best.best.fit):
         return None
-    against = score(best.best.fit, base, record.readings, record.noise_freedom) - float(np.log(best.posterior))
+    against = _of_best(record, best, base)
     sizes = range(len(best.labels) + 1)
     rests = [frozenset(rest) for size in sizes for rest in combinations(sorted(best.labels), size)]
     options = [option for rest in rests if rest in known for option in _options(record, known[rest])]
@@ -120,6 +121,31 @@ def likeliest(record: Record, sets: Sequence[LabelSet]) -> Trouble | None:
     chosen = [one for place, one in enumerate(first.values()) if place < REFITTED or one.kind == LAG]
     troubles = [_fitted(record, base, option, against) for option in chosen]
     return _of_joints(most_likely(troubles), troubles)
+
+
+def friction_instead(record: Record, sets: Sequence[LabelSet]) -> Trouble | None:
+    """Friction of another law in the place of the best set's dry friction and of something else that was chosen beside
+    it: what a law leaves that is not the joint's own looks like a further effect. None where it is far behind."""
+    known = {item.labels: item for item in sets}
+    best, base = sets[0], known[frozenset()].best.fit
+    against = _of_best(record, best, base)
+    found = []
+    for name, joint in RUBS.items():
+        rest = best.labels - {f"coulomb_friction@joint.{joint}"}
+        options = [
+            option
+            for size in range(len(rest)) for some in combinations(sorted(rest), size) if frozenset(some) in known
+            for option in _options(record, known[frozenset(some)], (name,))
+        ]  # fmt: skip
+        if rest != best.labels and options:
+            found.append(_fitted(record, base, max(options, key=lambda one: one.promise(record, base)), against))
+    first = max(found, key=lambda one: one.lead, default=None)
+    return first if first is not None and first.lead > MAY_BE else None
+
+
+def _of_best(record: Record, best: LabelSet, base: Fit) -> float:
+    """Log evidence of the best set over nothing missing, with what else the search found counted."""
+    return score(best.best.fit, base, record.readings, record.noise_freedom) - float(np.log(best.posterior))
 
 
 def _of_joints(found: Trouble | None, troubles: Sequence[Trouble]) -> Trouble | None:
@@ -202,6 +228,7 @@ class _Option:
     price: float
     sigma: float
     total: np.ndarray
+    shaken: Shaken | None
 
     def score(self, record: Record, base: Fit, cost: float) -> float:
         """Log evidence over nothing missing, with this cost."""
@@ -215,12 +242,14 @@ class _Option:
         return self.score(record, base, self.cost) + BY_SLOPES * (self.rest.best.fit.cost - self.cost)
 
 
-def _options(record: Record, rest: LabelSet) -> Iterator[_Option]:
-    """Every way of every kind beside a set of effects."""
+def _options(record: Record, rest: LabelSet, only: tuple[str, ...] = ()) -> Iterator[_Option]:
+    """Every way of every kind, or of these alone, beside a set of effects."""
     fitted = rest.best.fit
     remover = Remover(fitted)
     left = remover.augmented(fitted.residual[None])[0]
     for kind in kinds(record, fitted, remover, left):
+        if only and kind.name not in only:
+            continue
         for way in kind.ways:
             bare = remover.columns(record.whitened(way.columns))
             power, along = bare.T @ bare, bare.T @ left
@@ -235,7 +264,7 @@ def _options(record: Record, rest: LabelSet) -> Iterator[_Option]:
                 total = way.total if way.total.size else np.eye(along.size)[0]
                 sigma = float(np.sqrt(max(total @ inverse @ total, 0.0)))
                 cost = fitted.cost - float(along @ inverse @ along)
-                yield _Option(kind.name, way.columns, spread, rest, cost, price, sigma, total)
+                yield _Option(kind.name, way.columns, spread, rest, cost, price, sigma, total, way.shaken)
 
 
 def _fitted(record: Record, base: Fit, option: _Option, against: float) -> Trouble:
@@ -249,7 +278,7 @@ def _fitted(record: Record, base: Fit, option: _Option, against: float) -> Troub
         fitted = fit(record.beside(wide), rest.space, fitted.x)
     lead = option.score(record, base, min(fitted.cost, option.cost)) - against
     if option.kind in RUBS:  # as for a lag: the way of a joint goes by its compliance
-        again = rubbing(record, fitted, RUBS[option.kind])
+        again = rubbing(record, fitted, RUBS[option.kind], option.shaken)
         option = replace(option, columns=again.columns, total=again.total, cost=np.inf)
         wide = option.columns * option.spread
         fitted = fit(record.beside(wide), rest.space, fitted.x)

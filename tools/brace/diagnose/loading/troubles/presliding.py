@@ -3,8 +3,12 @@
 Generalised Maxwell slip without its part that depends on speed (Al-Bender, Lampaert, Swevers 2005): springs side by
 side that each slide from their own strain on. As a function of the way that a joint would go without friction it is a
 sum of stop operators (Prandtl, Ishlinskii), also where the joint's spring and the limb yield beside it, because the
-inverse of such a sum is one. LuGre's and Dahl's bristles, and Coulomb friction that a joint which rings has partly
-shaken off, come near it. The sizes are linear, so that columns beside the readings hold them."""
+inverse of such a sum is one. LuGre's and Dahl's bristles come near it. The sizes are linear, so that columns beside the
+readings hold them.
+
+A joint that rings after each step of the rig shakes a part of its friction off. What is left turns with the first step
+back, however short that is, because the joint passes its place at every step; and how much is left differs from posture
+to posture, because the held tip stiffens the joint by another amount. No law of joints at rest has either."""
 
 from __future__ import annotations
 
@@ -18,6 +22,9 @@ from brace.native.plant_batch import number_index
 
 JOINTS = ("femur", "tibia")
 STRAINS = tuple(0.6 * 1.7**-step for step in range(9))  # of a joint's largest way: where elements begin to slide
+TURNED = 0.1  # of a joint's largest way: what a size of 1 holds of friction that turns with each step
+STILL = 1e-3  # of a joint's largest way: a shorter step turns nothing
+SHARP = 2  # of the elements, the last ones: what dry friction is made of, beside what turns with each step
 LEAST_WAY_RAD = 1e-9
 
 
@@ -33,6 +40,19 @@ def sliding_rad(record: Record, way_rad: np.ndarray) -> np.ndarray:
     return held
 
 
+def turned_rad(record: Record, way_rad: np.ndarray) -> np.ndarray:
+    """By how much friction that turns with each step holds a joint back on its way, rows [rad], for a size of 1."""
+    most = max(float(np.abs(way_rad).max()), LEAST_WAY_RAD)
+    held, at = np.zeros(way_rad.size), 0.0
+    for row, (step, begins) in enumerate(zip(*_steps(record, way_rad))):
+        if abs(step) > STILL * most:
+            at = float(np.sign(step))
+        elif begins:
+            at = 0.0
+        held[row] = TURNED * most * at
+    return held
+
+
 def _steps(record: Record, way_rad: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """How far the joint went since the row before, and where a run begins: there it rested at 0 before."""
     begins = np.zeros(way_rad.size, dtype=bool)
@@ -42,7 +62,23 @@ def _steps(record: Record, way_rad: np.ndarray) -> tuple[np.ndarray, np.ndarray]
 
 def presliding_columns(record: Record, fitted: Fit, joint: str, stiffness: np.ndarray) -> np.ndarray:
     """Channels x rows x STRAINS. `stiffness`: K at each row's posture, forces x rows x displacements [N/mm]."""
-    held = sliding_rad(record, _way_rad(record, fitted, joint))
+    return _pushed(record, fitted, joint, stiffness, sliding_rad(record, _way_rad(record, fitted, joint)))
+
+
+def turned_columns(record: Record, fitted: Fit, joint: str, stiffness: np.ndarray) -> np.ndarray:
+    """The same of friction that turns with each step, channels x rows x 1."""
+    return _pushed(record, fitted, joint, stiffness, turned_rad(record, _way_rad(record, fitted, joint))[:, None])
+
+
+def by_place(record: Record, columns: np.ndarray) -> np.ndarray:
+    """Columns of one size (channels x rows) once for each posture and axis, channels x rows x places."""
+    places = np.stack([record.dataset["config"], record.dataset["axis"]])
+    here = np.unique(places, axis=1, return_inverse=True)[1].ravel()
+    return np.asarray(columns[:, :, None] * (here[:, None] == np.arange(here.max() + 1)))
+
+
+def _pushed(record: Record, fitted: Fit, joint: str, stiffness: np.ndarray, held: np.ndarray) -> np.ndarray:
+    """What the readings show of a joint that is held back by `held` (rows x sizes, rad)."""
     arms = _arms_mm(record, fitted)
     forces = np.einsum("frd,dr,rs->frs", stiffness, arms[joint], held)
     out = np.zeros((len(record.channels), *held.shape))
@@ -67,11 +103,12 @@ def presliding_columns(record: Record, fitted: Fit, joint: str, stiffness: np.nd
 
 
 def friction_n_mm(record: Record, fitted: Fit, joint: str) -> np.ndarray:
-    """The torque that each element holds against on the mean of the joint's ways, for a size of 1: the work that it
-    takes over the way. An element that never slides takes none."""
+    """The torque that each element, and behind them what turns with each step, holds against on the mean of the joint's
+    ways, for a size of 1: the work that it takes over the way. An element that never slides takes none."""
     way = _way_rad(record, fitted, joint)
     steps, _ = _steps(record, way)
-    work = sliding_rad(record, way).T @ steps / max(float(np.abs(steps).sum()), LEAST_WAY_RAD)
+    held = np.column_stack([sliding_rad(record, way), turned_rad(record, way)])
+    work = held.T @ steps / max(float(np.abs(steps).sum()), LEAST_WAY_RAD)
     return np.asarray(work / _number(fitted, f"joint.{joint}.compliance_rad_per_n_mm"))
 
 

@@ -43,8 +43,8 @@ def shown(record: Record, name: str, columns: np.ndarray, sizes: np.ndarray, sig
     if name in RUBS:
         joint = "knee" if RUBS[name] == "tibia" else "femur"
         return (
-            f"friction of the {joint} joint, which is strained before it slides; "
-            "the model has no such law, so that limb.toml leaves the friction out"
+            f"friction of the {joint} joint, which is strained before it slides, or which a joint that rings partly "
+            "shakes off; the model has no such law, so that limb.toml leaves the friction out"
         )
     if name in NOT_NAMED:
         return NOT_NAMED[name]
