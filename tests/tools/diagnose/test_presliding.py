@@ -140,6 +140,15 @@ def test_friction_that_is_not_far_ahead_puts_in_doubt_what_stands_beside_it(
     assert all(of < 0.8 for name, of in sure.items() if not name.endswith("_friction"))
 
 
+def test_play_beside_dry_friction_keeps_its_name(tmp_path: Path, paper_limb: Path) -> None:
+    """Where both are there and nothing rings."""
+    values = {"joint.tibia.coulomb_n_mm": 60.0, "contact.play_mm": 0.2}
+    data = load_dataset(loading_record(tmp_path / "record", paper_limb, values=values))
+    found = diagnose_loading(data, load_limb(paper_limb), Options(processes=1), silent)
+    assert {one.name for one in found.effects if one.confidence > 0.9} == {"contact_play", "coulomb_friction"}
+    assert len(found.effects) == 2
+
+
 @pytest.fixture
 def plain(tmp_path: Path, paper_limb: Path) -> tuple[Record, Fit]:
     """A sound limb's record and the refitted limb."""
