@@ -1,7 +1,7 @@
 """Runs the foreign benchmark: makes the cases, seals the answers, diagnoses every case, judges, writes the page.
 
 usage: foreign.py [--development] [--parts joint,loading,ringing,measured] [--only TEXT] [--cases N] [--no-baselines]
-       [--seed S] [--out FOLDER]
+       [--seed S] [--whole] [--out FOLDER]
 An interrupted run goes on where it was; a changed tool starts anew. --only: cases whose `group/kind` holds the text.
 --cases: the first N in the order of their names, which the seed draws. Each part keeps its rows in foreign.json, and
 the page is made of all that are there (kept.py): the parts may be run one after the other."""
@@ -62,6 +62,7 @@ def main() -> int:
     parser.add_argument("--only", default="", help="cases whose group/kind holds this text")
     parser.add_argument("--cases", type=int, help="so many of the plan, the first in the order of their names")
     parser.add_argument("--seed", type=int, help="another seed")
+    parser.add_argument("--whole", action="store_true", help="of another seed as many cases as of the test's")
     parser.add_argument(
         "--no-baselines", action="store_true", help="not beside the tool: forward selection, five numbers"
     )
@@ -75,7 +76,7 @@ def main() -> int:
         return 4
     seed = options.seed or (plans.DEVELOPMENT_SEED if options.development else plans.TEST_SEED)
     test = seed == plans.TEST_SEED
-    plan = plans.TEST if test else plans.DEVELOPMENT
+    plan = plans.TEST if test or options.whole else plans.DEVELOPMENT
     if test:
         print("the test set: its figures are for reporting, not for tuning", file=sys.stderr)
     label = "test" if test else "dev" if seed == plans.DEVELOPMENT_SEED else "seed"
