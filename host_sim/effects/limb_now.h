@@ -32,7 +32,8 @@ private:
     }
 };
 
-using Changes = ChangesBy<thermal_softening::Change, link_change::Change>;
+using Changes = ChangesBy<thermal_softening::Change, // with temperature
+                          link_change::Change>;      // with time
 
 inline Joint joint_now(const Model &model, const Conditions &conditions, int joint)
 {

@@ -10,7 +10,7 @@ PROJECT = Path(__file__).resolve().parents[2]
 PAGE = PROJECT / "docs" / "adding.md"
 # "In `FILE`, behind the line with `TEXT`", "In the new file `FILE`", and the block below; words may stand between.
 _STEP = re.compile(
-    r"^\d+\. In (?:`(?P<file>[^`]+)`,\s+(?P<place>behind|before|in place of) the line with\s+`(?P<line>[^`]+)`"
+    r"^\d+\. In (?:`(?P<file>[^`]+)`,\s+(?P<place>behind|before) the line with\s+`(?P<line>[^`]+)`"
     r"|the\s+new\s+file\s+`(?P<new>[^`]+)`)(?:(?!^\d+\. |^   ```).*\n)+   ```\w*\n(?P<block>(?:(?!   ```).*\n)+)",
     re.M,
 )
@@ -36,7 +36,7 @@ class Step:
         found = [number for number, line in enumerate(lines) if self.line in line]
         assert len(found) == 1, f"{self.file} has {len(found)} lines with {self.line}"
         first = found[0] + (self.place == "behind")
-        lines[first : first + (self.place == "in place of")] = [self.text]
+        lines[first:first] = [self.text]
         path.write_text("".join(lines))
 
 

@@ -120,7 +120,7 @@ def load(path: Path) -> Dictionary:
     kept = [entry for entry in entries if entry.persistence == "parameter"]
     _refuse_twice([entry.key for entry in entries])
     _refuse_twice([entry.member for entry in kept])
-    check_area("parameters", [entry.register for entry in kept], 0, content)
+    check_area("parameters", [(entry.register, entry.key) for entry in kept], 0, content)
     groups = [group for group in content["group"] if group["persistence"] == "parameter"]
     return Dictionary(tuple(entries), _structs(groups, kept))
 
@@ -143,19 +143,23 @@ def _structs(groups: Sequence[Mapping[str, Any]], entries: Sequence[Entry]) -> t
     return tuple(structs.values())
 
 
-def check_area(area: str, registers: Sequence[int], first: int, content: Mapping[str, Any]) -> None:
-    """Every two registers from `first` on hold one value, or are reserved: none twice, and no gap."""
-    taken = list(registers)
+def check_area(area: str, named: Sequence[tuple[int, str]], first: int, content: Mapping[str, Any]) -> None:
+    """Every two registers from `first` on hold one value, or are reserved: none twice, and no gap. named: the first
+    register of each value, and whose it is."""
+    taken = list(named)
     for raw in content.get("reserved", []):
         check_keys(raw, _RESERVED_KEYS, (), "reserved")
         if raw["area"] not in AREAS:
             raise DictionaryError(f"reserved: no area {raw['area']!r}; there are {', '.join(AREAS)}")
         if raw["area"] == area:
-            taken += [raw["register"] + 2 * place for place in range(raw["values"])]
-    for place, register in enumerate(sorted(taken)):
-        if register != first + 2 * place:
-            why = "has two values" if register < first + 2 * place else f"is free, and {register} is not"
-            raise DictionaryError(f"{area}: register {min(register, first + 2 * place)} {why}")
+            taken += [(raw["register"] + 2 * place, "a reserved place") for place in range(raw["values"])]
+    for place, (register, name) in enumerate(sorted(taken)):
+        free = first + 2 * place
+        if register < free:
+            whose = " and ".join(sorted(one for at, one in taken if at in (register - 1, register)))
+            raise DictionaryError(f"{area}: register {register} has two values: {whose}")
+        if register > free:
+            raise DictionaryError(f"{area}: {name} has register {register}; the first that is free is {free}")
 
 
 def _entry(group: Mapping[str, Any], raw: Mapping[str, Any], part: int, index: int) -> Entry:

@@ -69,7 +69,7 @@ def _values(content: Mapping[str, Any], kind: str, area: str, first: int, codes:
     for raw in content[kind]:
         check_keys(raw, _KEYS, _MAY_HAVE, f"{kind} {raw.get('name')}")
     raws = sorted(content[kind], key=lambda raw: raw["register"])
-    check_area(area, [raw["register"] for raw in raws], first, content)
+    check_area(area, [(raw["register"], raw["name"]) for raw in raws], first, content)
     return tuple(_value(raw, (raw["register"] - first) // 2, codes) for raw in raws)
 
 

@@ -353,7 +353,7 @@ def _refuse_process(frame: Frame) -> None:
         if signal.kind != "number" or signal.signed or (frame.is_measured and not is_whole):
             raise DictionaryError(f"{frame.name}.{SEQUENCE}: it is an unsigned number, of {WORD_BITS} bits or of at "
                                   f"least {SEQUENCE_BITS} with wraps = true: else it would stand still at its greatest")
-    if frame.part is not None and not frame.rate and not frame.by_hand:
+    if not frame.rate and not frame.by_hand:
         raise DictionaryError(f"{frame.name}: it has neither a rate nor by_hand = true, so nobody would send it")
 
 

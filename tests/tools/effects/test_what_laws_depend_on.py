@@ -143,3 +143,13 @@ def test_the_head_names_the_numbers_that_the_row_turns(effect: Effect) -> None:
     assert not unknown, f"{at}, and limb.toml has no key {', '.join(unknown)}"
     left_out = [key for key in effect.keys if not any(fnmatch.fnmatch(key, one) for one in read)]
     assert not left_out, f"{at}, and its row in effects/catalogue.py turns {', '.join(left_out)} too"
+
+
+@pytest.mark.parametrize("effect", LAWS)
+def test_the_head_names_the_numbers_that_the_law_reads(effect: Effect) -> None:
+    read, _ = head_of(effect)
+    law = (HEADERS / f"{effect.name}.h").read_text().partition("#pragma once")[2]
+    used = [f"{table}.{number}" for table, number in re.findall(r"\bmodel\.(\w+)\.(\w+)", law)]
+    left_out = {key for key in used if key in KEY_BY_NAME and not any(fnmatch.fnmatch(key, one) for one in read)}
+    assert not left_out, f"host_sim/effects/{effect.name}.h: its head says 'Reads {', '.join(read)}', and its law reads " \
+        f"{', '.join(sorted(left_out))} too"  # fmt: skip

@@ -89,7 +89,7 @@ def faults_without(project: Path, unity: str) -> str:
         missing.append("no request throw_away")
     if "| 16 | `TOO_WARM` |" not in (project / "docs/errors.md").read_text():  # as tests/tools/interface/test_errors_page.py
         missing.append("no row in errors.md")
-    if "+ 1, details" not in (project / "tests/unit/interface/test_generated.c").read_text():
+    if "1, /* warmth */" not in (project / "tests/unit/interface/test_generated.c").read_text():
         missing.append("no count of the new frame")
     return compiled.stderr + "; ".join(missing)
 

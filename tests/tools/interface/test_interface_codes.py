@@ -139,7 +139,9 @@ def test_a_code_that_is_not_there_is_refused(tmp_path: Path) -> None:
         ("id = 0x200", "id = 0x180", "that of stiffness_a; free identifiers: 0x100, 0x200, "),
         ("id = 0x200", "id = 0x201", "no multiple of 0x80"),
         ('rate = "controller.stiffness_hz"', 'rate = "motor.stiffness_hz"', "rate"),
-        ("by_hand = true", "", "heartbeat: what goes out at a rate has the signal 'sequence'"),
+        ("by_hand = true", "", "emergency: it has neither a rate nor by_hand = true"),
+        ('rate = "controller.heartbeat_hz"\nby_hand = true', 'rate = "controller.heartbeat_hz"',
+         "heartbeat: what goes out at a rate has the signal 'sequence'"),  # fmt: skip
         ('name = "sequence"', 'name = "number"', "stiffness_a: what goes out at a rate has the signal 'sequence'"),
         ("wraps = true\n", "", "stiffness_a.sequence: .*stand still"),
         ('name = "sequence"\nbits = 8', 'name = "sequence"\nbits = 6', "stiffness_a.sequence: .*at least 8"),

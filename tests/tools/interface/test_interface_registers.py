@@ -91,8 +91,9 @@ def altered(tmp_path: Path, before: str, after: str) -> Path:
 @pytest.mark.parametrize(
     ("before", "after", "why"),
     [
-        ('name = "coxa_mm"\nregister = 0', 'name = "coxa_mm"\nregister = 2', "register 0"),
-        ("register = [6, 18, 30]", "register = [6, 18, 31]", "register 30"),
+        ('name = "coxa_mm"\nregister = 0', 'name = "coxa_mm"\nregister = 2',
+         "coxa_mm has register 2; the first that is free is 0"),  # fmt: skip
+        ("register = [6, 18, 30]", "register = [6, 18, 31]", "has register 31; the first that is free is 30"),
         ("register = [6, 18, 30]", "register = [6, 18]", "list of 3"),
         ("register = [6, 18, 30]", "register = 6", "list of 3"),
         ('name = "modbus_baud"\nregister = 214', 'name = "modbus_baud"\nregister = 300', "register"),
@@ -106,8 +107,10 @@ def test_bad_parameter_registers_are_refused(before: str, after: str, why: str, 
 @pytest.mark.parametrize(
     ("before", "after", "why"),
     [
-        ('name = "k_xx"\nregister = 20', 'name = "k_xx"\nregister = 22', "measured: register 2[02]"),
-        ('name = "take_up_tibia"\nregister = 198', 'name = "take_up_tibia"\nregister = 1980', "register 198 is free"),
+        ('name = "k_xx"\nregister = 20', 'name = "k_xx"\nregister = 22',
+         "measured: .* has register 22; the first that is free is 20"),  # fmt: skip
+        ('name = "take_up_tibia"\nregister = 198', 'name = "take_up_tibia"\nregister = 1980',
+         "the first that is free is 198"),  # fmt: skip
         ('name = "asked_k_xx"\nregister = 4096', 'name = "asked_k_xx"\nregister = 4095', "answered"),
         ('name = "asked_friction"\nregister = 16416', 'name = "asked_friction"\nregister = 16414', "commands"),
     ],

@@ -57,13 +57,25 @@ static void test_every_message_has_a_rate_of_the_controller(void)
         bool needs_coxa;
     } message[] = {BRACE_CAN_PROCESS(ROW)}, whole[] = {BRACE_CAN_PROCESS_FD(ROW)};
 #undef ROW
-    uint32_t details = 0, of_coxa = 0;
+    static const uint8_t frames_of_details[] = {
+        7, /* space */
+        6, /* load */
+        2, /* load_across */
+        2, /* sigma */
+        4, /* sigma_space */
+        4, /* interval */
+        2, /* interval_across */
+    };
+    uint32_t details = 0, of_coxa = 0, wanted = 0;
+    for (size_t i = 0; i < sizeof frames_of_details; i++) {
+        wanted += frames_of_details[i];
+    }
     for (size_t i = 0; i < sizeof message / sizeof *message; i++) {
         TEST_ASSERT_EQUAL_HEX32(0, message[i].id & 0x7fu);
         details += message[i].id == (uint32_t)BRACE_CAN_ID_DETAILS;
         of_coxa += message[i].needs_coxa;
     }
-    TEST_ASSERT_EQUAL(7 + 6 + 2 + 2 + 4 + 4 + 2, details);
+    TEST_ASSERT_EQUAL(wanted, details);
     TEST_ASSERT_EQUAL(7 + 2 + 4 + 2, of_coxa);
     TEST_ASSERT_EQUAL_HEX32(BRACE_CAN_ID_DETAILS_FD, whole[1].id);
     TEST_ASSERT_EQUAL(offsetof(brace_controller_t, stiffness_hz), whole[1].rate);
