@@ -1,6 +1,8 @@
 /* Process data on CAN: rates, one snapshot in all frames, load of the bus, floods; and the same over SLCAN text. */
 #include "can_bench.h"
 
+#include "brace/can_frames.h"
+
 enum { NODES = 4 };
 
 void setUp(void)
