@@ -61,7 +61,7 @@ class BusReader:
     def _read(self, i: int, limb: Limb, state: NodeState | None, now_s: float) -> LimbNews:
         if state is None or state.snapshot is None:
             return LimbNews(limb.node, None, None, ("nothing heard",))
-        shape = self._stands[i].shape(state)
+        shape = self._stands[i].shape(state, now_s)
         why = [] if state.posture is not None else ["no angles yet"]
         space = state.space
         k, k_rel, age_s = None, _K_REL, now_s - state.snapshot.time_s
@@ -116,10 +116,10 @@ class _Stands:
         self._rad: np.ndarray | None = None
         self._seen: tuple[float, ...] = ()
         self._elsewhere = self._count = 0
-        self._shaped_s = -np.inf
+        self._shaped_s, self._shaped_rad = -np.inf, self._rad
         self._knows_load = False  # of what _rad is from
 
-    def shape(self, state: NodeState) -> Shape:
+    def shape(self, state: NodeState, now_s: float) -> Shape:
         """From what has come; until angles have come, of the angles in stance.toml."""
         posture, space = state.posture, state.space
         theta = [
@@ -135,7 +135,11 @@ class _Stands:
             knows_load = state.load is not None and state.load.load is not None and state.load.load.is_counted
             if knows_load and not self._knows_load:  # what was known without it says nothing
                 self._rad, self._knows_load, self._count = None, bool(known.all()), 0
-            self._take(np.array(seen[:3]) - np.where(known, self._turned_rad(state.load), 0.0), seen[3])
+            self._take(np.array(seen[:3]) - np.where(known, self._turned_rad(state.load), 0.0))
+        if self._rad is not None and self._rad is not self._shaped_rad:
+            if not 0.0 <= now_s - self._shaped_s < _SHAPE_S:
+                self._shaped_s, self._shaped_rad = now_s, self._rad
+                self._shape = shape_of(self._limb, self._limb.model, self._rad)
         return self._shape
 
     def _turned_rad(self, sent: Snapshot | None) -> np.ndarray:
@@ -144,19 +148,19 @@ class _Stands:
         force, _ = _components(sent.load)
         return np.asarray(self._yields * self._law.torques_n_mm(self._law.shape.from_plane @ force))
 
-    def _take(self, rad: np.ndarray, time_s: float) -> None:
-        before, is_due = self._rad, not 0.0 <= time_s - self._shaped_s < _SHAPE_S
-        if before is not None and np.abs(rad - before).max() < _STANDS_RAD:
+    def _take(self, rad: np.ndarray) -> None:
+        before = self._rad
+        if before is None:
+            self._shaped_s = -np.inf
+        elif np.abs(rad - before).max() < _STANDS_RAD:
             self._elsewhere, self._count = 0, self._count + 1
             rad = before + max(_STANDS_FOLLOWS, 1.0 / self._count) * (rad - before)
-        elif before is not None:
+        else:
             self._elsewhere += 1
             if self._elsewhere < 2:
                 return
-            self._count, is_due = 0, True
+            self._count, self._shaped_s = 0, -np.inf
         self._rad = rad
-        if is_due or before is None:
-            self._shaped_s, self._shape = time_s, shape_of(self._limb, self._limb.model, rad)
 
 
 class _Noise:
