@@ -161,7 +161,7 @@ def _add_set(actions: Subcommands) -> None:
         "--move",
         metavar="LIMB:X,Y,Z",
         nargs="+",
-        help="instead: what these ways of tips' set-points do [mm, body's frame]",
+        help="instead: moves the set-points of these tips [mm, body's frame] and says what changes",
     )
     parser.add_argument("--wanted", type=common.path, metavar="CSV", help="with --for forces: limb,fx_n,fy_n,fz_n")
     parser.add_argument(
@@ -295,7 +295,7 @@ def _set(arguments: argparse.Namespace) -> int:
     if arguments.move and arguments.aim != "margin":
         raise UsageError(
             f"--move and --for {arguments.aim}",
-            why="--move says the ways, --for asks for them",
+            why="--move says how the tips move, --for asks for it",
             next_step="leave one of them out",
         )
     if arguments.with_payload and arguments.measured is None:

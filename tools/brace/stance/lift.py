@@ -76,7 +76,7 @@ def lift(
 
 
 def _without(stance: Stance, under_all: Sequence[tuple[Standing, State]], index: int, is_median: bool) -> Lifted:
-    """under_all: of what is believed, then of the draws, the body before and under the payload."""
+    """under_all: the body on all its feet, before the payload and under it: first as it is believed, then each draw."""
     name = stance.limbs[index].name
     found: list[tuple[State, State]] = []
     reasons: dict[int, str] = {}

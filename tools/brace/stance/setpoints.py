@@ -127,6 +127,8 @@ def moved(begun: Begun, way_mm: np.ndarray, draws: int = DRAWS) -> SetPoints:
             _, under = standing.world.load(standing, [standing.world.payload])
             after = loaded.moved(replace(standing, world=loaded, state=under), way_mm).state
         except NoStanceError:
+            if standing is standings[0]:
+                raise
             continue
         found.append((under.force_n, after.force_n))
     before, after_n = np.swapaxes(np.array(found), 0, 1)

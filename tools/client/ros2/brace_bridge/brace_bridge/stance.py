@@ -1,4 +1,4 @@
-"""Turns CAN frames into what the bridge sends of a stance. This module knows nothing of ROS."""
+"""Decodes CAN frames of a stance's limbs into values that the ROS bridge publishes. It imports nothing of ROS."""
 
 from __future__ import annotations
 
