@@ -362,6 +362,7 @@ def test_of_several_explanations_limb_toml_has_one(made: tuple[Dataset, LimbMode
     said = answers(facts(dataset, believed, several, _origin(dataset)))
     assert "with one of them added" in said["What to do next"] and "what was missing" not in said["What to do next"]
     assert '<span class="whole">2.74e-5</span>' in page(dataset, believed, several, _origin(dataset))
+    assert '<span class="whole">90 %</span>' in page(dataset, believed, several, _origin(dataset))
 
 
 def test_both_ends_of_an_interval_have_one_notation() -> None:

@@ -63,7 +63,7 @@ def tile(big: str, small: str) -> str:
 def answer(question: str, short: str, more: str, width: str = "") -> str:
     """A question that everybody has, with its answer; `width` "wide": a row for itself, "broad": more of its row."""
     kind = f"tile {width}-tile" if width else "tile"
-    whole = re.sub(r"-?[\d.]+e-\d+", r'<span class="whole">\g<0></span>', text(more))  # a line would end at the minus
+    whole = re.sub(r"-?[\d.]+e-\d+|[\d.]+ %", r'<span class="whole">\g<0></span>', text(more))  # no line ends within
     return f'<div class="{kind}"><i>{text(question)}</i><b>{text(short)}</b><span>{whole}</span></div>'
 
 
