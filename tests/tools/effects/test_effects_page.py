@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -42,7 +43,7 @@ def test_what_changes_with_time_or_temperature_follows_time() -> None:
     """The list `Changes` is what time or temperature changes in the simulated limb: the row of each says so."""
     text = (PROJECT / "host_sim" / "effects" / "limb_now.h").read_text()
     listed = text.partition("using Changes = ChangesBy<")[2].partition(">;")[0]
-    names = [one.strip().removesuffix("::Change") for one in listed.split(",")]
+    names = re.findall(r"(\w+)::Change", listed)
     assert names and set(names) <= {effect.name for effect in EFFECTS}
     forgotten = [name for name in names if not BY_NAME[name].follows_time]
     assert not forgotten, f"follows_time = True is missing in the rows of {forgotten} in effects/catalogue.py"

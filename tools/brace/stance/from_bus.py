@@ -116,7 +116,8 @@ class _Stands:
         self._rad: np.ndarray | None = None
         self._seen: tuple[float, ...] = ()
         self._elsewhere = self._count = 0
-        self._shaped_s, self._shaped_rad = -np.inf, self._rad
+        self._shaped_s = -np.inf
+        self._shaped_rad: np.ndarray | None = None
         self._knows_load = False  # of what _rad is from
 
     def shape(self, state: NodeState, now_s: float) -> Shape:
