@@ -5,8 +5,8 @@ before a foot slips.
 
 Seeds below 1000 are for practice. The truth is the judge's world of small displacements, with all that judge.py hides.
 Up to the first slip every foot sticks, so a step is solved without Siconos; the law's residual says whether they do.
-What is judged is in-process: ten thousand starts of the command would take a day. A limb's reading comes every 20 ms,
-each in a tick of its own; the payload grows for ten seconds.
+What is judged is in-process: ten thousand starts of the command would take a day. Limbs send every 20 ms, each at its
+own moment, and what has come is taken every PERIOD_S, as the command does; the payload grows for ten seconds.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from pathlib import Path
 import numpy as np
 from brace.stance.observer import Observer, Reading
 from brace.stance.stance_file import load_stance
-from brace.stance.watching import ALARM_SHARE, Alarms
+from brace.stance.watching import ALARM_SHARE, PERIOD_S, Alarms
 from brace.stance.world import believed, place_covariance_mm2
 from judge import COLLAPSES_N, MOST, share
 from limbs import Array
@@ -31,8 +31,7 @@ from truth import NoStance, State, World, begin, first_slip, margins, step
 from world import SENSOR_N, Hidden, Stance, draw, write
 
 SPARE = 0.05  # of the load
-TICK_S = 0.01
-EVERY = 2  # ticks from one reading of a limb to the next
+SENDS_S = 0.02
 REST_S, GROWS_S = 1.0, 10.0  # as in the demo: a payload that is hung on
 STEPS = 8  # of the payload; between two of them forces go straight
 BEYOND_CONE_TRIES = 12
@@ -135,12 +134,12 @@ def case(seed: int, number: int, slips: bool) -> Case | None:
     places = [place_covariance_mm2(limb, law) for limb, law in zip(asked.limbs, middle.laws, strict=True)]
     observer = Observer(asked, middle.weight, places, [reading(i, 0.0) for i in range(n)], 0.0)
     alarms = Alarms(asked, ALARM_SHARE * float(np.linalg.norm(stance.world.weight_n)))
-    turn, events = rng.integers(0, EVERY, n), []
-    for tick in range(1, int((2 * REST_S + GROWS_S) / TICK_S) + 1):
-        time_s = tick * TICK_S
+    first_s, events = rng.uniform(0.0, SENDS_S, n), []
+    for period in range(1, int((2 * REST_S + GROWS_S) / PERIOD_S) + 1):
+        time_s = period * PERIOD_S
         if slips and time_s > REST_S + GROWS_S:
             break
-        came = [reading(i, time_s) if (tick + turn[i]) % EVERY == 0 else None for i in range(n)]
+        came = [reading(i, time_s - (time_s - first_s[i]) % SENDS_S) for i in range(n)]
         events += [event.kind for event in observer.update(came, time_s)]
         if alarms.begin(observer, time_s):
             return Case(number, stance.name.split()[0], slips, _share(time_s), events)

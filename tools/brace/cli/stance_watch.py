@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from brace.bus.frame import Bus, Frame
     from brace.stance.watching import Shown, Watching
 
-_FETCH_S = 0.005  # some adapters' frames have the time at which they were fetched
+_FETCH_S = 0.01  # waking up is dear on an idle machine; a frame is at most so much older than its time says
 _LINE_S = 1.0
 _SILENCE_S = 3.0
 

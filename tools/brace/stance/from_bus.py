@@ -29,6 +29,8 @@ _INTERVAL_WITHIN_S = 1.0  # it comes beside the load; what the first forces hide
 _STANDS_RAD = 0.002  # a joint that is elsewhere by more, twice in a row, has been moved; less is the force's noise
 _STANDS_FOLLOWS = 0.1
 _SHAPE_S = 0.05  # a shape is worked out so often: the observer takes a new one every tenth of a second
+_COUNTED = tuple(f"counted_force_{axis}" for axis in "xyz")
+_ENDS = tuple((f"force_{axis}_low", f"force_{axis}_high") for axis in "xyz")
 _ACROSS_UNKNOWN_N = 1e3  # one sigma of a force's component that no sensor measures
 
 
@@ -186,17 +188,15 @@ class _Noise:
 
 def _components(load: Load) -> tuple[np.ndarray, np.ndarray]:
     """Outwards in the limb's plane, to its left, upwards; and which are known."""
-    values = [load.values.get(f"counted_force_{axis}") for axis in ("x", "y", "z")]
+    values = [load.values.get(name) for name in _COUNTED]
     return np.array([float(v or 0.0) for v in values]), np.array([v is not None for v in values])
 
 
 def _spread_n2(interval: Interval | None) -> np.ndarray:
     """The variance that a controller's 90 % interval of the force says; a wide one until it has come."""
     variance = np.full(3, _UNKNOWN_SPREAD_N**2)
-    for axis, name in enumerate(("x", "y", "z")):
-        low, high = (
-            None if interval is None else interval.values.get(f"force_{name}_{end}") for end in ("low", "high")
-        )
+    for axis, (name_low, name_high) in enumerate(_ENDS):
+        low, high = (None, None) if interval is None else (interval.values.get(name_low), interval.values.get(name_high))
         if low is not None and high is not None:
             variance[axis] = (0.5 * (float(high) - float(low)) / NINETY) ** 2
     return variance

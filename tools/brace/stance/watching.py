@@ -17,7 +17,7 @@ from brace.stance.stance_file import Stance
 from brace.stance.statics import Slip
 from brace.stance.world import believed, place_covariance_mm2
 
-PERIOD_S = 0.02  # what comes within it is taken together: of each limb the newest
+PERIOD_S = 0.03  # what comes within it is taken together: of each limb the newest
 _SOFT = "SOFT"
 ALARM_SHARE = 0.02  # of the weight
 _ALARM_ENDS = 1.5  # times its level, so that a margin at the level is one alarm and not many

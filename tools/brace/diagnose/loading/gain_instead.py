@@ -2,8 +2,10 @@
 
 Both scale every force, and a calibration that trusts compliances to some per cent lets the refit follow a sensor that
 is off by many sigma of its own trust, without an effect that could be named. K would be wrong by the sensor's error.
-A gain that is left open takes strain from the compliances. Where it takes more than in 95 of 100 sound calibrations,
-limb.toml keeps its scale: its numbers are refitted with the gain left open, and the gain is not exported."""
+A gain that is left open takes strain from the compliances. Where it takes more than in 95 of 100 sound calibrations, and
+no other single effect is likelier, limb.toml keeps its scale: its numbers are refitted with the gain left open, and the
+gain is not exported. Where another is likelier, as a link that is softer than its trust allows, the gain would only
+stand in for it, and K would move away from the limb."""
 
 from __future__ import annotations
 
@@ -26,15 +28,21 @@ STRAIN = 4.0  # of cost that a free gain saves: two sigma
 
 
 def gain_instead(final: Pass) -> Fit | None:
-    """The refit with the gain left open, where nothing is named and it takes so much strain; else None."""
+    """The refit with the gain left open, where nothing is named, it takes so much strain, and no other single effect
+    is likelier; else None."""
     if final.decision.verdict != "none":
         return None
-    for one in final.sets:
-        space = one.best.fit.space
-        if one.labels and space.keys[space.size - space.own :] == (GAIN,):
-            freed = fit(final.record, space, one.best.fit.x)
-            return freed if final.base.fit.cost - freed.cost > STRAIN else None
-    return None
+    singles = [one for one in final.sets if len(one.labels) == 1]
+    likeliest = max(singles, key=lambda one: one.posterior).best.fit if singles else None
+    if likeliest is None or not _is_gain(likeliest):
+        return None
+    freed = fit(final.record, likeliest.space, likeliest.x)
+    return freed if final.base.fit.cost - freed.cost > STRAIN else None
+
+
+def _is_gain(fitted: Fit) -> bool:
+    space = fitted.space
+    return space.keys[space.size - space.own :] == (GAIN,)
 
 
 def with_its_scale(believed: LimbModel, freed: Fit) -> LimbModel:
