@@ -196,7 +196,9 @@ def _spread_n2(interval: Interval | None) -> np.ndarray:
     """The variance that a controller's 90 % interval of the force says; a wide one until it has come."""
     variance = np.full(3, _UNKNOWN_SPREAD_N**2)
     for axis, (name_low, name_high) in enumerate(_ENDS):
-        low, high = (None, None) if interval is None else (interval.values.get(name_low), interval.values.get(name_high))
+        if interval is None:
+            break
+        low, high = interval.values.get(name_low), interval.values.get(name_high)
         if low is not None and high is not None:
             variance[axis] = (0.5 * (float(high) - float(low)) / NINETY) ** 2
     return variance

@@ -437,7 +437,7 @@ class Observer:
             self._last_n[i].append(reading.force_n)
             count = len(self._last_n[i])
             sigma = math.sqrt(_trace(reading.noise_n2) / count + _trace(reading.hidden_n2))
-            size = math.hypot(*sum(self._last_n[i])) / count
+            size = math.hypot(*sum(self._last_n[i], np.zeros(3))) / count
             self._borne_n[i] = max(self._borne_n[i], size) if self._is_down[i] else size
             nothing_n = min(_OFF_GROUND_SIGMAS * sigma, _NOTHING_SHARE * self._borne_n[i])
             leaves = self._is_down[i] and size < nothing_n and self._may_leave(i, sigma)
