@@ -2,8 +2,8 @@
 
     ./dev check     sets up what this needs and runs it
 
-Compared with the commit at which this branch left main; files that git does not know yet count as changed. Every step
-prints what it ran. Exit codes: 0 all is well, 1 a step found something.
+Compared with the commit at which this branch left main, or on main itself with origin/main; files that git does not
+know yet count as changed. Every step prints what it ran. Exit codes: 0 all is well, 1 a step found something.
 """
 
 from __future__ import annotations
@@ -31,7 +31,6 @@ LEFT_OUT: list[str] = []  # files of tests that had no time
 BUILD = ROOT / "build" / "host"
 ALL_LINES = (".c", ".h", ".cpp")  # where every line is judged, not only new ones
 WRITTEN_BY_HAND = (*ALL_LINES, ".py", ".cmake")
-WRITTEN_BY_GENERATOR = ("firmware/interface/generated/", "tools/brace/wire/")
 C_PARTS = {  # changed folder: folder of its tests
     "firmware/core": "tests/unit/core",
     "firmware/interface": "tests/unit/interface",
@@ -50,13 +49,11 @@ LAWS = "host_sim/effects"
 LAWS_TESTS = ("test_effects_page", "test_what_laws_depend_on")
 
 
-def run(
-    *command: str, environment: dict[str, str] | None = None, folder: str = ".", also_well: tuple[int, ...] = ()
-) -> bool:
-    """Runs a command in a folder of the project. Prints its output only when it fails: when it ends neither with 0 nor
+def run(*command: str, environment: dict[str, str] | None = None, also_well: tuple[int, ...] = ()) -> bool:
+    """Runs a command in the project's folder. Prints its output only when it fails: when it ends neither with 0 nor
     with another code that means all is well."""
     done = subprocess.run(
-        command, cwd=ROOT / folder, env={**os.environ, **(environment or {})}, capture_output=True, text=True,
+        command, cwd=ROOT, env={**os.environ, **(environment or {})}, capture_output=True, text=True,
         check=False,
     )  # fmt: skip
     is_well = done.returncode in (0, *also_well)
@@ -71,8 +68,11 @@ def git(*arguments: str) -> str:
 
 
 def base() -> str:
-    """The commit to compare with: where this branch left main, or the last commit."""
-    return git("merge-base", "HEAD", "main").strip() or "HEAD"
+    """The commit to compare with: where this branch left main; where origin/main did, if all of it is on main; or the
+    last commit."""
+    last = git("rev-parse", "HEAD").strip()
+    left = (git("merge-base", "HEAD", main).strip() for main in ("main", "origin/main"))
+    return next((commit for commit in left if commit not in ("", last)), "HEAD")
 
 
 def changed_files(since: str) -> list[Path]:
@@ -84,6 +84,11 @@ def changed_files(since: str) -> list[Path]:
 # --- format, types, layers ------------------------------------------------------------------------------------
 
 
+def is_generated(path: Path) -> bool:
+    """Does its head say that a generator writes it?"""
+    return "do not edit" in "".join((ROOT / path).read_text().splitlines(keepends=True)[:3])
+
+
 def long_lines(since: str) -> list[str]:
     """C and C++ lines that are too long, and Python and CMake lines that are too and are new since the commit, as
     FILE:LINE. Generated files and tables may have them. A tab reaches to the next multiple of four columns."""
@@ -91,7 +96,7 @@ def long_lines(since: str) -> list[str]:
     new = new_lines(since)
     for path in git("ls-files", "-co", "--exclude-standard").splitlines():
         these = None if path.endswith(ALL_LINES) else new.get(path, set())
-        if path.endswith(WRITTEN_BY_HAND) and not path.startswith(WRITTEN_BY_GENERATOR) and (ROOT / path).is_file():
+        if path.endswith(WRITTEN_BY_HAND) and (ROOT / path).is_file() and not is_generated(Path(path)):
             for line, text in enumerate((ROOT / path).read_text().splitlines(), 1):
                 if (columns := len(text.expandtabs(4))) > MOST_COLUMNS and (these is None or line in these):
                     found.append(f"{path}:{line}: {columns} columns, {MOST_COLUMNS} at most: wrap it")
@@ -114,7 +119,7 @@ def formatted_by_clang(paths: Iterable[Path]) -> list[str]:
         str(path)
         for path in paths
         if path.suffix in ALL_LINES and (ROOT / path).is_file() and not path.is_relative_to("tests/discipline/samples")
-        if "do not edit" not in "".join((ROOT / path).read_text().splitlines(keepends=True)[:3])
+        if not is_generated(path)
     ]
 
 
@@ -178,24 +183,31 @@ def is_interface(path: Path) -> bool:
     return path.suffix in (".toml", ".py") and any(path.is_relative_to(folder) for folder in INTERFACE)
 
 
-def check_generated() -> bool:
-    """Is every generated file what the dictionary says? The generator refuses a dictionary that is wrong."""
-    same = run(sys.executable, "-m", "interface", "--check", folder="tools")
-    if not same:
-        print("  try: mend what is named above, if anything is; then cd tools && ../.venv/bin/python -m interface")
-    return same
+def generator_says() -> str:
+    """Why a generated file is not what the dictionary says, or why the generator refuses the dictionary; else empty."""
+    command = [sys.executable, "-m", "interface", "--check"]
+    done = subprocess.run(command, cwd=ROOT / "tools", capture_output=True, text=True, check=False)
+    drifted = "  try: cd tools && ../.venv/bin/python -m interface\n"
+    return "" if done.returncode == 0 else done.stderr + drifted * (done.returncode == 1)
+
+
+def reads_page(test: str, page: str) -> bool:
+    """Does the text of a test name this page of docs/ as a file, read all pages, or do the page's steps?"""
+    return any(said in test for said in (f'"{page}.md"', '"docs").glob(', f"from {page}_page import"))
 
 
 def python_tests(changed: Iterable[Path]) -> list[str]:
     """Files of tests/tools that mirror changed modules, the closest first: changed themselves, named after a module,
-    importing one or running its command. The generator's tests where the dictionary or the generator has changed, and
-    those of the laws where an effect's header has."""
+    importing one or running its command. The generator's tests where the dictionary or the generator has changed, those
+    of the laws where an effect's header has, and those that read a page of docs/ where the page has."""
     tests = {path: path.read_text() for path in sorted((ROOT / "tests" / "tools").rglob("test_*.py"))}
     closest: dict[Path, int] = {}
     for path in changed:
         if is_interface(path):
             closest |= {test: 0 for test in tests if test.stem.startswith("test_interface")}
             closest |= {test: -1 for test in tests if test.stem in INTERFACE_TESTS}
+        if path.parent == Path("docs"):
+            closest |= {test: 0 for test, text in tests.items() if reads_page(text, path.stem)}
         if path.is_relative_to(LAWS):
             closest |= {test: 0 for test in tests if test.stem in LAWS_TESTS}
         if path.suffix != ".py":
@@ -259,6 +271,7 @@ def main() -> int:
     since = base()
     changed = changed_files(since)
     print(f"{len(changed)} files differ from {since[:12]}")
+    wrong = generator_says() if any(map(is_interface, changed)) else ""
     in_c = any(path.suffix in (".c", ".h", ".cpp", ".txt", ".cmake") for path in changed)
     units, files = c_tests(changed), python_tests(changed)
     looks: list[Step] = [
@@ -266,19 +279,28 @@ def main() -> int:
         ("types: mypy", lambda: check_types(changed)),
         ("layers: docs/layers.toml, tools/pyproject.toml", check_layers),
     ]
-    if any(map(is_interface, changed)):
-        looks.append(("generated files: python -m interface --check", check_generated))
     tests: list[Step] = []
     if in_c:
         tests.append((f"build and C tests: {' '.join(units) or 'none mirrors what changed'}", lambda: test_c(units)))
     if files:
         tests.append(("Python tests of what changed", lambda: test_python(files)))
     with ThreadPoolExecutor(2) as pool:  # a look takes one processor, a test's build all of them
-        done = [*pool.map(timed, looks)] + [timed(step) for step in tests]
+        done = [*pool.map(timed, looks)] + [timed(step) for step in tests if not wrong]
     failed = [name.partition(":")[0] for name, ok in done if not ok]
-    well = f"well, but {len(LEFT_OUT)} files of tests had no time" if LEFT_OUT else "all is well"
-    print(f"{time.monotonic() - begun:.0f} s; " + (f"failed: {', '.join(failed)}" if failed else well))
-    return 1 if failed else 0
+    print(f"{time.monotonic() - begun:.0f} s; {summary(failed, bool(changed), bool(wrong))}")
+    print(wrong, end="")
+    return 1 if failed or wrong else 0
+
+
+def summary(failed: list[str], is_changed: bool, is_wrong: bool) -> str:
+    """The last line: what failed, and what was not tested."""
+    if is_wrong:
+        failed = [*failed, "generated files, so no test was run"]
+    if failed:
+        return f"failed: {', '.join(failed)}"
+    if not is_changed:
+        return "nothing differs from main, so nothing was tested. Run this before you commit, or on a branch"
+    return f"well, but {len(LEFT_OUT)} files of tests had no time" if LEFT_OUT else "all is well"
 
 
 def timed(step: Step) -> tuple[str, bool]:

@@ -1,0 +1,76 @@
+"""What ./dev check compares with, which tests it picks, and what it says last."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import pytest
+
+PROJECT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(PROJECT / "tests"))
+
+import check  # noqa: E402
+
+
+def picked(*changed: str) -> set[str]:
+    return {Path(name).stem for name in check.python_tests(map(Path, changed))}
+
+
+def test_a_generated_file_may_have_long_lines(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Wherever it lies: its head says so."""
+    monkeypatch.setattr(check, "ROOT", tmp_path)
+    monkeypatch.setattr(check, "git", lambda *arguments: "a.h\nb.h\n" if arguments[0] == "ls-files" else "")
+    (tmp_path / "a.h").write_text(f"/* Written by tools/interface; do not edit. */\n/* {'-' * 130} */\n")
+    (tmp_path / "b.h").write_text(f"/* By hand. */\n/* {'-' * 130} */\n")
+    assert check.long_lines("HEAD") == ["b.h:2: 136 columns, 120 at most: wrap it"]
+    assert check.formatted_by_clang([Path("a.h"), Path("b.h")]) == ["b.h"]
+
+
+@pytest.mark.parametrize(
+    ("bases", "wanted"),
+    [
+        ({"main": "left"}, "left"),  # on a branch
+        ({"main": "last", "origin/main": "behind"}, "behind"),  # on main, with commits of its own
+        ({"main": "last", "origin/main": "last"}, "HEAD"),
+        ({"main": "last"}, "HEAD"),
+        ({}, "HEAD"),
+    ],
+)
+def test_what_differs_is_told_from_where_the_branch_left(
+    bases: dict[str, str], wanted: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(check, "git", lambda *asked: bases.get(asked[-1], "") if asked[0] == "merge-base" else "last\n")
+    assert check.base() == wanted
+
+
+def test_where_nothing_differs_nobody_is_told_that_all_is_well() -> None:
+    assert "nothing was tested" in check.summary([], is_changed=False, is_wrong=False)
+    assert check.summary([], is_changed=True, is_wrong=False) == "all is well"
+    assert check.summary(["types"], is_changed=False, is_wrong=False) == "failed: types"
+
+
+def test_what_the_generator_refuses_stands_last_and_no_test_runs(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for look in ("check_format", "check_types", "check_layers"):
+        monkeypatch.setattr(check, look, lambda *_: True)
+    for test in ("test_c", "test_python"):
+        monkeypatch.setattr(check, test, lambda *_: pytest.fail("a test ran"))
+    monkeypatch.setattr(check, "changed_files", lambda _: [Path("firmware/interface/dictionary.toml"), Path("hal/a.c")])
+    monkeypatch.setattr(check, "generator_says", lambda: "interface: it contradicts itself\n  try: mend it\n")
+    assert check.main() == 1
+    said = capsys.readouterr().out.splitlines()
+    assert said[-2:] == ["interface: it contradicts itself", "  try: mend it"]
+    assert said[-3].endswith("failed: generated files, so no test was run")
+
+
+def test_the_generator_has_nothing_to_say_of_what_is_checked_in() -> None:
+    assert check.generator_says() == ""
+
+
+def test_a_page_starts_the_tests_that_read_it() -> None:
+    assert "test_errors_page" in picked("docs/errors.md")
+    assert "test_adding" in picked("docs/adding.md")
+    assert "test_printed_commands" in picked("docs/errors.md")
+    assert "test_errors_page" not in picked("docs/joints.md")
