@@ -20,6 +20,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "tests" / "discipline"))
 
+import stored_numbers  # noqa: E402
 from typed_folders import TYPED, mypy_command, mypy_environment  # noqa: E402
 
 Step = tuple[str, Callable[[], bool]]
@@ -191,6 +192,21 @@ def generator_says() -> str:
     return "" if done.returncode == 0 else done.stderr + drifted * (done.returncode == 1)
 
 
+def moved_numbers(since: str) -> list[str]:
+    """A sentence for each number of the dictionary that is another than in the commit, and must not be."""
+    dictionary, messages = (
+        git("show", f"{since}:{name}") for name in (stored_numbers.DICTIONARY, stored_numbers.MESSAGES)
+    )
+    return stored_numbers.moved_since((dictionary, messages))
+
+
+def check_stored(since: str) -> bool:
+    """Has no number moved that masters have stored?"""
+    said = moved_numbers(since)
+    print("\n".join(said) + "\n" * bool(said), end="")
+    return not said
+
+
 def reads_page(test: str, page: str) -> bool:
     """Does the text of a test name this page of docs/ as a file, read all pages, or do the page's steps?"""
     return any(said in test for said in (f'"{page}.md"', '"docs").glob(', f"from {page}_page import"))
@@ -279,6 +295,8 @@ def main() -> int:
         ("types: mypy", lambda: check_types(changed)),
         ("layers: docs/layers.toml, tools/pyproject.toml", check_layers),
     ]
+    if any(map(is_interface, changed)):
+        looks.append(("numbers that masters have stored", lambda: check_stored(since)))
     tests: list[Step] = []
     if in_c:
         tests.append((f"build and C tests: {' '.join(units) or 'none mirrors what changed'}", lambda: test_c(units)))
