@@ -167,8 +167,12 @@ def _entry(group: Mapping[str, Any], raw: Mapping[str, Any], part: int, index: i
     is_kept = group["persistence"] == "parameter"
     stands_for_default = "required" if raw.get("required") else "default"
     range_or_choices = "choices" if "choices" in raw else "range"
-    check_keys(raw, (*_ENTRY_KEYS, stands_for_default, range_or_choices, *(["register"] if is_kept else [])),
-               _ENTRY_MAY_HAVE, key)
+    check_keys(
+        raw,
+        (*_ENTRY_KEYS, stands_for_default, range_or_choices, *(["register"] if is_kept else [])),
+        _ENTRY_MAY_HAVE,
+        key,
+    )
     kind = raw.get("type", "f32")
     choices = tuple(raw.get("choices", ()))
     texts = choices if choices and isinstance(choices[0], str) else ()
@@ -222,14 +226,16 @@ def _check(entry: Entry) -> None:
     leaf = entry.key.rpartition(".")[2]
     table = entry.key.partition(".")[0]
     if entry.member and entry.field not in (leaf, f"{table}_{leaf}"):
-        raise refuse(f"in C it is {entry.field}; one thing has one name: {leaf}, or {table}_{leaf} where tables share a"
-                     " struct")
+        raise refuse(
+            f"in C it is {entry.field}; one thing has one name: {leaf}, or {table}_{leaf} where tables share a struct"
+        )
     if fault := unit_fault(entry.unit) or (name_fault(leaf, entry.unit) if entry.type == "f32" or entry.unit else ""):
         raise refuse(fault)
     if entry.type == "f32" and (entry.texts or entry.numbers):
         raise refuse("choices are for u32")
-    if entry.type == "u32" and not all(isinstance(bound, int) and 0 <= bound < 1 << 32
-                                       for bound in (entry.low, entry.high)):
+    if entry.type == "u32" and not all(
+        isinstance(bound, int) and 0 <= bound < 1 << 32 for bound in (entry.low, entry.high)
+    ):
         raise refuse("the range of a u32 is whole numbers below 2^32")
     if 0 in entry.numbers:
         raise refuse("0 fills up the lists of choices: it cannot be one")
@@ -250,8 +256,10 @@ def check_keys(table: Mapping[str, Any], needed: Sequence[str], may_have: Sequen
     """Every key that a table must have is there, and no other than it may have."""
     unknown = set(table) - {*needed, *may_have}
     if unknown:
-        raise DictionaryError(f"{where}: unknown {', '.join(sorted(unknown))}; "
-                              f"it has {', '.join(needed)} and may have {', '.join(may_have) or 'nothing else'}")
+        raise DictionaryError(
+            f"{where}: unknown {', '.join(sorted(unknown))}; "
+            f"it has {', '.join(needed)} and may have {', '.join(may_have) or 'nothing else'}"
+        )
     lacking = [key for key in needed if key not in table]
     if lacking:
         raise DictionaryError(f"{where}: it lacks {', '.join(lacking)}")

@@ -260,15 +260,23 @@ def load_wire(path: Path, codes: Codes) -> Wire:
     _check_tables(content)
     messages = tuple(
         Frame(
-            raw["name"], raw["id"], raw.get("rate", ""), _signals(raw["signal"], 0, raw["name"], codes),
-            raw["description"], by_hand=raw.get("by_hand", False),
+            raw["name"],
+            raw["id"],
+            raw.get("rate", ""),
+            _signals(raw["signal"], 0, raw["name"], codes),
+            raw["description"],
+            by_hand=raw.get("by_hand", False),
         )
         for raw in content["message"]
     )
     fd_messages = tuple(
         Frame(
-            raw["name"], raw["id"], raw.get("rate", ""),
-            _signals(raw["signal"], 0, raw["name"], codes, 8 * raw["bytes"]), raw["description"], bytes=raw["bytes"],
+            raw["name"],
+            raw["id"],
+            raw.get("rate", ""),
+            _signals(raw["signal"], 0, raw["name"], codes, 8 * raw["bytes"]),
+            raw["description"],
+            bytes=raw["bytes"],
         )
         for raw in content.get("fd_message", [])
     )
@@ -277,17 +285,26 @@ def load_wire(path: Path, codes: Codes) -> Wire:
     answers = {raw["name"]: raw["answer"] for raw in content["request"] if "answer" in raw}
     requests = tuple(_request(raw, answers, request_id, answer_id, codes) for raw in content["request"])
     refusal = Frame(
-        "refusal", answer_id, "",
+        "refusal",
+        answer_id,
+        "",
         _signals(
             [
                 {"name": "code", "bits": 8, "description": "the code of the request"},
-                {"name": "status", "bits": 8, "signed": True,
-                 "description": "why: docs/errors.md, statuses and refusals"},
+                {
+                    "name": "status",
+                    "bits": 8,
+                    "signed": True,
+                    "description": "why: docs/errors.md, statuses and refusals",
+                },
                 {"name": "detail", "bits": 32, "description": "what more there is to say: an index, a mode, a hash"},
             ],
-            _PAYLOAD_START, "refusal", codes,
+            _PAYLOAD_START,
+            "refusal",
+            codes,
         ),
-        "a request is refused", REFUSED,
+        "a request is refused",
+        REFUSED,
     )
     wire = Wire(content["protocol"], request_id, answer_id, messages, multiplexed, fd_messages, requests, refusal)
     names = [frame.name for frame in wire.frames]
@@ -295,11 +312,19 @@ def load_wire(path: Path, codes: Codes) -> Wire:
         twice = next(name for place, name in enumerate(names) if name in names[:place])
         raise DictionaryError(f"{twice}: two frames have this name; give one of them another")
     _refuse_numbers("codes of requests", [(request.code, request.name) for request in requests], 1, CODES)
-    _refuse_numbers("numbers of answers", [(frame.command or 0, frame.name) for request in requests
-                                           for frame in request.answers], 1, REFUSED)
+    _refuse_numbers(
+        "numbers of answers",
+        [(frame.command or 0, frame.name) for request in requests for frame in request.answers],
+        1,
+        REFUSED,
+    )
     for message in multiplexed:
-        _refuse_numbers(f"numbers of the parts of {message.name}",
-                        [(frame.part or 0, frame.name) for frame in message.parts], 0, 1 << message.selector.bits)
+        _refuse_numbers(
+            f"numbers of the parts of {message.name}",
+            [(frame.part or 0, frame.name) for frame in message.parts],
+            0,
+            1 << message.selector.bits,
+        )
         _refuse_twice_in_dbc(message)
     for frame in wire.process_frames:
         _refuse_process(frame)
@@ -309,6 +334,7 @@ def load_wire(path: Path, codes: Codes) -> Wire:
 
 def _check_tables(content: Mapping[str, Any]) -> None:
     """No table lacks a key, and none has one that nobody reads."""
+
     def check(kind: str, raw: Mapping[str, Any], where: str) -> None:
         check_keys(raw, *_KEYS[kind], where)
         _refuse_wrong_types(raw, where)
@@ -346,13 +372,17 @@ def _refuse_process(frame: Frame) -> None:
         raise DictionaryError(f"{frame.name}: its rate is a key of limb.toml's table [controller], not {frame.rate!r}")
     sequences = [signal for signal in frame.signals if signal.name == SEQUENCE]
     if frame.is_measured and not sequences:
-        raise DictionaryError(f"{frame.name}: what goes out at a rate has the signal {SEQUENCE!r}, by which receivers "
-                              "put the frames of one snapshot together")
+        raise DictionaryError(
+            f"{frame.name}: what goes out at a rate has the signal {SEQUENCE!r}, by which receivers "
+            "put the frames of one snapshot together"
+        )
     for signal in sequences:
         is_whole = signal.bits == WORD_BITS or (signal.bits >= SEQUENCE_BITS and signal.wraps)
         if signal.kind != "number" or signal.signed or (frame.is_measured and not is_whole):
-            raise DictionaryError(f"{frame.name}.{SEQUENCE}: it is an unsigned number, of {WORD_BITS} bits or of at "
-                                  f"least {SEQUENCE_BITS} with wraps = true: else it would stand still at its greatest")
+            raise DictionaryError(
+                f"{frame.name}.{SEQUENCE}: it is an unsigned number, of {WORD_BITS} bits or of at "
+                f"least {SEQUENCE_BITS} with wraps = true: else it would stand still at its greatest"
+            )
     if not frame.rate and not frame.by_hand:
         raise DictionaryError(f"{frame.name}: it has neither a rate nor by_hand = true, so nobody would send it")
 
@@ -390,8 +420,9 @@ def _refuse_twice_in_dbc(message: Multiplexed) -> None:
             for signal in message.own(frame):
                 name = f"{group.name}_{signal.name}"
                 if name in used:
-                    raise DictionaryError(f"{frame.name}.{signal.name}: the database calls it {name}, as it does that "
-                                          f"of {used[name]}")
+                    raise DictionaryError(
+                        f"{frame.name}.{signal.name}: the database calls it {name}, as it does that of {used[name]}"
+                    )
                 used[name] = frame.name
 
 
@@ -426,18 +457,30 @@ def _multiplexed(raw: Mapping[str, Any], codes: Codes) -> Multiplexed:
         own = _signals(one["signal"], start, called, codes, 8 * size)
         for signal in own:
             if signal.name in {other.name for other in common}:
-                raise DictionaryError(f"{called}.{signal.name}: every frame of {name} has a signal of this name already; "
-                                      "leave it out, or give it another name")
+                raise DictionaryError(
+                    f"{called}.{signal.name}: every frame of {name} has a signal of this name already; "
+                    "leave it out, or give it another name"
+                )
         return Frame(
-            called, raw["id"], group.get("rate", ""), (*shared, *own),
-            group["description"] + (f": frame {place + 1} of {len(group['part'])}" if several else ""), bytes=size,
-            part=one["number"], part_at=selectors[0].start, by_hand=group.get("by_hand", False),
+            called,
+            raw["id"],
+            group.get("rate", ""),
+            (*shared, *own),
+            group["description"] + (f": frame {place + 1} of {len(group['part'])}" if several else ""),
+            bytes=size,
+            part=one["number"],
+            part_at=selectors[0].start,
+            by_hand=group.get("by_hand", False),
             needs_coxa=group.get("coxa", False),
         )
 
     groups = tuple(
-        Group(group["name"], group.get("rate", ""), group["description"],
-              tuple(part(group, place, one) for place, one in enumerate(group["part"])))
+        Group(
+            group["name"],
+            group.get("rate", ""),
+            group["description"],
+            tuple(part(group, place, one) for place, one in enumerate(group["part"])),
+        )
         for group in raw["group"]
     )
     names = [group.name for group in groups]
@@ -448,7 +491,10 @@ def _multiplexed(raw: Mapping[str, Any], codes: Codes) -> Multiplexed:
 
 
 def _request(
-    raw: Mapping[str, Any], answers_of: Mapping[str, Sequence[Mapping[str, Any]]], request_id: int, answer_id: int,
+    raw: Mapping[str, Any],
+    answers_of: Mapping[str, Sequence[Mapping[str, Any]]],
+    request_id: int,
+    answer_id: int,
     codes: Codes,
 ) -> Request:
     name, code, answers_as = raw["name"], raw["code"], raw.get("answers_as", "")
@@ -457,16 +503,26 @@ def _request(
     parts = answers_of[answers_as or name]
     numbers = raw.get("answer_numbers", []) if answers_as else [part["number"] for part in parts]
     if len(numbers) != len(parts) or (not answers_as and "answer_numbers" in raw):
-        raise DictionaryError(f"{name}: with answers_as a request has answer_numbers, one for each of the "
-                              f"{len(parts)} frames of its answer")
+        raise DictionaryError(
+            f"{name}: with answers_as a request has answer_numbers, one for each of the "
+            f"{len(parts)} frames of its answer"
+        )
     question = Frame(
-        f"{name}_request", request_id, "", _signals(raw.get("field", []), _PAYLOAD_START, name, codes),
-        raw["description"], code
+        f"{name}_request",
+        request_id,
+        "",
+        _signals(raw.get("field", []), _PAYLOAD_START, name, codes),
+        raw["description"],
+        code,
     )
     answers = tuple(
         Frame(
-            f"{name}_answer_{part}", answer_id, "", _signals(answer["field"], _PAYLOAD_START, name, codes),
-            raw["description"], number,
+            f"{name}_answer_{part}",
+            answer_id,
+            "",
+            _signals(answer["field"], _PAYLOAD_START, name, codes),
+            raw["description"],
+            number,
         )
         for part, (number, answer) in enumerate(zip(numbers, parts, strict=True))
     )
@@ -484,14 +540,25 @@ def _signals(
         _refuse_name(raw["name"], at)
         kind = raw.get("kind", "number")
         table = (
-            codes.enum(raw["names"], at) if "names" in raw
-            else codes.bits(raw["bit_names"], at) if "bit_names" in raw
+            codes.enum(raw["names"], at)
+            if "names" in raw
+            else codes.bits(raw["bit_names"], at)
+            if "bit_names" in raw
             else None
         )
         signal = Signal(
-            raw["name"], start, raw["bits"], raw.get("signed", False), kind, raw.get("step", 1.0), raw.get("unit", ""),
-            table, raw["description"].replace("{emergencies}", codes.emergencies), raw.get("from", raw["name"]),
-            raw.get("wraps", False), tuple(raw.get("saturated_by", [])),
+            raw["name"],
+            start,
+            raw["bits"],
+            raw.get("signed", False),
+            kind,
+            raw.get("step", 1.0),
+            raw.get("unit", ""),
+            table,
+            raw["description"].replace("{emergencies}", codes.emergencies),
+            raw.get("from", raw["name"]),
+            raw.get("wraps", False),
+            tuple(raw.get("saturated_by", [])),
             raw.get("unknown_beyond", False),
         )
         if kind not in ("value", "number", "f32") or (kind == "f32" and signal.bits != 32):

@@ -86,9 +86,7 @@ def growing(effect: Effect, limb: LimbModel) -> Iterator[dict[str, float]]:
             key.name: 1e9 / 3.0**fall if key in endless else limb.number(key.name) + number.scale * 3.0**power
             for key, number in numbers.items()
         }
-        yield {
-            key.name: min(max(values[key.name], key.low), key.high) for key in numbers
-        }
+        yield {key.name: min(max(values[key.name], key.low), key.high) for key in numbers}
 
 
 def with_effect(effect: Effect) -> LimbModel:

@@ -20,9 +20,17 @@ SUITES = ("test_app_warmth", "test_generated", "test_can_process_data", "test_ca
           "test_parameters", "test_code_names", "test_wires")  # fmt: skip
 LEFT_BEHIND = ("build", ".git", ".venv", ".cache", "__pycache__", ".pytest_cache", ".mypy_cache", "*.egg-info")
 NEEDED = ("firmware", "hal/include", "hal/fake", "tools/interface", "tools/brace", "tests/unit", "docs", "host_sim/api")
-INCLUDES = ("firmware/core/include", "firmware/interface/include", "firmware/interface/generated",
-            "firmware/app/include", "firmware/app/src", "firmware/store/include", "hal/include", "hal/fake/include",
-            "tests/unit/bench")
+INCLUDES = (
+    "firmware/core/include",
+    "firmware/interface/include",
+    "firmware/interface/generated",
+    "firmware/app/include",
+    "firmware/app/src",
+    "firmware/store/include",
+    "hal/include",
+    "hal/fake/include",
+    "tests/unit/bench",
+)
 LONG_S = 1500.0  # for a build on a busy machine: nobody waits for ever
 
 
@@ -87,7 +95,9 @@ def faults_without(project: Path, unity: str) -> str:
     listed = (project / "firmware/interface/generated/brace/answering.h").read_text()
     if answer.is_file() and "throw_away" not in listed:
         missing.append("no request throw_away")
-    if "| 16 | `TOO_WARM` |" not in (project / "docs/errors.md").read_text():  # as tests/tools/interface/test_errors_page.py
+    if (
+        "| 16 | `TOO_WARM` |" not in (project / "docs/errors.md").read_text()
+    ):  # as tests/tools/interface/test_errors_page.py
         missing.append("no row in errors.md")
     if "1, /* warmth */" not in (project / "tests/unit/interface/test_generated.c").read_text():
         missing.append("no count of the new frame")

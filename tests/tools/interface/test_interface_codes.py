@@ -125,7 +125,11 @@ def test_a_code_that_is_not_there_is_refused(tmp_path: Path) -> None:
     [
         ('name = "part"\nbits = 8', 'name = "part"\nbits = 2', "0 to 3"),
         ('name = "part"\nbits = 8', 'name = "place"\nbits = 8', "one signal named 'part'"),
-        ('name = "play_coxa"\nbits = 4', 'name = "sequence"\nbits = 4', "sequence: every frame of details has a signal"),
+        (
+            'name = "play_coxa"\nbits = 4',
+            'name = "sequence"\nbits = 4',
+            "sequence: every frame of details has a signal",
+        ),
         ('name = "load_across"', 'name = "load"', "load: two groups of details have this name"),
         ('name = "stiffness_b"', 'name = "stiffness_a"', "stiffness_a: two frames have this name"),
         ("number = 17", "number = 16", "space_1: 16 is that of space_0; .*the first that is free is 1"),
@@ -140,8 +144,11 @@ def test_a_code_that_is_not_there_is_refused(tmp_path: Path) -> None:
         ("id = 0x200", "id = 0x201", "no multiple of 0x80"),
         ('rate = "controller.stiffness_hz"', 'rate = "motor.stiffness_hz"', "rate"),
         ("by_hand = true", "", "emergency: it has neither a rate nor by_hand = true"),
-        ('rate = "controller.heartbeat_hz"\nby_hand = true', 'rate = "controller.heartbeat_hz"',
-         "heartbeat: what goes out at a rate has the signal 'sequence'"),  # fmt: skip
+        (
+            'rate = "controller.heartbeat_hz"\nby_hand = true',
+            'rate = "controller.heartbeat_hz"',
+            "heartbeat: what goes out at a rate has the signal 'sequence'",
+        ),  # fmt: skip
         ('name = "sequence"', 'name = "number"', "stiffness_a: what goes out at a rate has the signal 'sequence'"),
         ("wraps = true\n", "", "stiffness_a.sequence: .*stand still"),
         ('name = "sequence"\nbits = 8', 'name = "sequence"\nbits = 6', "stiffness_a.sequence: .*at least 8"),
@@ -232,8 +239,10 @@ def test_ranges_in_c_are_those_of_the_dictionary() -> None:
         name: known.get(value, None) if value in known else float(value.rstrip("fu"))
         for name, value in re.findall(r"^#define (BRACE_RANGE_\w+) (\S+)$", text, re.M)
     }
-    stems = {struct.type: struct.type.removeprefix("brace_").removesuffix("_t").upper()
-             for struct in load(DICTIONARY).structs}
+    stems = {
+        struct.type: struct.type.removeprefix("brace_").removesuffix("_t").upper()
+        for struct in load(DICTIONARY).structs
+    }
     bounds = {parameter.key: (parameter.low, parameter.high) for parameter in PARAMETERS}
     seen = 0
     for struct in load(DICTIONARY).structs:
