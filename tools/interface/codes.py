@@ -12,6 +12,7 @@ from interface.dictionary import DictionaryError
 
 _TABLE_KEYS = {"name", "description", "constant", "type", "header", "prefix", "values"}
 _VALUE_KEYS = {"name", "number", "text", "c", "emergency"}
+EMERGENCIES = 0x10000  # codes below this
 BYTE = 256  # a negative number of an enum stands as this plus it in an unsigned value
 
 
@@ -118,12 +119,17 @@ def _table(raw: Mapping[str, Any], is_bits: bool) -> Table:
             raise DictionaryError(f"{where}: bits are counted from 0 to 31, in their order")
         if not -BYTE // 2 < number < BYTE // 2:
             raise DictionaryError(f"{where}: {number} does not fit into 8 bits")
+        emergency = value.get("emergency")
+        if emergency is not None and (not isinstance(emergency, int) or not 0 < emergency < EMERGENCIES):
+            raise DictionaryError(
+                f"{where}: its emergency is no number from 0x0001 to {EMERGENCIES - 1:#x}; 16 bits hold it"
+            )
         prefix = raw.get("constant", raw.get("prefix"))
         constant = value.get("c", "" if prefix is None else prefix + value["name"])
-        codes.append(Code(number, value["name"], value["text"], constant, value.get("emergency")))
-    with_emergency = [code for code in codes if code.emergency is not None]
-    if with_emergency and len(with_emergency) != len(codes):
-        raise DictionaryError(f"{name}: either every value has an emergency, or none")
+        codes.append(Code(number, value["name"], value["text"], constant, emergency))
+    lacking = [code.name for code in codes if code.emergency is None]
+    if len(lacking) not in (0, len(codes)):
+        raise DictionaryError(f"{name}: {', '.join(lacking)} lacks an emergency; either every value has one, or none")
     _refuse_twice((code.number for code in codes), f"{name}: two values")
     _refuse_twice((code.name for code in codes), f"{name}: two values")
     return Table(name, raw["description"], is_bits, raw.get("type", ""), header, tuple(codes))

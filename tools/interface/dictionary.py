@@ -233,6 +233,8 @@ def _check(entry: Entry) -> None:
         raise refuse(fault)
     if entry.type == "f32" and (entry.texts or entry.numbers):
         raise refuse("choices are for u32")
+    if entry.low > entry.high:
+        raise refuse(f"its range [{entry.low}, {entry.high}] has the greatest first; write the least first")
     if entry.type == "u32" and not all(
         isinstance(bound, int) and 0 <= bound < 1 << 32 for bound in (entry.low, entry.high)
     ):

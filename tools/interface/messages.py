@@ -318,6 +318,7 @@ def load_wire(path: Path, codes: Codes) -> Wire:
         1,
         REFUSED,
     )
+    _refuse_fd_alone(multiplexed)
     for message in multiplexed:
         _refuse_numbers(
             f"numbers of the parts of {message.name}",
@@ -424,6 +425,21 @@ def _refuse_twice_in_dbc(message: Multiplexed) -> None:
                         f"{frame.name}.{signal.name}: the database calls it {name}, as it does that of {used[name]}"
                     )
                 used[name] = frame.name
+
+
+def _refuse_fd_alone(multiplexed: Sequence[Multiplexed]) -> None:
+    """A group of CAN FD that is not one of classic CAN once more: whoever has classic CAN would never get it."""
+    classic = [message for message in multiplexed if not message.is_fd]
+    names = {f"{group.name}_fd" for message in classic for group in message.groups}
+    for message in multiplexed:
+        for group in message.groups:
+            if message.is_fd and group.name not in names:
+                whole = group.name.removesuffix("_fd")
+                raise DictionaryError(
+                    f"{group.name}: it stands in {message.name}, which is CAN FD alone; put the group "
+                    f"{whole} into {' or '.join(one.name for one in classic)}, and call it {whole}_fd "
+                    "here, if it is to stand here too"
+                )
 
 
 def _refuse_identifiers(wire: Wire) -> None:
@@ -533,6 +549,7 @@ def _signals(
     raws: Sequence[Mapping[str, Any]], start: int, where: str, codes: Codes, room: int = FRAME_BITS
 ) -> tuple[Signal, ...]:
     signals: list[Signal] = []
+    first = start
     for raw in raws:
         at = f"{where}.{raw.get('name')}"
         check_keys(raw, *_KEYS["signal"], at)
@@ -582,5 +599,5 @@ def _signals(
         signals.append(signal)
         start += signal.bits
     if start > room:
-        raise DictionaryError(f"{where}: {start} bits do not go into {room}")
+        raise DictionaryError(f"{where}: its signals have {start - first} bits, its frame has room for {room - first}")
     return tuple(signals)

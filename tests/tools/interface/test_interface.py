@@ -147,3 +147,10 @@ def test_a_bad_dictionary_is_refused(before: str, after: str, tmp_path: Path) ->
     path.write_text(text.replace(before, after, 1))
     with pytest.raises((DictionaryError, KeyError)):
         load(path)
+
+
+def test_a_range_with_the_greatest_first_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "dictionary.toml"
+    path.write_text(DICTIONARY.read_text().replace("range = [0.0, 1e4]", "range = [1e4, 0.0]", 1))
+    with pytest.raises(DictionaryError, match=r"its range \[10000.0, 0.0\] has the greatest first"):
+        load(path)

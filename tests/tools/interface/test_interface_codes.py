@@ -88,6 +88,22 @@ def test_names_of_codes_stand_in_the_dictionary_alone(source: str) -> None:
 
 
 @pytest.mark.parametrize(
+    ("before", "after", "why"),
+    [
+        ("emergency = 0x6100", "emergency = 0x16100", "fault.TICK_LATE: its emergency is no number from 0x0001"),
+        ("emergency = 0x6100", "emergency = 0", "fault.TICK_LATE: its emergency is no number"),
+        ("emergency = 0x6100", 'emergency = "0x6100"', "fault.TICK_LATE: its emergency is no number"),
+        ('"TICK_LATE", emergency = 0x6100,', '"TICK_LATE",', "fault: TICK_LATE lacks an emergency"),
+    ],
+)
+def test_a_bad_emergency_is_refused(before: str, after: str, why: str, tmp_path: Path) -> None:
+    path = tmp_path / "dictionary.toml"
+    path.write_text(DICTIONARY.read_text().replace(before, after, 1))
+    with pytest.raises(DictionaryError, match=why):
+        load_codes(path)
+
+
+@pytest.mark.parametrize(
     ("before", "after"),
     [
         ('{name = "MONITOR", text', '{name = "START", text'),
@@ -135,6 +151,13 @@ def test_a_code_that_is_not_there_is_refused(tmp_path: Path) -> None:
         ("number = 17", "number = 16", "space_1: 16 is that of space_0; .*the first that is free is 1"),
         ("number = 16", "number = 256", "space_0: 256 does not fit"),
         ('name = "k_xz"\nfrom', 'name = "k_xx"\nfrom', "space_1.k_xx: the database calls it space_k_xx"),
+        (
+            "number = 16\n",
+            'number = 16\n[[multiplexed.group.part.signal]]\nname = "more"\nbits = 14\ndescription = "it"\n',
+            "space_0: its signals have 62 bits, its frame has room for 48",
+        ),  # fmt: skip
+        ('name = "load_fd"', 'name = "warmth"', "warmth: .* put the group warmth into details, and call it warmth_fd"),
+        ('name = "load_fd"', 'name = "warmth_fd"', "warmth_fd: .* put the group warmth into details"),
         ("code = 2\n", "code = 1\n", "write_entry: 1 is that of read_entry; codes of requests"),
         ("code = 2\n", "code = 0\n", "write_entry: 0 does not fit: codes of requests are 1 to 255"),
         ("number = 2\n", "number = 1\n", "write_entry_answer_0: 1 is that of read_entry_answer_0; numbers of answers"),
