@@ -1,6 +1,6 @@
 """The effect of docs/adding.md, done for real: joints that yield more with the square of the temperature are added to a
-copy of the project, in four files written by hand. The copy's simulator shows it as its law says, the copy's own suite
-of all numbers passes, and without any one of the steps something fails."""
+copy of the project, in four files written by hand and a test. The copy's simulator shows it as its law says, the copy's
+own suite of all numbers passes, and without any one of the steps something fails."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ import pytest
 from adding_page import PROJECT, Step, steps
 
 STEPS = steps("Adding an effect")
-MOST_FILES = 4
+MOST_FILES = 5
 LEFT_BEHIND = ("build", ".git", ".venv", ".cache", "__pycache__", ".pytest_cache", ".mypy_cache")
 LONG_S = 1500.0  # for a build on a busy machine: nobody waits for ever
 COPY_FIRST = Path(__file__).resolve().parent / "copy_first"
@@ -76,6 +76,13 @@ def objects(folder: Path, changed: set[str]) -> list[Path]:
     return [*parts, stand_in(ours / LEFT_OUT, folder / "build")]
 
 
+def unity_root() -> str:
+    """The folder of unity.c that the project's own build has found."""
+    lines = (PROJECT / "build/host/CMakeCache.txt").read_text().splitlines()
+    (found,) = [line.partition("=")[2] for line in lines if line.startswith("UNITY_ROOT")]
+    return found
+
+
 @dataclass(frozen=True)
 class Extended:
     """A copy of the project with the effect in it, and the files there that the generator wrote anew."""
@@ -104,7 +111,7 @@ def extended(tmp_path_factory: pytest.TempPathFactory) -> Extended:
 
 
 @pytest.mark.minutes
-def test_four_files_are_written_and_the_rest_is_generated(extended: Extended) -> None:
+def test_five_files_are_written_and_the_rest_is_generated(extended: Extended) -> None:
     before, after = files_of(PROJECT), files_of(extended.folder)
     touched = {name for name in after if after[name] != before.get(name)}
     written = {step.file for step in STEPS}
@@ -115,8 +122,7 @@ def test_four_files_are_written_and_the_rest_is_generated(extended: Extended) ->
 @pytest.mark.minutes
 def test_the_suite_of_all_numbers_plays_the_new_one(extended: Extended, tmp_path: Path) -> None:
     """The same suite that the project has: it reads the numbers from the generated table."""
-    (unity,) = [line.partition("=")[2] for line in (PROJECT / "build/host/CMakeCache.txt").read_text().splitlines()
-                if line.startswith("UNITY_ROOT")]  # fmt: skip
+    unity = unity_root()
     (eigen,) = [flag for flag in ("/usr/include/eigen3", "/usr/local/include/eigen3") if Path(flag).is_dir()][:1]
     suite = extended.folder / "tests/host_sim/test_every_number.cpp"
     run(["cc", "-c", "-DUNITY_INCLUDE_DOUBLE", f"{unity}/unity.c", "-o", str(tmp_path / "unity.o")], tmp_path)
@@ -164,36 +170,56 @@ def test_the_catalogue_has_its_row(extended: Extended) -> None:
     assert "## thermal_curve" in listed and "`thermal.joint_compliance_per_degc2`: -0.1 to 0.1 1/degC^2" in listed
 
 
-# Asks the limb as the plant does: does its number change a joint?
-PROBE = """
-#include "effects/limb_now.h"
-int main()
-{
-    brace::effects::Model model{};
-    model.joint[1].compliance_rad_per_n_mm = 1.0;
-    model.thermal.joint_compliance_per_degc2 = 0.01;
-    const double now = brace::effects::joint_now(model, {0.0, 10.0}, 1).compliance_rad_per_n_mm;
-    return now > 1.99 && now < 2.01 ? 0 : 1;
-}
-"""
-
-
 def name_of(step: Step | None) -> str:
     return f"{Path(step.file).name}-{step.line[:9]}" if step else "nothing"
 
 
-@pytest.mark.parametrize("left_out", [None, *STEPS], ids=name_of)
-def test_without_a_step_something_fails(left_out: Step | None, tmp_path: Path) -> None:
+@pytest.fixture(scope="module")
+def unity(tmp_path_factory: pytest.TempPathFactory) -> list[str]:
+    """What a test of C++ is compiled with."""
+    folder, built = unity_root(), tmp_path_factory.mktemp("unity") / "unity.o"
+    run(["cc", "-c", "-DUNITY_INCLUDE_DOUBLE", f"{folder}/unity.c", "-o", str(built)], built.parent)
+    return ["-DUNITY_INCLUDE_DOUBLE", f"-I{folder}", str(built)]
+
+
+def part_of_project(folder: Path, left_out: Step | None = None) -> Path:
+    """What the law and its test need, with the effect in it but for one step."""
     for name in ("firmware/core", "firmware/interface", "host_sim", "tools/interface", "tools/brace", "docs"):
-        shutil.copytree(PROJECT / name, tmp_path / name, ignore=shutil.ignore_patterns("__pycache__"))
+        shutil.copytree(PROJECT / name, folder / name, ignore=shutil.ignore_patterns("__pycache__"))
+    (folder / "tests/host_sim").mkdir(parents=True)
     for step in STEPS:
         if step is not left_out:
-            step.do(tmp_path)
-    run([sys.executable, "-m", "interface"], tmp_path / "tools")
-    (tmp_path / "probe.cpp").write_text(PROBE)
-    compiled = subprocess.run(["c++", "-std=c++17", "-Ihost_sim", "probe.cpp", "-o", "probe"], cwd=tmp_path,
-                              capture_output=True, check=False, timeout=LONG_S)  # fmt: skip
-    acts = compiled.returncode == 0 and subprocess.run(tmp_path / "probe", check=False, timeout=60).returncode == 0
+            step.do(folder)
+    run([sys.executable, "-m", "interface"], folder / "tools")
+    return folder
+
+
+def its_test_passes(project: Path, unity: list[str]) -> bool:
+    """Is the page's own test of the law there, and does it pass?"""
+    compiled = subprocess.run(["c++", "-std=c++17", "-Ihost_sim", "tests/host_sim/test_thermal_curve.cpp", *unity, "-o",
+                               "of_law"], cwd=project, capture_output=True, check=False, timeout=LONG_S)  # fmt: skip
+    return compiled.returncode == 0 and subprocess.run(project / "of_law", check=False, timeout=60).returncode == 0
+
+
+@pytest.mark.parametrize("left_out", [None, *STEPS], ids=name_of)
+def test_without_a_step_something_fails(left_out: Step | None, tmp_path: Path, unity: list[str]) -> None:
+    project = part_of_project(tmp_path, left_out)
     # As tests/tools/effects/test_effects_page.py: every law has its row.
-    row = 'Effect(\n        "thermal_curve"' in (tmp_path / "tools/brace/effects/catalogue.py").read_text()
-    assert (acts and row) == (left_out is None)
+    row = 'Effect(\n        "thermal_curve"' in (project / "tools/brace/effects/catalogue.py").read_text()
+    assert (its_test_passes(project, unity) and row) == (left_out is None)
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong"),
+    [
+        ("* warmer_degc * warmer_degc", "* warmer_degc"),
+        (" - model.thermal.reference_degc", ""),
+        ("*= std::max", "/= std::max"),
+        ("1.0 + model", "1.0 - model"),
+    ],
+)
+def test_its_test_fails_for_a_wrong_law(right: str, wrong: str, tmp_path: Path, unity: list[str]) -> None:
+    law = part_of_project(tmp_path) / "host_sim/effects/thermal_curve.h"
+    assert law.read_text().count(right) == 1
+    law.write_text(law.read_text().replace(right, wrong))
+    assert not its_test_passes(tmp_path, unity)

@@ -143,11 +143,29 @@ def test_the_head_names_the_numbers_that_the_row_turns(effect: Effect) -> None:
     assert not left_out, f"{at}, and its row in effects/catalogue.py turns {', '.join(left_out)} too"
 
 
+def law_of(effect: Effect) -> str:
+    """The text of its header behind the head, without remarks."""
+    return re.sub(r"//.*", "", (HEADERS / f"{effect.name}.h").read_text().partition("#pragma once")[2])
+
+
+def not_in(law: str, read: list[str]) -> list[str]:
+    """Those that a head names, and no number of whose kind the law's text has."""
+    leaves = {one: {key.rpartition(".")[2] for key in fnmatch.filter(KEY_BY_NAME, one)} for one in read}
+    return [one for one in read if not any(re.search(rf"\b{leaf}", law) for leaf in leaves[one])]
+
+
 @pytest.mark.parametrize("effect", LAWS)
 def test_the_head_names_the_numbers_that_the_law_reads(effect: Effect) -> None:
     read, _ = head_of(effect)
-    law = (HEADERS / f"{effect.name}.h").read_text().partition("#pragma once")[2]
+    law = law_of(effect)
+    at = f"host_sim/effects/{effect.name}.h: its head says 'Reads {', '.join(read)}'"
     used = [f"{table}.{number}" for table, number in re.findall(r"\bmodel\.(\w+)\.(\w+)", law)]
     left_out = {key for key in used if key in KEY_BY_NAME and not any(fnmatch.fnmatch(key, one) for one in read)}
-    assert not left_out, f"host_sim/effects/{effect.name}.h: its head says 'Reads {', '.join(read)}', and its law reads " \
-        f"{', '.join(sorted(left_out))} too"  # fmt: skip
+    assert not left_out, f"{at}, and its law reads {', '.join(sorted(left_out))} too"
+    assert not not_in(law, read), f"{at}, and its law does not have {', '.join(not_in(law, read))}"
+
+
+def test_a_head_that_names_too_much_is_seen() -> None:
+    (effect,) = [effect for effect in EFFECTS if effect.name == "creep"]
+    read, _ = head_of(effect)
+    assert not_in(law_of(effect), [*read, "gravity.knee_n", "joint.*.gap_rad"]) == ["gravity.knee_n", "joint.*.gap_rad"]
