@@ -77,6 +77,10 @@ def test_the_copy_s_own_suites_pass(tmp_path: Path, unity: str) -> None:
     done(["ninja", "-C", str(build), *(f"tests/{suite}" for suite in SUITES)], project)
     for suite in SUITES:
         done([str(build / "tests" / suite)], project)
+    counted = project / "tests/unit/interface/test_generated.c"  # without the new frame in its list, it names the list
+    counted.write_text(counted.read_text().replace("1, /* warmth */", ""))
+    done(["ninja", "-C", str(build), "tests/test_generated"], project)
+    assert "frames_of_details" in run([str(build / "tests" / "test_generated")], project).stdout
 
 
 def faults_without(project: Path, unity: str) -> str:

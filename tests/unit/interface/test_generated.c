@@ -75,8 +75,10 @@ static void test_every_message_has_a_rate_of_the_controller(void)
         details += message[i].id == (uint32_t)BRACE_CAN_ID_DETAILS;
         of_coxa += message[i].needs_coxa;
     }
-    TEST_ASSERT_EQUAL(wanted, details);
-    TEST_ASSERT_EQUAL(7 + 2 + 4 + 2, of_coxa);
+    TEST_ASSERT_EQUAL_MESSAGE(wanted, details,
+                              "frames of details: the list frames_of_details of this file says how "
+                              "many parts each group of messages.toml has");
+    TEST_ASSERT_EQUAL_MESSAGE(7 + 2 + 4 + 2, of_coxa, "parts of the groups of messages.toml that have coxa = true");
     TEST_ASSERT_EQUAL_HEX32(BRACE_CAN_ID_DETAILS_FD, whole[1].id);
     TEST_ASSERT_EQUAL(offsetof(brace_controller_t, stiffness_hz), whole[1].rate);
     TEST_ASSERT_TRUE(whole[1].needs_coxa && !whole[0].needs_coxa);
