@@ -69,11 +69,11 @@ def git(*arguments: str) -> str:
 
 
 def base() -> str:
-    """The commit to compare with: where this branch left main; where origin/main did, if all of it is on main; or the
-    last commit."""
+    """The commit to compare with: the nearest one at which this branch left main or origin/main, as main itself does
+    with commits of its own; or the last commit."""
     last = git("rev-parse", "HEAD").strip()
-    left = (git("merge-base", "HEAD", main).strip() for main in ("main", "origin/main"))
-    return next((commit for commit in left if commit not in ("", last)), "HEAD")
+    left = {git("merge-base", "HEAD", main).strip() for main in ("main", "origin/main")} - {"", last}
+    return git("merge-base", "--independent", *left).split()[0] if left else "HEAD"
 
 
 def changed_files(since: str) -> list[Path]:

@@ -28,20 +28,30 @@ def test_a_generated_file_may_have_long_lines(tmp_path: Path, monkeypatch: pytes
 
 
 @pytest.mark.parametrize(
-    ("bases", "wanted"),
+    ("main", "origin", "wanted"),
     [
-        ({"main": "left"}, "left"),  # on a branch
-        ({"main": "last", "origin/main": "behind"}, "behind"),  # on main, with commits of its own
-        ({"main": "last", "origin/main": "last"}, "HEAD"),
-        ({"main": "last"}, "HEAD"),
-        ({}, "HEAD"),
+        (1, None, 1),  # on a branch that left main at commit 1
+        (1, 0, 1),
+        (0, 1, 1),  # main here is old
+        (2, 1, 1),  # on main, with a commit of its own
+        (2, 2, None),
+        (2, None, None),
     ],
 )
 def test_what_differs_is_told_from_where_the_branch_left(
-    bases: dict[str, str], wanted: str, monkeypatch: pytest.MonkeyPatch
+    main: int, origin: int | None, wanted: int | None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(check, "git", lambda *asked: bases.get(asked[-1], "") if asked[0] == "merge-base" else "last\n")
-    assert check.base() == wanted
+    monkeypatch.setattr(check, "ROOT", tmp_path)
+    check.git("init", "-q", "-b", "work")
+    author = ("-c", "user.name=a", "-c", "user.email=a@example.org")
+    commits = []
+    for _ in range(3):
+        check.git(*author, "commit", "-q", "--allow-empty", "-m", "one")
+        commits.append(check.git("rev-parse", "HEAD").strip())
+    check.git("update-ref", "refs/heads/main", commits[main])
+    if origin is not None:
+        check.git("update-ref", "refs/remotes/origin/main", commits[origin])
+    assert check.base() == ("HEAD" if wanted is None else commits[wanted])
 
 
 def test_where_nothing_differs_nobody_is_told_that_all_is_well() -> None:
