@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from brace.stance.limb_law import JOINTS
+from brace.stance.setpoints import Begun, largest_margin, moved, wanted_forces
 from brace.stance.stance_file import Stance, load_stance
 from brace.stance.statics import SLIDES, State
 from brace.stance.world import Measured, NoStanceError, Standing, World, believed, drawn
@@ -74,3 +75,20 @@ def test_the_first_slip_lies_where_the_loaded_feet_say() -> None:
         margins = [statics.margin_n(i, one) for i, one in enumerate(before.force_n)]
         assert not any(before.contact) and int(np.argmin(margins)) == limb
         assert margins[limb] < 0.06 * factor * float(np.linalg.norm(force)) + 0.05
+
+
+def test_set_points_are_sought_across_the_play() -> None:
+    """A law made linear where the body stands does not see a joint cross its play on the way."""
+    begun = Begun(_with_play(0.006))
+    chance, lacks_n = np.random.default_rng(6), []
+    for _ in range(6):
+        made = moved(begun, chance.uniform(-1.0, 1.0, (4, 3)), draws=0)
+        found = wanted_forces(begun, made.after_n, 3.0)
+        lacks_n.append(float(np.abs(found.after_n - made.after_n).max()))
+    assert np.max(lacks_n) < 0.3, lacks_n
+
+
+def test_set_points_for_the_margin_make_none_smaller() -> None:
+    for gap_rad in (0.002, 0.006, 0.02):
+        found = largest_margin(Begun(_with_play(gap_rad)), 3.0)
+        assert min(found.margin_after_n) > min(found.margin_before_n) + 0.5

@@ -3,6 +3,7 @@ the body comes back to where it is without load."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -12,7 +13,7 @@ from brace.model.travel import travel_rad
 from brace.stance.draws import DRAWS, before_payload, span
 from brace.stance.limb_law import JOINTS, LimbLaw
 from brace.stance.stance_file import Limb, Stance
-from brace.stance.statics import LET_GO, OPEN, State
+from brace.stance.statics import LET_GO, OPEN, State, Statics
 from brace.stance.world import Measured, NoStanceError, World, believed, carrying
 
 _CUTS_MOST = 40
@@ -20,6 +21,9 @@ _CUT_N = 1e-4  # a cone's side is met so closely
 _KEPT_RATIO = 0.995  # of the best smallest margin: the rest buys shorter ways
 _LEAST_GAIN_N_PER_MM = 0.02  # a way that gains less is not worth it: moved together, tips change no force
 _ROUNDS = 6
+_STEPS_MOST = 6
+_SHARES = (1.0, 0.5, 0.25, 0.125)
+_ENOUGH_RATIO = 0.005  # a step that gains less is the last
 
 
 @dataclass(frozen=True)
@@ -89,36 +93,42 @@ class SetPoints:
 def largest_margin(begun: Begun, travel_mm: float) -> SetPoints:
     """The largest smallest margin of all feet that bear, each component of a way within travel_mm; of such ways the
     shortest. Raises NoStanceError."""
-    world, state = begun.under_load()
-    force, stiffness = _linear(world, state)
-    return _executed(begun.stance, world, state, _widest(begun.stance, state, force, stiffness, travel_mm))
+    return _sought(
+        begun,
+        lambda state, force, stiffness: _widest(begun.stance, state, force, stiffness, travel_mm),
+        lambda statics, state: min(
+            statics.margin_n(i, force)
+            for i, (force, contact) in enumerate(zip(state.force_n, state.contact, strict=True))
+            if contact not in (OPEN, LET_GO)
+        ),
+    )
 
 
 def wanted_forces(begun: Begun, wanted_n: np.ndarray, travel_mm: float) -> SetPoints:
     """Forces as near to the wanted ones as weight and payload allow (a row a limb). Raises NoStanceError."""
-    world, state = begun.under_load()
-    force, stiffness = _linear(world, state)
-    lack = force - wanted_n.ravel()
-    rows = np.vstack([stiffness, _LEAST_GAIN_N_PER_MM * np.eye(lack.size)])
-    found = lsq_linear(rows, np.concatenate([lack, np.zeros(lack.size)]), (-travel_mm, travel_mm))
-    return _executed(begun.stance, world, state, found.x.reshape(-1, 3))
+
+    def nearest(_: State, force: np.ndarray, stiffness: np.ndarray) -> np.ndarray:
+        lack = force - wanted_n.ravel()
+        rows = np.vstack([stiffness, _LEAST_GAIN_N_PER_MM * np.eye(lack.size)])
+        found = lsq_linear(rows, np.concatenate([lack, np.zeros(lack.size)]), (-travel_mm, travel_mm))
+        return np.asarray(found.x.reshape(-1, 3))
+
+    return _sought(begun, nearest, lambda _, state: -float(np.linalg.norm(state.force_n - wanted_n)))
 
 
 def least_sag(begun: Begun) -> SetPoints:
     """The body back to where it is without load: all tips move as the body has sagged, which changes no force. Raises
     NoStanceError."""
     world, state = begun.under_load()
-    way = np.array(
-        [state.displacement_mm + np.cross(state.rotation_rad, law.tip_mm) for law in world.laws]
-    )
-    return _executed(begun.stance, world, state, way)
+    way = np.array([state.displacement_mm + np.cross(state.rotation_rad, law.tip_mm) for law in world.laws])
+    return _said(begun.stance, world, state, _execute(begun.stance, world, state, way))
 
 
 def moved(begun: Begun, way_mm: np.ndarray, draws: int = DRAWS) -> SetPoints:
     """Ways that are given (a row a limb). Forces and what changes are what is believed, or the draws' median, with
     intervals, as in `answer`. Raises NoStanceError."""
     world, state = begun.under_load()
-    said = _executed(begun.stance, world, state, way_mm)
+    said = _said(begun.stance, world, state, _execute(begun.stance, world, state, way_mm))
     standings, is_median = before_payload(begun.stance, begun.measured, draws, begun.with_payload)
     found: list[tuple[np.ndarray, np.ndarray]] = []
     for standing in standings:
@@ -147,15 +157,42 @@ def moved(begun: Begun, way_mm: np.ndarray, draws: int = DRAWS) -> SetPoints:
     )
 
 
+Ways = Callable[[State, np.ndarray, np.ndarray], np.ndarray]  # of state, forces before any way, and how they change
+Worth = Callable[[Statics, State], float]
+
+
+def _sought(begun: Begun, ways: Ways, worth: Worth) -> SetPoints:
+    """Ways by the law made linear, executed in the whole law, in which joints cross their play and feet slide, and sought
+    again from where that leads. A step that makes things worse is halved; one that stays so is not made."""
+    world, state = begun.under_load()
+    at = _execute(begun.stance, world, state, np.zeros((len(begun.stance.limbs), 3)))
+    found, best = at, worth(at.statics, at.state)
+    for _ in range(_STEPS_MOST):
+        force, stiffness = _linear(at.world, at.state)
+        step = ways(at.state, force + stiffness @ at.way_mm.ravel(), stiffness) - at.way_mm
+        for share in _SHARES:
+            try:
+                at = _execute(begun.stance, world, state, found.way_mm + share * step)
+            except NoStanceError:
+                continue
+            if (value := worth(at.statics, at.state)) > best:
+                break
+        else:
+            break
+        is_done = value - best < _ENOUGH_RATIO * abs(value)
+        found, best = at, value
+        if is_done:
+            break
+    return _said(begun.stance, world, state, found)
+
+
 def _linear(world: World, state: State) -> tuple[np.ndarray, np.ndarray]:
     """Forces (3 n) and how they change with the feet's places; a set-point that moves is a place that moves back."""
     statics = world.statics_at(state)
     return statics.linear(state, [*world.weight, world.payload])
 
 
-def _widest(
-    stance: Stance, state: State, force_n: np.ndarray, stiffness: np.ndarray, travel_mm: float
-) -> np.ndarray:
+def _widest(stance: Stance, state: State, force_n: np.ndarray, stiffness: np.ndarray, travel_mm: float) -> np.ndarray:
     """A linear programme in ways and the smallest margin; a cone is cut by planes where the solution leaves it."""
     size = force_n.size
     bearing = [i for i, contact in enumerate(state.contact) if contact not in (OPEN, LET_GO)]
@@ -213,26 +250,42 @@ def _along(limb: Limb, force_n: np.ndarray) -> np.ndarray:
     return np.asarray(aside / np.linalg.norm(aside))
 
 
-def _executed(stance: Stance, world: World, state: State, way_mm: np.ndarray) -> SetPoints:
-    """What the whole law says of the moved set-points: tips where they then are, feet where they stand."""
+@dataclass(frozen=True)
+class _Executed:
+    """Set-points that have moved. The world's weight has the payload in it."""
+
+    limbs: tuple[Limb, ...]
+    way_mm: np.ndarray
+    shift_mm: np.ndarray  # of the tips without load
+    world: World
+    statics: Statics
+    state: State
+
+
+def _execute(stance: Stance, world: World, state: State, way_mm: np.ndarray) -> _Executed:
+    """What the whole law says: tips where they then are, feet where they stand. Raises NoStanceError."""
     limbs = tuple(_moved(limb, law, way) for limb, law, way in zip(stance.limbs, world.laws, way_mm, strict=True))
     after = believed(replace(stance, limbs=limbs))
     shift = np.array([new.tip_mm - old.tip_mm for new, old in zip(after.laws, world.laws, strict=True)])
-    after = replace(after, offset_mm=state.place_mm - shift, weight=(*after.weight, after.payload))
+    after = carrying(replace(after, offset_mm=state.place_mm - shift))
     standing = after.stand(near_n=state.force_n)
-    before, found = world.statics_at(state), standing.state
+    return _Executed(limbs, way_mm, shift, after, standing.statics, standing.state)
+
+
+def _said(stance: Stance, world: World, state: State, moved: _Executed) -> SetPoints:
+    before, after = world.statics_at(state), moved.state
     return SetPoints(
         stance,
-        np.array([limb.theta_rad for limb in limbs]),
-        way_mm,
-        world.offset_mm - shift,
+        np.array([limb.theta_rad for limb in moved.limbs]),
+        moved.way_mm,
+        world.offset_mm - moved.shift_mm,
         state.force_n,
-        found.force_n,
+        after.force_n,
         [before.margin_n(i, force) for i, force in enumerate(state.force_n)],
-        [standing.statics.margin_n(i, force) for i, force in enumerate(found.force_n)],
-        found.displacement_mm,
-        [f"{limb.name}, {joint}" for limb in limbs for joint in _beyond(limb)],
-        found.force_n - state.force_n,
+        [moved.statics.margin_n(i, force) for i, force in enumerate(after.force_n)],
+        after.displacement_mm,
+        [f"{limb.name}, {joint}" for limb in moved.limbs for joint in _beyond(limb)],
+        after.force_n - state.force_n,
     )
 
 
