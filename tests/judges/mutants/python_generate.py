@@ -26,35 +26,32 @@ GIVEN = {*dir(builtins), "min", "max"}  # a mutant may name these where its file
 DANGEROUS = re.compile(r"\b(unlink|rmtree|rmdir|kill|killpg|send_signal)\(")
 
 
+def is_text(node: ast.AST) -> bool:
+    """Is it a statement that is a string and no more: a docstring?"""
+    is_constant = isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)
+    return is_constant and isinstance(node.value.value, str)
+
+
 class Bare(ast.NodeTransformer):
     """Takes away what no run shows: annotations and docstrings; is_plain: also the words of messages."""
 
     def __init__(self, is_plain: bool) -> None:
         self.is_plain = is_plain
 
-    def _body(self, node: ast.AST) -> None:
-        body = getattr(node, "body", [])
-        first = body[0] if body else None
-        if isinstance(first, ast.Expr) and isinstance(first.value, ast.Constant) and isinstance(first.value.value, str):
-            first.value.value = ""
-
-    def visit_Module(self, node: ast.Module) -> ast.AST:
-        self._body(node)
-        return self.generic_visit(node)
-
-    def visit_ClassDef(self, node: ast.ClassDef) -> ast.AST:
-        self._body(node)
-        return self.generic_visit(node)
-
-    def visit_FunctionDef(self, node: ast.FunctionDef) -> ast.AST:
-        self._body(node)
-        node.returns = None
-        return self.generic_visit(node)
-
-    def visit_AsyncFunctionDef(self, node: ast.AsyncFunctionDef) -> ast.AST:
-        self._body(node)
-        node.returns = None
-        return self.generic_visit(node)
+    def visit(self, node: ast.AST) -> ast.AST:
+        """Also without each `pass`, so that one in place of a docstring is the same."""
+        body = getattr(node, "body", None)
+        if isinstance(body, list):
+            is_described = isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef)
+            if is_described and body and is_text(body[0]):
+                body = body[1:]
+            at = getattr(node, "lineno", 1)
+            nothing = ast.Pass(lineno=at, col_offset=0, end_lineno=at, end_col_offset=0)
+            node.body = [one for one in body if not isinstance(one, ast.Pass)] or [nothing]  # type: ignore[attr-defined]
+        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
+            node.returns = None
+        found: ast.AST = super().visit(node)
+        return found
 
     def visit_arg(self, node: ast.arg) -> ast.AST:
         node.annotation = None
@@ -114,9 +111,9 @@ def as_it_is(file: str, is_plain: bool) -> tuple[object, ...]:
 
 @cache
 def own_names(file: str) -> set[str]:
-    """Identifiers of a file as it is, also those that it only defines."""
+    """Identifiers of a file as it is, also those that it only defines. Python 3.11 has no tokens within f-strings."""
     tokens = tokenize.generate_tokens(io.StringIO(text_of(file)).readline)
-    return {token.string for token in tokens if token.type == tokenize.NAME} | GIVEN
+    return {token.string for token in tokens if token.type == tokenize.NAME} | names_in(text_of(file)) | GIVEN
 
 
 def with_mutant(mutant: Mutant) -> str:
@@ -134,13 +131,13 @@ def verdict(mutant: Mutant) -> str:
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             compile(text, "mutant", "exec", dont_inherit=True)
-        if bare_code(text, False) == as_it_is(mutant.file, False):
-            return SAME
-        if bare_code(text, True) == as_it_is(mutant.file, True):
-            return TEXT
+        if not names_in(text) <= own_names(mutant.file):
+            return REFUSED
+        if bare_code(text, True) != as_it_is(mutant.file, True):
+            return COUNTS
+        return SAME if bare_code(text, False) == as_it_is(mutant.file, False) else TEXT
     except (SyntaxError, ValueError, Warning):
         return REFUSED
-    return COUNTS if names_in(text) <= own_names(mutant.file) else REFUSED
 
 
 def code_lines(text: str) -> set[int]:

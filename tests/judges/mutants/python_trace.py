@@ -19,6 +19,7 @@ import pytest
 IMPORT = "import"
 CONTEXT = "BRACE_MUTANT_CONTEXT"  # what a child's lines count for
 TIMES = "BRACE_MUTANT_TIMES"  # where the times go
+SETTINGS = "BRACE_MUTANT_SETTINGS"  # coverage's
 MOST = "BRACE_MUTANT_MOST_S"  # no test begins after so long
 
 
@@ -34,9 +35,10 @@ class Trace:
     def __init__(self) -> None:
         import coverage  # type: ignore[import-not-found,unused-ignore]  # here: without it the judge's own tests run
 
-        self.cover = coverage.Coverage(config_file=os.environ["COVERAGE_PROCESS_START"], data_suffix=True)
+        self.cover = coverage.Coverage(config_file=os.environ[SETTINGS], data_suffix=True)
         # A copy of this process that is told to end before it has begun would lose a SIGTERM that Python handles.
         self.cover.set_option("run:sigterm", False)
+        os.environ["COVERAGE_PROCESS_START"] = os.environ[SETTINGS]  # of what the tests start, not of this process
         self.context = ""
         self.began_s = time.monotonic()
         self.shared_s: dict[str, tuple[float, float]] = {}

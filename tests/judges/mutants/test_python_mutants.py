@@ -16,7 +16,7 @@ import python_bench
 import python_generate
 import python_mutants
 from generate import ROOT, Mutant
-from python_lines import Measured, Candidate, environment, inside_functions
+from python_lines import Measured, Candidate, environment, inside_functions, judged_files
 
 FILE = "tools/brace/model/limb.py"
 LINE = "        return float(toml.number(self.values, key))"
@@ -104,6 +104,11 @@ def test_what_no_run_can_tell_apart_does_not_count() -> None:
     assert python_generate.bare_code(said, True) == python_generate.bare_code(other, True)
     said, other = 'x = f"{key:.3f}"', 'x = f"{key:.4f}"'
     assert python_generate.bare_code(said, True) != python_generate.bare_code(other, True)
+
+
+def test_every_file_as_it_is_has_its_own_names_only() -> None:
+    for file in judged_files():
+        assert python_generate.names_in(python_generate.text_of(file)) <= python_generate.own_names(file), file
 
 
 def test_the_body_of_a_function_is_inside_and_its_head_is_not() -> None:
