@@ -58,6 +58,7 @@ class Measured:
 
     tests: dict[str, Candidate] = field(default_factory=dict)
     lines: dict[tuple[str, int], set[str]] = field(default_factory=lambda: defaultdict(set))
+    at_import: set[tuple[str, int]] = field(default_factory=set)  # lines that run while their module is imported
     digests: dict[str, str] = field(default_factory=dict)
     rooms: list[str] = field(default_factory=list)
     stopped: list[str] = field(default_factory=list)  # rooms of which some tests were not run
@@ -217,6 +218,8 @@ def read(wanted: list[str]) -> Measured:
         for file, by_line in kept["lines"].items():
             for line, indexes in by_line.items():
                 found.lines[file, int(line)].update({names[i] for i in indexes} & good)
+                if not indexes:
+                    found.at_import.add((file, int(line)))
         found.digests.update(kept["digests"])
         found.rooms.append(room)
         if kept["stopped"]:
@@ -230,4 +233,15 @@ def inside_functions(text: str) -> set[int]:
     for node in ast.walk(ast.parse(text)):
         if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
             found.update(range(node.body[0].lineno, (node.end_lineno or node.lineno) + 1))
+    return found
+
+
+def heads(text: str) -> dict[int, range]:
+    """Line of a function's head, with its decorators: the lines of its body. It runs at the import, and those notice
+    its change who call the function."""
+    found: dict[int, range] = {}
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
+            first, begin = node.body[0].lineno, min([node.lineno, *(one.lineno for one in node.decorator_list)])
+            found.update(dict.fromkeys(range(begin, first), range(first, (node.end_lineno or first) + 1)))
     return found

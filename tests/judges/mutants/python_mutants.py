@@ -81,6 +81,7 @@ class Candidates:
         self.files = python_lines.judged_files()
         self.importers = importers(self.files)
         self.inside = {name: python_lines.inside_functions((ROOT / name).read_text()) for name in self.files}
+        self.heads = {name: python_lines.heads((ROOT / name).read_text()) for name in self.files}
         self.by_file: dict[str, set[str]] = defaultdict(set)
         for (file, line), tests in measured.lines.items():
             if line in self.inside.get(file, ()):
@@ -108,13 +109,18 @@ class Candidates:
         return {file: lines for file, lines in known.items() if lines}
 
     def running(self, file: str, line: int) -> set[str]:
-        """The tests that run a line. One outside functions runs at the import: the tests that call something of the
-        file, or of a file that imports it, are its own. So they are where the file has changed since."""
-        if file not in self.changed and line in self.inside[file]:
-            return set(self.measured.lines.get((file, line), ()))
-        own = set(self.by_file[file])
-        own = own or {test for user in self.importers[file] for test in self.by_file[user]}
-        return own or set(self.measured.lines.get((file, line), ()))
+        """The tests that run a line. For one that runs at the import, they are those that call its function, or something
+        of the file, or of a file that imports it. So they are where the file has changed since."""
+        known = set(self.measured.lines.get((file, line), ()))
+        is_within = line in self.inside[file] and (file, line) not in self.measured.at_import
+        if file not in self.changed and is_within:
+            return known
+        body = self.heads[file].get(line, range(0))
+        called = {test for one in body for test in self.measured.lines.get((file, one), ())}
+        if called and file not in self.changed:
+            return called
+        users = {test for user in self.importers[file] for test in self.by_file[user]}
+        return known | self.by_file[file] | (set() if self.by_file[file] else users)
 
     def beside(self, file: str, tests: set[str]) -> set[str]:
         """The other tests of the same modules that run the file: what a test keeps for the next one, a table that is

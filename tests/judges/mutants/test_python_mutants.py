@@ -16,7 +16,7 @@ import python_bench
 import python_generate
 import python_mutants
 from generate import ROOT, Mutant
-from python_lines import Measured, Candidate, environment, inside_functions, judged_files
+from python_lines import Measured, Candidate, environment, heads, inside_functions, judged_files
 
 FILE = "tools/brace/model/limb.py"
 LINE = "        return float(toml.number(self.values, key))"
@@ -112,7 +112,9 @@ def test_every_file_as_it_is_has_its_own_names_only() -> None:
 
 
 def test_the_body_of_a_function_is_inside_and_its_head_is_not() -> None:
-    assert inside_functions("A = 1\ndef f(\n    b=A,\n):\n    return b\n") == {5}
+    text = "A = 1\n@cache\ndef f(\n    b=A,\n):\n    return b\n"
+    assert inside_functions(text) == {6}
+    assert heads(text) == dict.fromkeys((2, 3, 4, 5), range(6, 7))
 
 
 def test_the_order_begins_with_a_line_of_each_file() -> None:

@@ -291,14 +291,15 @@ def test_another_dictionary_in_a_log_is_6(brace: Callable[..., Outcome], tmp_pat
     assert outcome.code == 6 and "aabbccdd" in outcome.err
 
 
-def test_a_session_over_a_log_asks_nobody(tmp_path: Path) -> None:
+@pytest.mark.parametrize("node", [1, 32, 127])
+def test_a_session_over_a_log_asks_nobody(tmp_path: Path, node: int) -> None:
     from brace.bus.log import LogBus
     from brace.ground.errors import UsageError
 
     path = tmp_path / "a.log"
-    path.write_text("(1.0) can0 701#05010000DDCCBBAA\n")
+    path.write_text(f"(1.0) can0 {0x700 + node:X}#05010000DDCCBBAA\n")
     session = Session(LogBus(f"log:{path}", path))
-    assert session.node == 1
+    assert session.node == node
     with pytest.raises(UsageError):
         session.ask("identify")
 

@@ -55,6 +55,8 @@ def test_a_sound_record_is_noted_to_saturate_and_no_more(tmp_path: Path) -> None
         ({"angle_factor": 180 / np.pi}, "angle_rad", "degrees"),
         ({"torque_factor": 1e-3}, "torque_n_mm", "N m: multiply by 1000"),
         ({"torque_factor": 1e-3, "command": False}, "torque_n_mm", "N m: multiply by 1000"),
+        # A strong joint's: too much for a small one in the wrong unit, too little for what it turns.
+        ({"torque_factor": 0.1, "angle_factor": 20.0, "command": False}, "torque_n_mm", "N m: multiply by 1000"),
         ({"angle_factor": -1.0}, "angle_rad", "sign turned"),
         ({"torque_factor": -1.0}, "angle_rad", "sign turned"),
     ],

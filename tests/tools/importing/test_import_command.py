@@ -141,6 +141,7 @@ def test_places_of_the_tip_at_several_postures(brace: Brace, tmp_path: Path) -> 
     data = load_dataset(tmp_path / "out")
     assert data["dx_mm"] == pytest.approx(r["dx"], abs=1e-3) and data["dz_mm"] == pytest.approx(r["dz"], abs=1e-3)
     assert np.array_equal(data["axis"] == 1, r["axis"] == "z") and data["run"].max() == 12
+    assert not data.meta.moved_by_motors
 
 
 def test_an_axis_that_the_readings_contradict_is_refused(brace: Brace, tmp_path: Path) -> None:
@@ -160,7 +161,8 @@ def test_an_axis_that_the_readings_contradict_is_refused(brace: Brace, tmp_path:
     held = "\n".join(line for line, keep in zip(free.read_text().splitlines(), [True, *only_x]) if keep) + "\n"
     taken = brace("import", saved(tmp_path, held), "--set", "axis=x", "--out", tmp_path / "out", "--yes")
     assert taken.code == 0, taken.err
-    assert np.all(load_dataset(tmp_path / "out")["axis"] == 0)
+    data = load_dataset(tmp_path / "out")
+    assert np.all(data["axis"] == 0) and data.meta.moved_by_motors  # it went sideways, too
 
 
 def test_a_knee_that_is_negative_throughout_is_asked(brace: Brace, tmp_path: Path) -> None:

@@ -15,6 +15,7 @@ from foreign_files import POSES_DEG, Record
 from test_foreign_files import matches
 
 from brace.dataset import load_dataset
+from brace.importing.logs.ros_units import unit_of_field
 
 Brace = Callable[..., Outcome]
 LATE_S = 0.21  # the log begins with the load cell
@@ -229,3 +230,27 @@ def test_our_own_recordings(brace: Brace, tmp_path: Path, one_pose: Record, endi
     assert done.code == 0, done.err
     matches(tmp_path / "out", one_pose, t_s=LATE_S)
     assert "are computed with its model and are no measurement" in done.err
+
+
+@pytest.mark.parametrize(
+    ("schema", "path", "unit"),
+    [
+        ("sensor_msgs/msg/JointState", "position.femur", "rad"),
+        ("sensor_msgs/msg/JointState", "effort.femur", "N m"),
+        ("sensor_msgs/msg/JointState", "velocity.femur", ""),
+        ("geometry_msgs/msg/Wrench", "force.x", "N"),
+        ("geometry_msgs/msg/WrenchStamped", "wrench.torque.x", "N m"),
+        ("geometry_msgs/msg/Pose", "position.x", "m"),
+        ("geometry_msgs/msg/Pose", "orientation.x", ""),
+        ("geometry_msgs/msg/PoseStamped", "pose.position.x", "m"),
+        ("geometry_msgs/msg/PoseWithCovarianceStamped", "pose.pose.position.x", "m"),
+        ("geometry_msgs/msg/PointStamped", "point.x", "m"),
+        ("geometry_msgs/msg/TransformStamped", "transform.translation.x", "m"),
+        ("sensor_msgs/msg/Temperature", "temperature", "degC"),
+        ("sensor_msgs/msg/Range", "range", "m"),
+        ("std_msgs/msg/Float64", "data", ""),
+    ],
+)
+def test_units_of_ros_messages_are_si(schema: str, path: str, unit: str) -> None:
+    """REP 103; a type that fixes no unit leaves it to be asked."""
+    assert unit_of_field(schema, path) == unit

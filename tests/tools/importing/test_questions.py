@@ -301,3 +301,15 @@ def test_a_name_and_a_bracket_that_contradict_are_asked(brace: Brace, tmp_path: 
     done = brace("import", path, "--mapping", mapping, "--out", tmp_path / "out")
     assert done.code == 0, done.err
     assert load_dataset(tmp_path / "out")["dx_mm"] == pytest.approx(r["dx"], abs=1e-5)
+
+
+@pytest.mark.parametrize("gaps", [(), (3,), (0, 7, 8)])
+def test_a_turned_sign_is_asked_also_where_entries_are_missing(
+    brace: Brace, tmp_path: Path, record: Record, gaps: tuple[int, ...]
+) -> None:
+    of = columns(record)
+    of["fx"], of["fz"] = (shown(-record[name], "%.6f") for name in ("fx", "fz"))
+    for row in gaps:
+        of["fx"][row] = of["fz"][row] = ""
+    path = saved(tmp_path, HEADER, list(of.values()))
+    is_asked(brace, path, tmp_path, "'Fx [N]': must its sign be turned?", "'Fz [N]': must its sign be turned?")
