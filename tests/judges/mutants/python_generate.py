@@ -28,8 +28,7 @@ DANGEROUS = re.compile(r"\b(unlink|rmtree|rmdir|kill|killpg|send_signal)\(")
 
 def is_text(node: ast.AST) -> bool:
     """Is it a statement that is a string and no more: a docstring?"""
-    is_constant = isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)
-    return is_constant and isinstance(node.value.value, str)
+    return isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant) and isinstance(node.value.value, str)
 
 
 class Bare(ast.NodeTransformer):
@@ -76,7 +75,9 @@ class Bare(ast.NodeTransformer):
 
 def bare_code(text: str, is_plain: bool) -> tuple[object, ...]:
     """What Python runs of a text, without the places in it."""
-    return key_of(compile(Bare(is_plain).visit(ast.parse(text)), "mutant", "exec", dont_inherit=True))
+    bare = Bare(is_plain).visit(ast.parse(text))
+    assert isinstance(bare, ast.Module)
+    return key_of(compile(bare, "mutant", "exec", dont_inherit=True))
 
 
 def key_of(code: CodeType) -> tuple[object, ...]:

@@ -165,7 +165,8 @@ def keep_room(room: str, times: Path, data: Path, stopped: bool) -> None:
         for fixture in note["fixtures"]:
             sharing[fixture].append(index)
     lines: dict[str, dict[int, list[int]]] = {}
-    counted = coverage.Coverage(config_file=str(WORK / "coverage.ini"))
+    # mypy takes our own coverage.py for it
+    counted = coverage.Coverage(config_file=str(WORK / "coverage.ini"))  # type: ignore[attr-defined]
     with warnings.catch_warnings():  # a process that was killed has left half a file
         warnings.simplefilter("ignore")
         counted.combine([str(data)])

@@ -33,9 +33,10 @@ class Trace:
     """What runs now, and the times."""
 
     def __init__(self) -> None:
-        import coverage  # type: ignore[import-not-found,unused-ignore]  # here: without it the judge's own tests run
+        import coverage  # here: the judge's own tests run without it
 
-        self.cover = coverage.Coverage(config_file=os.environ[SETTINGS], data_suffix=True)
+        # mypy takes our own coverage.py for it
+        self.cover = coverage.Coverage(config_file=os.environ[SETTINGS], data_suffix=True)  # type: ignore[attr-defined]
         # A copy of this process that is told to end before it has begun would lose a SIGTERM that Python handles.
         self.cover.set_option("run:sigterm", False)
         os.environ["COVERAGE_PROCESS_START"] = os.environ[SETTINGS]  # of what the tests start, not of this process

@@ -84,6 +84,11 @@ def test_measured_datasets_are_not_simulated_over(brace: Brace, paper_limb: Path
     before = (data / "data.csv").read_bytes()
     outcome = brace("simulate", "--model", paper_limb, "--rig", rig, "--out", data)
     assert outcome.code == 2 and "not simulated" in outcome.err and (data / "data.csv").read_bytes() == before
+    meta = (data / "meta.toml").read_text()
+    for what in ("imported", "a rig", "simulated elsewhere"):
+        (data / "meta.toml").write_text(f'{meta}\n[source]\nwhat = "{what}"\n')
+        assert brace("simulate", "--model", paper_limb, "--rig", rig, "--out", data).code == 2, what
+        assert (data / "data.csv").read_bytes() == before
     (data / "meta.toml").unlink()  # records without a meta.toml are somebody's too
     assert brace("simulate", "--model", paper_limb, "--rig", rig, "--out", data).code == 2
     for _ in range(2):  # its own are written anew

@@ -53,3 +53,16 @@ def test_what_came_just_after_a_shape_is_not_forgotten() -> None:
         reading = reader.read({LIMB.node: state_at(at, time_s)}, time_s)[0].reading
     assert reading is not None
     assert np.linalg.norm(reading.tip_mm - shape_of(LIMB, LIMB.model, theta).tip_mm) > 0.05
+
+
+@pytest.mark.parametrize(("age_s", "words"), [(0.01, set()), (0.05, {"late"}), (5.0, {"K is old"})])
+def test_a_k_is_late_before_it_is_old(age_s: float, words: set[str]) -> None:
+    """What is late still counts; what is old is replaced by the model's."""
+    reader, state = BusReader(STANCE, 0.3), state_at(np.array(LIMB.theta_rad, float), 1.0)
+    valid = SimpleNamespace(is_valid=True, k=(9.0, 0.0, 0.0, 9.0, 0.0, 9.0), flags=(), theta0=LIMB.theta_rad[0])
+    sent = {"space": SimpleNamespace(space=valid, time_s=1.0, age_ms=0.0)}
+    seen = cast(NodeState, SimpleNamespace(**(vars(state) | sent)))
+    news = reader.read({LIMB.node: seen}, 1.0 + age_s)[0]
+    assert news.reading is not None and news.age_s == pytest.approx(age_s)
+    assert set(news.why) - {"no load sent"} == words
+    assert (np.linalg.norm(news.reading.k_n_per_mm - 9.0 * np.eye(3)) < 1e-9) == ("K is old" not in words)
