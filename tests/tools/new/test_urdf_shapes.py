@@ -64,6 +64,16 @@ def test_a_xacro_file_is_named(brace: Brace, tmp_path: Path) -> None:
     assert refused.code == 3 and "this is a xacro file" in refused.err, refused.err
 
 
+def test_what_xacro_left_in_comments_is_no_xacro(brace: Brace, tmp_path: Path) -> None:
+    """The URDFs of Tiago, Talos and xArm have such comments."""
+    pytest.importorskip("mujoco")
+    robot = _robot(tmp_path / "leg.urdf", YAW, HIP, KNEE, FOOT)
+    left = '<!-- <link name="${prefix}eef"/>\n <xacro:caster side="${side}"/> -->'
+    robot.write_text(robot.read_text().replace("</robot>", f"{left}</robot>"))
+    made = brace("new", "--out", tmp_path / "o.toml", "--urdf", robot, *SPACE)
+    assert made.code == 0, made.err
+
+
 @pytest.mark.parametrize("words", REFUSED)
 def test_another_shape_is_refused_in_space_by_name(brace: Brace, tmp_path: Path, words: str) -> None:
     pytest.importorskip("mujoco")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import re
 import xml.etree.ElementTree as ElementTree
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,6 +14,7 @@ from brace.ground.errors import BadFileError, UsageError
 from brace.ground.files import TOML_LIMIT_BYTES, read_text
 
 WHAT = "URDF"
+_COMMENT = re.compile("<!--.*?-->", re.DOTALL)
 GIVE_LENGTHS = "give the lengths as options instead"
 
 
@@ -97,7 +99,8 @@ def _parsed(path: Path) -> tuple[object, set[str]]:
             next_step="pip install mujoco",
         ) from None
     text = read_text(path, TOML_LIMIT_BYTES, WHAT)
-    if "<xacro:" in text or "${" in text:
+    live = _COMMENT.sub("", text)  # a URDF that xacro has made may keep its macros' words in comments
+    if "<xacro:" in live or "${" in live:
         raise refused(
             path, "this is a xacro file, from which a URDF is made", "it has xacro's macros or ${...}",
             f"xacro {path.name} > robot.urdf, and give robot.urdf",
