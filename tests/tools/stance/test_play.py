@@ -8,7 +8,7 @@ import pytest
 from brace.stance.limb_law import JOINTS
 from brace.stance.setpoints import Begun, largest_margin, moved, wanted_forces
 from brace.stance.stance_file import Stance, load_stance
-from brace.stance.statics import SLIDES, State
+from brace.stance.statics import SLIDES, LooseError, State, Statics
 from brace.stance.world import Measured, NoStanceError, Standing, World, believed, drawn
 
 EXAMPLE = load_stance(Path(__file__).parents[3] / "examples/stance/stance.toml")
@@ -92,3 +92,15 @@ def test_set_points_for_the_margin_make_none_smaller() -> None:
     for gap_rad in (0.002, 0.006, 0.02):
         found = largest_margin(Begun(_with_play(gap_rad)), 3.0)
         assert min(found.margin_after_n) > min(found.margin_before_n) + 0.5
+
+
+def test_a_body_that_gives_way_before_a_foot_does_is_no_defect(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The springs of the forces that were reached may hold the body no more; `load` then says what is borne."""
+
+    def gives_way(*_: object) -> None:
+        raise LooseError("the limbs do not hold the body")
+
+    world = believed(_with_play(0.006))
+    standing = world.stand()
+    monkeypatch.setattr(Statics, "first_slip", gives_way)
+    assert world.first_slip(standing, 20.0).limb < 0

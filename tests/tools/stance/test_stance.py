@@ -163,14 +163,19 @@ def test_torques_are_the_forces_they_come_from(brace: Callable[..., Outcome], st
         json.loads(brace("stance", "load", stance, "--measured", path, "--draws", 20, "--json").out)
         for path in (by_force, by_torque)
     )
-    # gears hide up to 200 N mm a joint, some 2 N of a force: the middle is the same, the interval is wider, and what
-    # is known of the footholds counts for more
+    # gears hide up to 200 N mm a joint, some 2 N of a force: the interval is wider, and a load that grew until its joint
+    # slipped is more than its motor gives
     read = load_measured(by_torque, drawn, believed(drawn), 0.3)
-    assert read.force_n == pytest.approx(rows, abs=1e-3)
     assert all(np.linalg.eigvalsh(one)[-1] > 0.5 for one in read.covariance_n2)
-    assert forces(first) == pytest.approx(forces(second), abs=0.5)
+    for law, force, torque in zip(believed(drawn).laws, read.force_n, torques, strict=True):
+        assert law.torques_n_mm(force) == pytest.approx(torque + np.clip(0.5 * torque, -100.0, 100.0), abs=0.1)
+    assert forces(first) == pytest.approx(forces(second), abs=1.0)
     width = [np.ptp([answer["limbs"][0][f"force_{end}_n"][2] for end in ("low", "high")]) for answer in (first, second)]
     assert width[1] > width[0]
+    none = "".join(f"\n[motor.{joint}]\nfriction_n_mm = 0.0\n" for joint in ("coxa", "femur", "tibia"))
+    (stance.parent / "limb.toml").write_text(LIMB + none)
+    drawn = load_stance(stance)
+    assert load_measured(by_torque, drawn, believed(drawn), 0.3).force_n == pytest.approx(rows, abs=1e-3)
 
 
 def test_a_current_holds_any_load_that_the_published_friction_lets_it_hold(stance: Path, tmp_path: Path) -> None:
@@ -186,10 +191,10 @@ def test_a_current_holds_any_load_that_the_published_friction_lets_it_hold(stanc
     read, world = load_measured(table, drawn, believed(drawn), 1e-6), believed(drawn)
     for law, force, covariance in zip(world.laws, read.force_n, read.covariance_n2, strict=True):
         low, high, torque = 971.0, 3280.0, law.torques_n_mm(force)
-        assert torque == pytest.approx([0.0, 0.0, -(low + high) / 2], abs=15.0)
+        assert torque == pytest.approx([0.0, 0.0, -(low + 3.0 * high) / 4], abs=15.0), "half way to the outer end"
         by_force = np.linalg.inv(law.force_by_torque())
         sd = np.sqrt(np.diag(by_force @ covariance @ by_force.T))
-        assert sd[2] == pytest.approx(np.hypot(np.sqrt(2 / 3) * (high - low) / 2, 0.03 * (low + high) / 2), rel=0.01)
+        assert sd[2] == pytest.approx(np.hypot((high - low) / 2, 0.03 * (low + high) / 2), rel=0.01)
 
 
 def test_torques_are_the_moments_of_force_and_weights(stance: Path) -> None:

@@ -16,9 +16,11 @@ from brace.stance.world import Measured, World
 
 FORCES = ("fx_n", "fy_n", "fz_n")
 TORQUES = ("tau0_n_mm", "tau1_n_mm", "tau2_n_mm")
-# Of a load within the band that friction leaves it, one sigma as a share of half the band. A load that grew until its
-# joint slipped stands at an end, others anywhere: as many of either have a variance of (1 + 1/3) / 2.
-_SD_OF_BAND = np.sqrt(2.0 / 3.0)
+# Where a load lies in the band that friction leaves it, as shares of half the band. A load that grew until its joint
+# slipped stands at the outer end, beyond what the motor gives; others anywhere: as many of either have a mean of 0.5
+# outwards, and one sigma of 0.65. Loads that have come back from a larger one, and stand at the inner end, make it more;
+# and the joints of a limb, which have borne the same forces one after the other, stand at like ends.
+_OUTWARDS, _SD_OF_BAND = 0.5, 1.0
 
 
 def load_measured(path: Path, stance: Stance, middle: World, sd_n: float) -> Measured:
@@ -85,15 +87,19 @@ def _from_torques(stance: Stance, middle: World, torques: list[np.ndarray], sd_n
     forces, covariances = [], []
     for limb, law, torque in zip(stance.limbs, middle.laws, torques, strict=True):
         by_torque = law.force_by_torque()
-        bands = np.array([_band_n_mm(limb, joint, one) for joint, one in zip(JOINTS, torque, strict=True)])
-        forces.append(law.force_of_torques_n(bands[:, 0]))
-        covariances.append((by_torque * bands[:, 1]) @ by_torque.T + sd_n**2 * np.eye(3))
+        center, half = np.array([_band_n_mm(limb, joint, one) for joint, one in zip(JOINTS, torque, strict=True)]).T
+        gain, noise = (
+            np.array([_given(limb, f"motor.{joint}.{key}") for joint in JOINTS])
+            for key in ("torque_gain_rel", "torque_noise_n_mm")
+        )
+        variance = (_SD_OF_BAND * half) ** 2 + (gain * center) ** 2 + noise**2
+        forces.append(law.force_of_torques_n(center + _OUTWARDS * np.clip(center, -half, half)))
+        covariances.append((by_torque * variance) @ by_torque.T + sd_n**2 * np.eye(3))
     return Measured(np.array(forces), tuple(covariances))
 
 
 def _band_n_mm(limb: Limb, joint: str, torque_n_mm: float) -> tuple[float, float]:
-    """The load behind a gear whose motor gives a torque: middle, and variance of what friction, noise and the torque
-    constant hide."""
+    """The load behind a gear whose motor gives a torque: the middle of its band, and half of its width."""
     native, number = library(), limb.model.number
     gear = native.ffi.new(
         "brace_gear_t *",
@@ -109,13 +115,7 @@ def _band_n_mm(limb: Limb, joint: str, torque_n_mm: float) -> tuple[float, float
     )
     band = native.ffi.new("brace_load_band_t *")
     native.lib.brace_load_band(gear, torque_n_mm, 0.0, False, band)
-    middle = float(band.middle_n_mm)
-    sd = np.array([
-        _SD_OF_BAND * float(band.half_n_mm),
-        _given(limb, f"motor.{joint}.torque_gain_rel") * middle,
-        _given(limb, f"motor.{joint}.torque_noise_n_mm"),
-    ])  # fmt: skip
-    return middle, float(sd @ sd)
+    return float(band.middle_n_mm), float(band.half_n_mm)
 
 
 def _given(limb: Limb, key: str) -> float:

@@ -10,7 +10,7 @@ import numpy as np
 from brace.model import LIMB_KEYS, LimbModel
 from brace.stance.limb_law import CLOSES_AT_N, JOINTS, UNSURE_N, GivesWayError, LimbLaw, Spring, cross, side_of
 from brace.stance.stance_file import Limb, Stance
-from brace.stance.statics import E_LOOSE, OK, SLIDE_STEPS, Contact, Force, Slip, State, Statics
+from brace.stance.statics import E_LOOSE, OK, SLIDE_STEPS, Contact, Force, LooseError, Slip, State, Statics
 
 _YIELDS = tuple(
     key.name
@@ -193,7 +193,10 @@ class World:
             self._set(statics, near_n, True, held)
             at_done = [*self.weight, (done * force, at)]
             statics.settle(here, at_done, 1)
-            found = statics.first_slip(here, [self.payload], most - done)
+            try:
+                found = statics.first_slip(here, [self.payload], most - done)
+            except LooseError:  # with the springs of these forces the body gives way before a foot does: `load` says so
+                return replace(NO_SLIP, under_payload_n=under_payload_n)
             way = min(0.999 * found.factor, 1.0)
             if not way > 0.0:
                 break
@@ -226,9 +229,9 @@ class World:
             forces, _ = statics.linear(here, [*self.weight, ((done + found.factor) * force, at)])
             try:
                 self._set(statics, forces.reshape(-1, 3), True, held)
-            except NoStanceError:
+                found = statics.first_slip(here, [self.payload], 2.0 * found.factor + 1.0)
+            except (NoStanceError, LooseError):
                 break
-            found = statics.first_slip(here, [self.payload], 2.0 * found.factor + 1.0)
         return found.limb, done + found.factor
 
     def _next_crossing(
