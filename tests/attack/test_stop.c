@@ -203,10 +203,52 @@ static void test_after_a_stop_every_set_point_stays(void)
     }
 }
 
+/* Does the femur's take-up begin, which comes just before a stop? The operator goes on as if it had not heard of the stop:
+ * its next sign of life has the number that its answer brought. */
+static bool begins(bool is_stopped, way_t way)
+{
+    uint8_t data[8];
+    brace_can_frame_t frame;
+    start_limb(false, the_key);
+    ticks(5);
+    operator_lives = true;
+    sign_of_life();
+    ticks(1);
+    drain();
+    make_take_up(BRACE_FEMUR, data);
+    data[1] = OPERATOR_TOKEN;
+    operator_says(data);
+    if (is_stopped) {
+        stop(way);
+    } else {
+        ticks(2);
+    }
+    while (brace_fake_frame_take(&fake, &frame)) {
+        if (frame.id == 0x580u + NODE && frame.data[0] != (uint8_t)BRACE_ANSWER_REFUSED &&
+            answered_code(frame.data) == (uint32_t)BRACE_REQUEST_TAKE_UP) {
+            operator_begins = true;
+            begin_heard = brace_get_u32(&frame.data[4]);
+        }
+    }
+    pass(100);
+    return brace_app_moves(&app);
+}
+
+static void test_a_command_that_comes_just_before_a_stop_begins_nothing(void)
+{
+    TEST_ASSERT_TRUE_MESSAGE(begins(false, BY_FRAME), "without a stop it begins");
+    for (int way = 0; way < WAYS; way++) {
+        char what[40];
+        snprintf(what, sizeof what, "stopped by way %d", way);
+        TEST_ASSERT_FALSE_MESSAGE(begins(true, (way_t)way), what);
+    }
+}
+
 int main(int count, char **arguments)
 {
     trials = count > 1 ? (uint32_t)strtoul(arguments[1], NULL, 10) : trials;
     UNITY_BEGIN();
     RUN_TEST(test_after_a_stop_every_set_point_stays);
+    RUN_TEST(test_a_command_that_comes_just_before_a_stop_begins_nothing);
     return UNITY_END();
 }
