@@ -261,6 +261,7 @@ def test_show_and_lift_say_it_in_words(brace: Callable[..., Outcome], stance: Pa
     assert shown.code == 0 and "rear right" in shown.out and "the body gives way by" in shown.out
     found = json.loads(brace("stance", "show", stance, "--json").out)
     assert found["limbs"][0]["foot_mm"][:2] == pytest.approx([263.8, 233.8], abs=0.1)
+    assert forces(found).sum(axis=0) == pytest.approx([0.0, 0.0, WEIGHT_N + LIMBS_N], abs=1e-6), "weight, no payload"
     lifted = json.loads(brace("stance", "lift", stance, "--json").out)["lifted"]
     assert [one["name"] for one in lifted] == list(CORNERS)
     for one in lifted:
