@@ -203,8 +203,8 @@ static void test_after_a_stop_every_set_point_stays(void)
     }
 }
 
-/* Does the femur's take-up begin, which comes just before a stop? The operator goes on as if it had not heard of the stop:
- * its next sign of life has the number that its answer brought. */
+/* Does the femur's take-up begin, which comes just before a stop? The operator goes on as if it had not heard of the
+ * stop: its next sign of life has the number that its answer brought. */
 static bool begins(bool is_stopped, way_t way)
 {
     uint8_t data[8];
