@@ -48,7 +48,7 @@ def run_tests(tests: list[python_lines.Candidate], mutant: Mutant | None) -> End
 
 
 def replacing(mutant: Mutant, folder: Path) -> dict[str, str]:
-    """What swap/sitecustomize.py is told to put the mutant in place of its file."""
+    """Environment variables: they tell swap/sitecustomize.py which file the mutant replaces, and with which text."""
     text = folder / "mutant.py"
     text.write_text(with_mutant(mutant))
     return {

@@ -37,7 +37,8 @@ class Trace:
 
         # mypy takes our own coverage.py for it
         self.cover = coverage.Coverage(config_file=os.environ[SETTINGS], data_suffix=True)  # type: ignore[attr-defined]
-        # A copy of this process that is told to end before it has begun would lose a SIGTERM that Python handles.
+        # Python runs its own handler of SIGTERM late. A forked process that gets SIGTERM before that would not end, so
+        # coverage leaves the signal to the system.
         self.cover.set_option("run:sigterm", False)
         os.environ["COVERAGE_PROCESS_START"] = os.environ[SETTINGS]  # of what the tests start, not of this process
         self.context = ""

@@ -34,5 +34,5 @@ elif os.environ.get("BRACE_MUTANT_CONTEXT"):
     import coverage
 
     coverage.process_startup()  # type: ignore[attr-defined]  # mypy takes our own coverage.py for it
-    # A copy of this process must end when it is told to: coverage's answer to SIGTERM is this one's.
+    # coverage handles SIGTERM in this process. A forked process must end at SIGTERM, so the system handles it there.
     os.register_at_fork(after_in_child=lambda: signal.signal(signal.SIGTERM, signal.SIG_DFL))
