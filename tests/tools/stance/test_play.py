@@ -88,6 +88,34 @@ def test_set_points_are_sought_across_the_play() -> None:
     assert np.max(lacks_n) < 0.3, lacks_n
 
 
+@pytest.mark.parametrize("seed", [1, 2, 5, 6, 11])
+def test_set_points_that_hardly_move_change_no_force(seed: int) -> None:
+    """The body stands where its feet have slid to: put down again, load by load, they would slide elsewhere, 0.5 N."""
+    stance, offsets_mm = _with_play(0.006), np.random.default_rng(seed).normal(0.0, 1.0, (4, 3))
+    limbs = (
+        replace(limb, friction_ratio=0.8, offset_mm=offset_mm)
+        for limb, offset_mm in zip(stance.limbs, offsets_mm, strict=True)
+    )
+    begun = Begun(replace(stance, limbs=tuple(limbs)))
+    _, state = begun.under_load()
+    found = wanted_forces(begun, state.force_n, 3.0)
+    assert float(np.abs(found.after_n - state.force_n).max()) < 0.01
+
+
+def test_a_foot_that_is_let_go_leaves_its_force_to_the_others() -> None:
+    """Without play and slip the way there does not count: one step to the end has the same forces."""
+    stance = _with_play(0.0)
+    world = believed(replace(stance, limbs=tuple(replace(limb, grip_n=100.0) for limb in stance.limbs)))
+    _, state = world.load(world.stand(), [world.payload])
+    assert SLIDES not in state.contact
+    faded = world.lifted(state, 1, [world.payload])
+    at_once = state.copy()
+    at_once.lift(1)
+    world.statics_at(faded).settle(at_once, [*world.weight, world.payload], 1)
+    assert SLIDES not in faded.contact and not np.any(faded.force_n[1])
+    assert float(np.abs(faded.force_n - at_once.force_n).max()) < 0.01
+
+
 def test_set_points_for_the_margin_make_none_smaller() -> None:
     for gap_rad in (0.002, 0.006, 0.02):
         found = largest_margin(Begun(_with_play(gap_rad)), 3.0)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -81,10 +81,8 @@ def _without(stance: Stance, under_all: Sequence[tuple[Standing, State]], index:
     found: list[tuple[State, State]] = []
     reasons: dict[int, str] = {}
     for number, (standing, before) in enumerate(under_all):
-        lifted = replace(standing, state=standing.state.copy())
-        lifted.state.lift(index)
         try:
-            found.append((before, standing.world.load(lifted, [standing.world.payload])[1]))
+            found.append((before, standing.world.lifted(before, index, [standing.world.payload])))
         except NoStanceError as error:
             reasons[number] = error.why
     stands_in = len(found) / len(under_all)

@@ -14,7 +14,7 @@ from brace.stance.draws import DRAWS, before_payload, span
 from brace.stance.limb_law import JOINTS, LimbLaw
 from brace.stance.stance_file import Limb, Stance
 from brace.stance.statics import LET_GO, OPEN, State, Statics
-from brace.stance.world import Measured, NoStanceError, World, believed, carrying
+from brace.stance.world import Measured, NoStanceError, Standing, World, believed, carrying
 
 _CUTS_MOST = 40
 _CUT_N = 1e-4  # a cone's side is met so closely
@@ -265,11 +265,10 @@ class _Executed:
 def _execute(stance: Stance, world: World, state: State, way_mm: np.ndarray) -> _Executed:
     """What the whole law says: tips where they then are, feet where they stand. Raises NoStanceError."""
     limbs = tuple(_moved(limb, law, way) for limb, law, way in zip(stance.limbs, world.laws, way_mm, strict=True))
-    after = believed(replace(stance, limbs=limbs))
-    shift = np.array([new.tip_mm - old.tip_mm for new, old in zip(after.laws, world.laws, strict=True)])
-    after = carrying(replace(after, offset_mm=state.place_mm - shift))
-    standing = after.stand(near_n=state.force_n)
-    return _Executed(limbs, way_mm, shift, after, standing.statics, standing.state)
+    laws = believed(replace(stance, limbs=limbs)).laws
+    shift = np.array([new.tip_mm - old.tip_mm for new, old in zip(laws, world.laws, strict=True)])
+    after = carrying(world).moved(Standing(world, world.statics_at(state), state), shift, laws)
+    return _Executed(limbs, way_mm, shift, after.world, after.statics, after.state)
 
 
 def _said(stance: Stance, world: World, state: State, moved: _Executed) -> SetPoints:

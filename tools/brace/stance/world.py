@@ -168,11 +168,27 @@ class World:
             near_n = state.force_n
         return statics, state
 
-    def moved(self, standing: Standing, way_mm: np.ndarray) -> Standing:
+    def lifted(self, state: State, limb: int, forces: Sequence[Force]) -> State:
+        """The body under its weight and further forces, as `state` has it, when a foot is let go. What it bore fades in
+        steps, for what slides and which play opens hangs on the way there."""
+        statics, loads, bore = self._statics(), [*self.weight, *forces], state.force_n[limb]
+        at = self.laws[limb].tip_mm + state.place_mm[limb]
+        state = state.copy()
+        near_n = state.force_n
+        state.lift(limb)
+        for done in range(_STEPS + 1):
+            share = 1.0 - done / _STEPS
+            step = _to(statics, state, [*loads, (share * bore, at)], 1)
+            state = self._step(statics, step, near_n, 1.0, is_payload=True)
+            near_n = state.force_n
+        return state
+
+    def moved(self, standing: Standing, way_mm: np.ndarray, laws: Sequence[LimbLaw] | None = None) -> Standing:
         """After the tips' set-points have moved by ways (a row a limb), under the weight: tips where they then are
-        without load, feet where they stand. A limb's K is that of before."""
-        laws = tuple(law.at(way) for law, way in zip(self.laws, way_mm, strict=True))
-        world = replace(self, laws=laws, offset_mm=standing.state.place_mm - way_mm)
+        without load, feet where they stand. laws: the limbs at their new angles; without them a limb's K is that of
+        before."""
+        laws = [law.at(way) for law, way in zip(self.laws, way_mm, strict=True)] if laws is None else laws
+        world = replace(self, laws=tuple(laws), offset_mm=standing.state.place_mm - way_mm)
         statics, state = world._statics(), standing.state.copy()
         state.move(-way_mm)
         step = _to(statics, state, self.weight, 1)
