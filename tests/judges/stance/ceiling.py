@@ -3,26 +3,29 @@
     .venv/bin/python tests/judges/stance/ceiling.py --seed 11 --count 40
     .venv/bin/python tests/judges/stance/ceiling.py --seed 11 --count 40 --noise-alone
 
-Geometry and payloads are the judge's, and so is what makes a case; what is hidden is drawn by brace.stance itself. No
-error of its law is left then, and its draws are the posterior: the share of them that is near the best value is what an
-answer can hope for. The truth beside it shows that the draws are honest. Judges nothing.
+Geometry, payloads, moved tips and lifted feet are as the judge draws them, and so is what makes a case; what is hidden
+is drawn by brace.stance itself. No error of its law is left then, and its draws are the posterior: the share of them
+that is near the best value is what an answer can hope for. The truth beside it shows that the draws are honest. Judges
+nothing.
 """
 
 from __future__ import annotations
 
 import argparse
 import tempfile
-from dataclasses import replace
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
+import baselines
 import numpy as np
 from brace.stance.limb_law import JOINTS
 from brace.stance.posterior import likely_forces
 from brace.stance.stance_file import Stance, load_stance
 from brace.stance.world import Measured, NoStanceError, Standing, World, believed, drawn
-from judge import MOST, SLIPS_AT, SPARE_BEFORE
+from judge import MOST, MOVES_MM, SLIPS_AT, SPARE_BEFORE
 from limbs import Array
-from world import SENSOR_N, Hidden, draw, write
+from world import SENSOR_N, Hidden, draw, unit, write
 
 DRAWS = 100
 FACTOR_MOST = 1000.0
@@ -47,15 +50,58 @@ def truth(stance: Stance, chance: np.random.Generator) -> tuple[Stance, World, S
     return stance, world, replace(standing, world=world)
 
 
-def answers(standing: Standing) -> tuple[float, Array | None]:
-    """The payload's factor at the first slip, and the change of each foot's force; None: the body falls."""
+def _without_payload(standing: Standing) -> Standing:
+    world = replace(standing.world, payload=(np.zeros(3), np.zeros(3)))
+    return replace(standing, world=world)
+
+
+def _by_payload(standing: Standing) -> Array:
     world = standing.world
     slip = world.first_slip(standing, FACTOR_MOST)
-    try:
-        _, after = world.load(standing, [world.payload], slip.under_payload_n)
-    except NoStanceError:
-        return slip.factor, None
-    return slip.factor, after.force_n - standing.state.force_n
+    _, after = world.load(standing, [world.payload], slip.under_payload_n)
+    return after.force_n - standing.state.force_n
+
+
+def _by_move(way_mm: Array) -> Callable[[Standing], Array]:
+    def change(standing: Standing) -> Array:
+        bare = _without_payload(standing)
+        return bare.world.moved(bare, way_mm).state.force_n - standing.state.force_n
+
+    return change
+
+
+def _by_lift(foot: int) -> Callable[[Standing], Array]:
+    def change(standing: Standing) -> Array:
+        return standing.world.lifted(standing.state, foot, []).force_n - standing.state.force_n
+
+    return change
+
+
+@dataclass
+class Changes:
+    """Of one kind, feet of all stances: the best answer's share, whether the median is right."""
+
+    best: list[float] = field(default_factory=list)
+    right: list[bool] = field(default_factory=list)
+
+    def count(self, by: Callable[[Standing], Array], true: Standing, drawn: list[Standing], feet: list[int]) -> None:
+        try:
+            change = by(true)
+        except NoStanceError:
+            return
+        changes = []
+        for one in drawn:
+            try:
+                changes.append(by(one))
+            except NoStanceError:
+                continue
+        if len(changes) < DRAWS / 2:
+            return
+        found = np.array(changes)[:, feet]
+        near_n = NEAR_CHANGE * float(np.linalg.norm(true.world.payload[0]))
+        apart = np.linalg.norm(found[:, None] - found, axis=3)
+        self.best += [best(apart[:, :, foot] <= near_n) for foot in range(len(feet))]
+        self.right += (np.linalg.norm(np.median(found, axis=0) - change[feet], axis=1) <= near_n).tolist()
 
 
 def best(near: Array) -> float:
@@ -63,8 +109,37 @@ def best(near: Array) -> float:
     return float(near.mean(axis=1).max())
 
 
+def _lifted(number: int, seed: int, standing: Standing) -> int | None:
+    """The foot that the judge lets go: the first, in a drawn order, without which the body stands."""
+    drawn_stance = draw(seed, number, Hidden(tells_play=True))
+    bare = replace(drawn_stance, world=replace(drawn_stance.world, payload_n=np.zeros(3)))
+    for foot in np.random.default_rng([seed, number, 2]).permutation(len(standing.state.force_n)):
+        if baselines.may_stand(bare, int(foot)):
+            try:
+                standing.world.lifted(standing.state, int(foot), [])
+                return int(foot)
+            except NoStanceError:
+                continue
+    return None
+
+
+def _posterior(stance: Stance, standing: Standing, chance: np.random.Generator) -> list[Standing]:
+    """What else the same readings allow."""
+    force = standing.state.force_n
+    measured = Measured(force + chance.normal(0, SENSOR_N, force.shape), (SENSOR_N**2 * np.eye(3),) * len(force))
+    middle = believed(stance, SENSOR_N)
+    found = []
+    worlds = [drawn(stance, middle, chance) for _ in range(DRAWS)]
+    for world, at in zip(*likely_forces(worlds, middle, measured, chance)):
+        try:
+            found.append(world.rest_at(at))
+        except NoStanceError:
+            continue
+    return found
+
+
 def main() -> int:
-    """Prints two lines."""
+    """Prints a line for the payload at the first slip, and one for each kind of change."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--seed", type=int, required=True)
     parser.add_argument("--count", type=int, default=40)
@@ -72,10 +147,9 @@ def main() -> int:
     options = parser.parse_args()
     chance = np.random.default_rng(options.seed)
     factor_best: list[float] = []
-    change_best: list[float] = []
     factor_right: list[bool] = []
-    change_right: list[bool] = []
     inside: list[bool] = []
+    changes = {kind: Changes() for kind in ("payload", "set-point", "lift")}
     number = 0
     while len(factor_right) < options.count:
         with tempfile.TemporaryDirectory() as name:
@@ -88,35 +162,27 @@ def main() -> int:
         if (case := truth(stance, chance)) is None:
             continue
         stance, world, standing = case
-        factor, change = answers(standing)
-        force = standing.state.force_n
-        measured = Measured(force + chance.normal(0, SENSOR_N, force.shape), (SENSOR_N**2 * np.eye(3),) * len(force))
-        middle = believed(stance, SENSOR_N)
-        found = []
-        worlds = [drawn(stance, middle, chance) for _ in range(DRAWS)]
-        for one, at in zip(*likely_forces(worlds, middle, measured, chance)):
-            try:
-                found.append(answers(one.rest_at(at)))
-            except NoStanceError:
-                continue
-        factors = np.array([one for one, _ in found])
+        found = _posterior(stance, standing, chance)
+        factor = world.first_slip(standing, FACTOR_MOST).factor
+        factors = np.array([one.world.first_slip(one, FACTOR_MOST).factor for one in found])
         factors = factors[np.isfinite(factors)]
         factor_best.append(best(np.abs(factors[:, None] / factors - 1) <= NEAR))
         factor_right.append(bool(abs(np.median(factors) / factor - 1) <= NEAR))
         low, high = np.percentile(factors, [5, 95])
         inside.append(bool(low <= factor <= high))
-        changes = np.array([one for _, one in found if one is not None])
-        if change is None or len(changes) < DRAWS / 2:
-            continue
-        near_n = NEAR_CHANGE * float(np.linalg.norm(stance.payload_n))
-        apart = np.linalg.norm(changes[:, None] - changes, axis=3)
-        change_best += [best(apart[:, :, foot] <= near_n) for foot in range(len(force))]
-        change_right += (np.linalg.norm(np.median(changes, axis=0) - change, axis=1) <= near_n).tolist()
-    said = [100 * float(np.mean(one)) for one in (factor_best, factor_right, inside, change_best, change_right)]
+        feet = list(range(len(stance.limbs)))
+        changes["payload"].count(_by_payload, standing, found, feet)
+        way = np.zeros((len(feet), 3))
+        way[chance.integers(len(feet))] = chance.uniform(*MOVES_MM) * unit(chance.normal(size=3))
+        changes["set-point"].count(_by_move(way), standing, found, feet)
+        if (foot := _lifted(number - 1, options.seed, standing)) is not None:
+            changes["lift"].count(_by_lift(foot), standing, found, [one for one in feet if one != foot])
+    said = [100 * float(np.mean(one)) for one in (factor_best, factor_right, inside)]
     print("{} stances. Payload at the first slip within 10 %: at best {:.0f} %, the median {:.0f} %; its 90 % interval "
-          "holds in {:.0f} %.".format(len(inside), *said[:3]))
-    print("Change within 5 % of the payload, {} feet: at best {:.0f} %, the median {:.0f} %.".format(
-        len(change_right), *said[3:]))
+          "holds in {:.0f} %.".format(len(inside), *said))
+    for kind, one in changes.items():
+        print("Change by a {} within 5 % of the payload, {} feet: at best {:.0f} %, the median {:.0f} %.".format(
+            kind, len(one.right), 100 * float(np.mean(one.best)), 100 * float(np.mean(one.right))))
     return 0
 
 

@@ -2,25 +2,23 @@
 
 #include <Eigen/LU>
 #include <cmath>
+#include <limits>
 
 namespace brace::stance {
 
 namespace {
 
-constexpr int changes_most = 8 * limbs_most;      // of contacts in a step, before it is given up
-constexpr int iterations_most = 25;
-constexpr double exact_share = 1e-10;             // of the forces: what is left of the law of sliding
-constexpr double near_share = 1e-4; // enough to see which contact's law is broken
-constexpr double slide_most_mm = 100.0;           // a foot that goes further in one step has no rest
-constexpr double turn_most_rad = 0.5;             // of a sliding direction in one iteration
+constexpr int changes_most = 8 * limbs_most; // of contacts in a step, before it is given up
+constexpr int iterations_most = 14;
+constexpr int stalls_most = 2;        // iterations that do not halve what is left of the law: Newton has lost its way
+constexpr double exact_share = 1e-10; // of the forces: what is left of the law of sliding
+constexpr double near_share = 1e-4;   // enough to see which contact's law is broken
+constexpr double tie_share = 1e-9;    // of friction's most: a force beyond it slides
+constexpr double slide_most_mm = 100.0;   // a foot that goes further in one step has no rest
+constexpr double spring_ratio = 0.25; // r of a foot over its limb's own K; 0.1 to 1 find the rest more slowly or not
 
-// Unknowns of the sliding feet: how far each slides and in which direction of its ground.
-struct Slide {
-    int limb;
-    double angle_rad, way_mm;
-    Eigen::Vector2d direction() const { return {std::cos(angle_rad), std::sin(angle_rad)}; }
-};
-
+// One implicit step. All feet may slide at first, which mostly finds the rest within a few iterations. Where that fails,
+// the step begins again, and feet may slide one after the other, the one that breaks its law most first.
 class Step {
 public:
     Step(const brace_stance_t &stance, const Load &load, const brace_stance_state_t &from)
@@ -28,29 +26,36 @@ public:
     {
         for (int i = 0; i < count_; i++) {
             ground_[i] = ground_of(stance.limb[i]);
-            contact_[i] = from.foot[i].contact == BRACE_FOOT_SLIDES ? int32_t{BRACE_FOOT_STICKS} : from.foot[i].contact;
-            stood_[i] = place_[i] = vec3(from.foot[i].place_mm);
+            const Mat3 k = mat3(stance.limb[i].k_n_per_mm);
+            spring_[i] = 0.5 * spring_ratio * (k.trace() - ground_[i].normal.dot(k * ground_[i].normal));
         }
+        begin(true);
     }
 
     int32_t run(Rest &rest)
     {
-        bool is_assembled = false, is_exact = false;
+        bool is_assembled = false, is_exact = all_may_slide_;
         for (int change = 0; change < changes_most; change++) {
-            if (!is_assembled && !assemble()) {
-                return change == 0 ? BRACE_STANCE_E_LOOSE : BRACE_STANCE_E_NO_REST;
+            if (!is_assembled) {
+                if (!assemble()) {
+                    return change == 0 ? BRACE_STANCE_E_LOOSE : BRACE_STANCE_E_NO_REST;
+                }
+                is_assembled = true;
+                forces();
             }
-            is_assembled = true;
-            if (!slide(is_exact ? exact_share : near_share)) {
-                return BRACE_STANCE_E_NO_REST;
+            Change next = worst();
+            if (next.limb < 0 || !all_may_slide_) {
+                if (!slide(is_exact ? exact_share : near_share)) {
+                    if (!all_may_slide_) {
+                        return BRACE_STANCE_E_NO_REST;
+                    }
+                    begin(false);
+                    is_assembled = is_exact = false;
+                    continue;
+                }
+                next = worst();
             }
-            const Change next = worst();
-            if (next.limb < 0 && slides_ > 0 && !is_exact) {
-                is_exact = true; // the contacts are found, perhaps: now to the end
-                continue;
-            }
-            is_exact = false;
-            if (next.limb < 0) {
+            if (next.limb < 0 && is_exact) {
                 rest.body = body_;
                 for (int i = 0; i < count_; i++) {
                     rest.force[i] = force_[i];
@@ -59,7 +64,10 @@ public:
                 }
                 return BRACE_STANCE_OK;
             }
-            is_assembled = !apply(next);
+            is_exact = all_may_slide_ || next.limb < 0; // the contacts are found, perhaps: now to the end
+            if (next.limb >= 0) {
+                is_assembled = !apply(next);
+            }
         }
         return BRACE_STANCE_E_NO_REST;
     }
@@ -70,15 +78,29 @@ private:
         int32_t contact;
     };
 
+    // Every foot where it was.
+    void begin(bool all_may_slide)
+    {
+        all_may_slide_ = all_may_slide;
+        may_slide_.fill(all_may_slide);
+        for (int i = 0; i < count_; i++) {
+            const brace_stance_foot_t &foot = from_.foot[i];
+            contact_[i] = foot.contact == BRACE_FOOT_SLIDES ? int32_t{BRACE_FOOT_STICKS} : foot.contact;
+            stand(i, vec3(foot.place_mm));
+        }
+    }
+
+    void stand(int i, const Vec3 &place)
+    {
+        stood_[i] = place_[i] = place;
+        slid_[i].setZero();
+    }
+
     bool on_ground(int i) const { return contact_[i] == BRACE_FOOT_STICKS || contact_[i] == BRACE_FOOT_SLIDES; }
 
     double pressing_n(int i) const { return ground_[i].normal.dot(force_[i]) + stance_.limb[i].grip_n; }
 
-    double beyond_cone_n(int i) const
-    {
-        const Eigen::Vector2d along = ground_[i].along.transpose() * force_[i];
-        return along.norm() - stance_.limb[i].friction_ratio * pressing_n(i);
-    }
+    double friction_most_n(int i) const { return stance_.limb[i].friction_ratio * std::fmax(0.0, pressing_n(i)); }
 
     bool assemble()
     {
@@ -100,11 +122,6 @@ private:
         }
     }
 
-    void put(const Slide &slide)
-    {
-        place_[slide.limb] = stood_[slide.limb] + ground_[slide.limb].along * (slide.way_mm * slide.direction());
-    }
-
     // How a limb's force changes as another foot goes along its ground.
     const Eigen::Matrix<double, 3, 2> &by_slide(int limb, int foot)
     {
@@ -115,54 +132,90 @@ private:
         return by_slide_[limb][foot];
     }
 
-    // Newton's method on f_t + friction (f_n + grip) direction = 0 of every sliding foot, in its way and direction.
-    // share: of the forces, that may be left of the law.
+    // Which feet slide, and the direction of y of those; returns whether one sticks again.
+    bool sort()
+    {
+        bool has_stuck = false;
+        slides_ = 0;
+        for (int i = 0; i < count_; i++) {
+            if (!on_ground(i)) {
+                continue;
+            }
+            const Eigen::Vector2d y = ground_[i].along.transpose() * force_[i] - spring_[i] * slid_[i];
+            length_n_[i] = y.norm();
+            if (may_slide_[i] && length_n_[i] > (1.0 + tie_share) * friction_most_n(i)) {
+                contact_[i] = BRACE_FOOT_SLIDES;
+                towards_[i] = y / length_n_[i];
+                sliding_[slides_++] = i;
+            } else if (contact_[i] == BRACE_FOOT_SLIDES) {
+                contact_[i] = BRACE_FOOT_STICKS;
+                stand(i, stood_[i]);
+                has_stuck = true;
+            }
+        }
+        return has_stuck;
+    }
+
+    // Coulomb's law as one equation of each foot (Alart and Curnier, Computer Methods in Applied Mechanics and
+    // Engineering 92, 1991): the force along the ground is the point nearest to y = force - r slid of the disk that
+    // friction allows. Inside it the foot sticks, slid = 0; outside, the force is the disk's edge. Newton's method on
+    // how far the feet slide, which of them do found anew in every iteration. share: of the forces, that may be left.
     bool slide(double share)
     {
-        forces();
-        if (slides_ == 0) {
-            return true;
-        }
         using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 2 * limbs_most, 2 * limbs_most>;
         using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2 * limbs_most, 1>;
+        double least_n = std::numeric_limits<double>::infinity();
+        int stalls = 0;
         for (int iteration = 0; iteration < iterations_most; iteration++) {
+            const bool has_stuck = sort();
+            if (has_stuck) {
+                forces();
+            }
+            if (slides_ == 0) {
+                if (has_stuck) {
+                    continue;
+                }
+                return true;
+            }
             Vector left(2 * slides_);
             Matrix by(2 * slides_, 2 * slides_);
             double size_n = 0.0;
-            for (int a = 0; a < slides_; a++) {
-                const int i = slide_[a].limb;
-                const double friction = stance_.limb[i].friction_ratio;
-                const Eigen::Vector2d direction = slide_[a].direction();
-                const Eigen::Vector2d turned(-direction.y(), direction.x());
-                // rows of the force that count: along + friction direction normal
-                const Eigen::Matrix<double, 2, 3> rows =
-                    ground_[i].along.transpose() + friction * direction * ground_[i].normal.transpose();
-                left.segment<2>(2 * a) = rows * force_[i] + friction * stance_.limb[i].grip_n * direction;
-                size_n += force_[i].norm() + stance_.limb[i].grip_n;
-                for (int b = 0; b < slides_; b++) {
-                    const int j = slide_[b].limb;
-                    const Eigen::Vector2d towards = slide_[b].direction();
-                    const Eigen::Matrix2d s = rows * by_slide(i, j);
-                    by.block<2, 1>(2 * a, 2 * b) = s * towards;
-                    by.block<2, 1>(2 * a, 2 * b + 1) =
-                        slide_[b].way_mm * s * Eigen::Vector2d(-towards.y(), towards.x());
-                }
-                by.block<2, 1>(2 * a, 2 * a + 1) += friction * pressing_n(i) * turned;
+            for (int i = 0; i < count_; i++) {
+                size_n += on_ground(i) ? force_[i].norm() + stance_.limb[i].grip_n : 0.0;
             }
-            if (left.lpNorm<Eigen::Infinity>() <= share * size_n) {
+            for (int a = 0; a < slides_; a++) {
+                const int i = sliding_[a];
+                const double most_n = friction_most_n(i);
+                left.segment<2>(2 * a) = ground_[i].along.transpose() * force_[i] - most_n * towards_[i];
+                const Eigen::Matrix2d turns =
+                    most_n / length_n_[i] * (Eigen::Matrix2d::Identity() - towards_[i] * towards_[i].transpose());
+                // rows of the force that count
+                Eigen::Matrix<double, 2, 3> rows = ground_[i].along.transpose() - turns * ground_[i].along.transpose();
+                if (most_n > 0.0) {
+                    rows -= stance_.limb[i].friction_ratio * towards_[i] * ground_[i].normal.transpose();
+                }
+                for (int b = 0; b < slides_; b++) {
+                    by.block<2, 2>(2 * a, 2 * b) = rows * by_slide(i, sliding_[b]);
+                }
+                by.block<2, 2>(2 * a, 2 * a) += spring_[i] * turns;
+            }
+            const double left_n = left.lpNorm<Eigen::Infinity>();
+            if (!has_stuck && left_n <= share * size_n) {
                 return true;
             }
+            stalls = left_n < 0.5 * least_n ? 0 : stalls + 1;
+            least_n = stalls ? least_n : left_n;
             const Vector go = by.partialPivLu().solve(-left);
-            if (!go.allFinite()) {
+            if (stalls > stalls_most || !go.allFinite()) {
                 return false;
             }
             for (int a = 0; a < slides_; a++) {
-                slide_[a].way_mm += go[2 * a];
-                slide_[a].angle_rad += std::fmax(-turn_most_rad, std::fmin(turn_most_rad, go[2 * a + 1]));
-                if (std::fabs(slide_[a].way_mm) > slide_most_mm) {
+                const int i = sliding_[a];
+                slid_[i] += go.segment<2>(2 * a);
+                if (slid_[i].norm() > slide_most_mm) {
                     return false;
                 }
-                put(slide_[a]);
+                place_[i] = stood_[i] + ground_[i].along * slid_[i];
             }
             forces();
         }
@@ -187,16 +240,11 @@ private:
         };
         for (int i = 0; i < count_; i++) {
             const brace_stance_limb_t &limb = stance_.limb[i];
-            const double pressing = pressing_n(i);
-            if (contact_[i] == BRACE_FOOT_STICKS) {
-                offer(-pressing, i, limb.grip_n > 0.0 ? BRACE_FOOT_LET_GO : BRACE_FOOT_OPEN);
-                if (pressing >= 0.0) {
-                    offer(beyond_cone_n(i), i, BRACE_FOOT_SLIDES);
+            if (on_ground(i)) {
+                offer(-pressing_n(i), i, limb.grip_n > 0.0 ? BRACE_FOOT_LET_GO : BRACE_FOOT_OPEN);
+                if (!may_slide_[i] && pressing_n(i) >= 0.0) {
+                    offer((ground_[i].along.transpose() * force_[i]).norm() - friction_most_n(i), i, BRACE_FOOT_SLIDES);
                 }
-            } else if (contact_[i] == BRACE_FOOT_SLIDES) {
-                offer(-pressing, i, limb.grip_n > 0.0 ? BRACE_FOOT_LET_GO : BRACE_FOOT_OPEN);
-                const double back_mm = -way_of(i);
-                offer(back_mm * mat3(limb.k_n_per_mm).trace(), i, BRACE_FOOT_STICKS);
             } else if (contact_[i] == BRACE_FOOT_OPEN) {
                 const Vec3 hangs = hanging_place(limb, body_);
                 const double below_mm = from_.foot[i].ground_mm - ground_[i].normal.dot(hangs);
@@ -206,35 +254,20 @@ private:
         return found;
     }
 
-    double way_of(int limb) const
-    {
-        for (int a = 0; a < slides_; a++) {
-            if (slide_[a].limb == limb) {
-                return slide_[a].way_mm;
-            }
-        }
-        return 0.0;
-    }
-
     // Returns whether other limbs bear the body now.
     bool apply(const Change &change)
     {
         const int i = change.limb;
-        const bool did_bear = on_ground(i);
-        for (int a = 0; a < slides_; a++) {
-            if (slide_[a].limb == i) {
-                slide_[a] = slide_[--slides_];
-                break;
-            }
-        }
         if (change.contact == BRACE_FOOT_SLIDES) {
-            const Eigen::Vector2d along = ground_[i].along.transpose() * force_[i];
-            slide_[slides_++] = {i, std::atan2(-along.y(), -along.x()), 0.0};
-        } else if (contact_[i] == BRACE_FOOT_OPEN) { // it comes down where it hangs now
+            may_slide_[i] = true;
+            return false;
+        }
+        const bool did_bear = on_ground(i);
+        if (contact_[i] == BRACE_FOOT_OPEN) { // it comes down where it hangs now
             const Vec3 hangs = hanging_place(stance_.limb[i], body_), normal = ground_[i].normal;
             stood_[i] = hangs + (from_.foot[i].ground_mm - normal.dot(hangs)) * normal;
         }
-        place_[i] = stood_[i];
+        stand(i, stood_[i]);
         contact_[i] = change.contact;
         return on_ground(i) != did_bear;
     }
@@ -243,10 +276,15 @@ private:
     const Load &load_;
     const brace_stance_state_t &from_;
     const int count_;
+    bool all_may_slide_ = true;
     std::array<Ground, limbs_most> ground_;
     std::array<int32_t, limbs_most> contact_;
+    std::array<bool, limbs_most> may_slide_;
+    std::array<double, limbs_most> spring_; // r [N/mm]
     Places stood_, place_, force_;
-    std::array<Slide, limbs_most> slide_;
+    std::array<Eigen::Vector2d, limbs_most> slid_, towards_; // along the ground in this step [mm]; y's direction
+    std::array<double, limbs_most> length_n_; // y's
+    std::array<int, limbs_most> sliding_;
     int slides_ = 0;
     Body equilibrium_;
     std::array<std::array<Eigen::Matrix<double, 3, 2>, limbs_most>, limbs_most> by_slide_;
