@@ -22,6 +22,7 @@ import numpy as np
 from brace.stance.limb_law import JOINTS
 from brace.stance.posterior import likely_forces
 from brace.stance.stance_file import Stance, load_stance
+from brace.stance.statics import State
 from brace.stance.world import Measured, NoStanceError, Standing, World, believed, drawn
 from judge import MOST, MOVES_MM, SLIPS_AT, SPARE_BEFORE
 from limbs import Array
@@ -55,24 +56,29 @@ def _without_payload(standing: Standing) -> Standing:
     return replace(standing, world=world)
 
 
+def _changed(before: Standing, after: State) -> Array:
+    change: Array = after.force_n - before.state.force_n
+    return change
+
+
 def _by_payload(standing: Standing) -> Array:
     world = standing.world
     slip = world.first_slip(standing, FACTOR_MOST)
     _, after = world.load(standing, [world.payload], slip.under_payload_n)
-    return after.force_n - standing.state.force_n
+    return _changed(standing, after)
 
 
 def _by_move(way_mm: Array) -> Callable[[Standing], Array]:
     def change(standing: Standing) -> Array:
         bare = _without_payload(standing)
-        return bare.world.moved(bare, way_mm).state.force_n - standing.state.force_n
+        return _changed(standing, bare.world.moved(bare, way_mm).state)
 
     return change
 
 
 def _by_lift(foot: int) -> Callable[[Standing], Array]:
     def change(standing: Standing) -> Array:
-        return standing.world.lifted(standing.state, foot, []).force_n - standing.state.force_n
+        return _changed(standing, standing.world.lifted(standing.state, foot, []))
 
     return change
 
