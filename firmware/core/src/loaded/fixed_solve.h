@@ -190,17 +190,22 @@ INLINE int32_t far_less(int32_t far, int32_t from_q29)
     return far - (from_q29 >> 2);
 }
 
-/* The shape goes the part of the way to `to`. returns false where no shape lies there, as is_shape */
-INLINE bool fixed_shape_goes(fixed_shape_t *shape, const fixed_far_shape_t *to, int32_t part_q30)
+/* Where a step that turns a link's end too far ends. turned_q27: how far it does */
+INLINE fixed_far_shape_t part_of_the_way(const fixed_shape_t *from, const fixed_far_shape_t *to, uint32_t turned_q27)
 {
-    const fixed_far_shape_t by = {times(far_less(to->root, shape->root), part_q30, 30),
-                                  times(far_less(to->a, shape->a), part_q30, 30),
-                                  times(far_less(to->b, shape->b), part_q30, 30)};
-    const fixed_far_shape_t there = {(shape->root >> 2) + by.root, (shape->a >> 2) + by.a, (shape->b >> 2) + by.b};
-    if (!is_shape(&there)) {
+    const int32_t part_q30 = (int32_t)(((uint64_t)FIXED_STEP_MOST << 30) / turned_q27);
+    return (fixed_far_shape_t){(from->root >> 2) + times(far_less(to->root, from->root), part_q30, 30),
+                               (from->a >> 2) + times(far_less(to->a, from->a), part_q30, 30),
+                               (from->b >> 2) + times(far_less(to->b, from->b), part_q30, 30)};
+}
+
+/* returns false where no shape lies there, as is_shape */
+INLINE bool fixed_shape_goes(fixed_shape_t *shape, const fixed_far_shape_t *there)
+{
+    if (!is_shape(there)) {
         return false;
     }
-    *shape = (fixed_shape_t){4 * there.root, 4 * there.a, 4 * there.b};
+    *shape = (fixed_shape_t){4 * there->root, 4 * there->a, 4 * there->b};
     return true;
 }
 
@@ -215,11 +220,12 @@ INLINE bool fixed_bounded_step(fixed_limb_t *limb, bool is_first, int32_t hip, i
     const uint32_t by_femur = end_turned(&femur, &limb->femur_shape);
     const uint32_t by_tibia = end_turned(&tibia, &limb->tibia_shape);
     const uint32_t turned = by_femur > by_tibia ? by_femur : by_tibia;
-    const int32_t part_q30 =
-        turned <= (uint32_t)FIXED_STEP_MOST ? 1 << 30 : (int32_t)(((uint64_t)FIXED_STEP_MOST << 30) / turned);
+    if (turned > (uint32_t)FIXED_STEP_MOST) {
+        femur = part_of_the_way(&limb->femur_shape, &femur, turned);
+        tibia = part_of_the_way(&limb->tibia_shape, &tibia, turned);
+    }
     *turned_q27 = turned <= (uint32_t)INT32_MAX ? (int32_t)turned : INT32_MAX;
-    return fixed_shape_goes(&limb->femur_shape, &femur, part_q30) &&
-           fixed_shape_goes(&limb->tibia_shape, &tibia, part_q30);
+    return fixed_shape_goes(&limb->femur_shape, &femur) && fixed_shape_goes(&limb->tibia_shape, &tibia);
 }
 
 /* --- at the equilibrium --------------------------------------------------------------------------------------- */
