@@ -55,6 +55,13 @@ class Siconos:
         self._process.stdin.write(json.dumps(ask) + "\n")  # type: ignore[union-attr]
         return np.array(json.loads(self._process.stdout.readline()))  # type: ignore[union-attr]
 
+    def seconds(self, w: Array, q: Array, friction: Array, guess: Array, repeats: int) -> float | None:
+        """How long one such problem takes the solver itself; None: it finds no solution."""
+        ask = {"w": w.tolist(), "q": q.tolist(), "friction": friction.tolist(), "r": guess.tolist(), "repeats": [repeats]}
+        self._process.stdin.write(json.dumps(ask) + "\n")  # type: ignore[union-attr]
+        found: float | None = json.loads(self._process.stdout.readline())  # type: ignore[union-attr]
+        return found
+
     def close(self) -> None:
         self._process.communicate()
 

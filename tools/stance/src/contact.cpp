@@ -15,10 +15,11 @@ constexpr double exact_share = 1e-10; // of the forces: what is left of the law 
 constexpr double near_share = 1e-4;   // enough to see which contact's law is broken
 constexpr double tie_share = 1e-9;    // of friction's most: a force beyond it slides
 constexpr double slide_most_mm = 100.0;   // a foot that goes further in one step has no rest
-constexpr double spring_ratio = 0.25; // r of a foot over its limb's own K; 0.1 to 1 find the rest more slowly or not
+constexpr double spring_ratio = 0.5; // r of a foot over its limb's own K: 0.1 and 1 find the rest more slowly or not
+constexpr double stride_most = 0.15; // of the forces: what r makes of how far an iteration slides a foot
 
-// One implicit step. All feet may slide at first, which mostly finds the rest within a few iterations. Where that fails,
-// the step begins again, and feet may slide one after the other, the one that breaks its law most first.
+// One implicit step. All feet may slide at first, which mostly finds the rest within a few iterations. Where that
+// fails, the step begins again, and feet may slide one after the other, the one that breaks its law most first.
 class Step {
 public:
     Step(const brace_stance_t &stance, const Load &load, const brace_stance_state_t &from)
@@ -159,7 +160,9 @@ private:
     // Coulomb's law as one equation of each foot (Alart and Curnier, Computer Methods in Applied Mechanics and
     // Engineering 92, 1991): the force along the ground is the point nearest to y = force - r slid of the disk that
     // friction allows. Inside it the foot sticks, slid = 0; outside, the force is the disk's edge. Newton's method on
-    // how far the feet slide, which of them do found anew in every iteration. share: of the forces, that may be left.
+    // how far the feet slide, which of them do found anew in every iteration. An iteration that goes too far, as where
+    // nearly all feet slide and hardly anything holds the body, goes a part of its way. share: of the forces, that may
+    // be left.
     bool slide(double share)
     {
         using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 2 * limbs_most, 2 * limbs_most>;
@@ -209,9 +212,14 @@ private:
             if (stalls > stalls_most || !go.allFinite()) {
                 return false;
             }
+            double stride_n = 0.0;
+            for (int a = 0; a < slides_; a++) {
+                stride_n = std::fmax(stride_n, spring_[sliding_[a]] * go.segment<2>(2 * a).norm());
+            }
+            const double part = std::fmin(1.0, stride_most * size_n / stride_n); // stride_n 0: nothing to go
             for (int a = 0; a < slides_; a++) {
                 const int i = sliding_[a];
-                slid_[i] += go.segment<2>(2 * a);
+                slid_[i] += part * go.segment<2>(2 * a);
                 if (slid_[i].norm() > slide_most_mm) {
                     return false;
                 }
@@ -296,14 +304,14 @@ private:
 
 Ground ground_of(const brace_stance_limb_t &limb)
 {
+    // Duff and others, Journal of Computer Graphics Techniques 6, 2017: no root, and one division
     Ground ground;
     ground.normal = vec3(limb.normal);
-    Vec3 aside = Vec3::Zero();
-    int least = 0;
-    ground.normal.cwiseAbs().minCoeff(&least);
-    aside[least] = 1.0;
-    ground.along.col(0) = ground.normal.cross(aside).normalized();
-    ground.along.col(1) = ground.normal.cross(Vec3(ground.along.col(0)));
+    const double x = ground.normal.x(), y = ground.normal.y(), z = ground.normal.z();
+    const double sign = std::copysign(1.0, z), a = -1.0 / (sign + z), b = x * y * a;
+    ground.along << 1.0 + sign * x * x * a, b, //
+        sign * b, sign + y * y * a, //
+        -sign * x, -y;
     return ground;
 }
 
