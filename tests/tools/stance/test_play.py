@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from brace.stance import setpoints
 from brace.stance.limb_law import JOINTS
 from brace.stance.setpoints import Begun, largest_margin, moved, wanted_forces
 from brace.stance.stance_file import Stance, load_stance
@@ -100,6 +101,14 @@ def test_set_points_that_hardly_move_change_no_force(seed: int) -> None:
     _, state = begun.under_load()
     found = wanted_forces(begun, state.force_n, 3.0)
     assert float(np.abs(found.after_n - state.force_n).max()) < 0.01
+
+
+@pytest.mark.parametrize(("per_mm_n", "moves"), [(-1.0, False), (0.0, True), (1.0, True)])
+def test_ways_are_judged_by_what_may_be(monkeypatch: pytest.MonkeyPatch, per_mm_n: float, moves: bool) -> None:
+    """Where every drawn world says that ways take margin, none is made; where none of them tells, the believed best."""
+    monkeypatch.setattr(setpoints, "_margin_after_n", lambda _, way_mm: per_mm_n * float(np.abs(way_mm).sum()))
+    found = largest_margin(Begun(_with_play(0.006)), 3.0)
+    assert bool(np.abs(found.way_mm).max() > 0.1) == moves
 
 
 def test_a_foot_that_is_let_go_leaves_its_force_to_the_others() -> None:

@@ -3,7 +3,7 @@ the body comes back to where it is without load."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -23,6 +23,7 @@ _LEAST_GAIN_N_PER_MM = 0.02  # a way that gains less is not worth it: moved toge
 _ROUNDS = 6
 _STEPS_MOST = 6
 _SHARES = (1.0, 0.5, 0.25, 0.125)
+_JUDGING_DRAWS = 24
 _ENOUGH_RATIO = 0.005  # a step that gains less is the last
 
 
@@ -93,15 +94,15 @@ class SetPoints:
 def largest_margin(begun: Begun, travel_mm: float) -> SetPoints:
     """The largest smallest margin of all feet that bear, each component of a way within travel_mm; of such ways the
     shortest. Raises NoStanceError."""
-    return _sought(
-        begun,
-        lambda state, force, stiffness: _widest(begun.stance, state, force, stiffness, travel_mm),
-        lambda statics, state: min(
-            statics.margin_n(i, force)
-            for i, (force, contact) in enumerate(zip(state.force_n, state.contact, strict=True))
-            if contact not in (OPEN, LET_GO)
-        ),
+    world, state = begun.under_load()
+    tried = _sought(
+        begun.stance,
+        world,
+        state,
+        lambda at, force, stiffness: _widest(begun.stance, at, force, stiffness, travel_mm),
+        _least_margin_n,
     )
+    return _said(begun.stance, world, state, _surest(begun, tried))
 
 
 def wanted_forces(begun: Begun, wanted_n: np.ndarray, travel_mm: float) -> SetPoints:
@@ -113,7 +114,9 @@ def wanted_forces(begun: Begun, wanted_n: np.ndarray, travel_mm: float) -> SetPo
         found = lsq_linear(rows, np.concatenate([lack, np.zeros(lack.size)]), (-travel_mm, travel_mm))
         return np.asarray(found.x.reshape(-1, 3))
 
-    return _sought(begun, nearest, lambda _, state: -float(np.linalg.norm(state.force_n - wanted_n)))
+    world, state = begun.under_load()
+    tried = _sought(begun.stance, world, state, nearest, lambda _, at: -float(np.linalg.norm(at.force_n - wanted_n)))
+    return _said(begun.stance, world, state, tried[-1])
 
 
 def least_sag(begun: Begun) -> SetPoints:
@@ -161,18 +164,18 @@ Ways = Callable[[State, np.ndarray, np.ndarray], np.ndarray]  # of state, forces
 Worth = Callable[[Statics, State], float]
 
 
-def _sought(begun: Begun, ways: Ways, worth: Worth) -> SetPoints:
+def _sought(stance: Stance, world: World, state: State, ways: Ways, worth: Worth) -> list[_Executed]:
     """Ways by the law made linear, executed in the whole law, in which joints cross their play and feet slide, and sought
-    again from where that leads. A step that makes things worse is halved; one that stays so is not made."""
-    world, state = begun.under_load()
-    at = _execute(begun.stance, world, state, np.zeros((len(begun.stance.limbs), 3)))
-    found, best = at, worth(at.statics, at.state)
+    again from where that leads. A step that makes things worse is halved; one that stays so is not made. All steps,
+    the first of no way at all, each better than the one before."""
+    at = _execute(stance, world, state, np.zeros((len(stance.limbs), 3)))
+    tried, best = [at], worth(at.statics, at.state)
     for _ in range(_STEPS_MOST):
         force, stiffness = _linear(at.world, at.state)
         step = ways(at.state, force + stiffness @ at.way_mm.ravel(), stiffness) - at.way_mm
         for share in _SHARES:
             try:
-                at = _execute(begun.stance, world, state, found.way_mm + share * step)
+                at = _execute(stance, world, state, tried[-1].way_mm + share * step)
             except NoStanceError:
                 continue
             if (value := worth(at.statics, at.state)) > best:
@@ -180,10 +183,50 @@ def _sought(begun: Begun, ways: Ways, worth: Worth) -> SetPoints:
         else:
             break
         is_done = value - best < _ENOUGH_RATIO * abs(value)
-        found, best = at, value
+        tried.append(at)
+        best = value
         if is_done:
             break
-    return _said(begun.stance, world, state, found)
+    return tried
+
+
+def _surest(begun: Begun, tried: Sequence[_Executed]) -> _Executed:
+    """The last of ways, or an earlier one that surely leaves a larger smallest margin, on average over what may be. The
+    believed limb has its joints in the middle of what their play allows; in truth a joint that bears little may lie on
+    either side, and cross its play on the way, or not."""
+    standings, _ = before_payload(begun.stance, begun.measured, _JUDGING_DRAWS, begun.with_payload)
+    drawn = []
+    for standing in standings[1:]:
+        try:
+            _, under = standing.world.load(standing, [standing.world.payload])
+        except NoStanceError:
+            continue
+        drawn.append(Standing(carrying(standing.world), standing.statics, under))
+    if not drawn or not any(one.world.has_play for one in drawn):
+        return tried[-1]
+    margins_n = np.array([[_margin_after_n(at, one.shift_mm) for at in drawn] for one in tried])
+    better_n = margins_n - margins_n[-1]
+    doubt_n = better_n.std(axis=1) / np.sqrt(len(drawn))
+    surely_n = better_n.mean(axis=1) - doubt_n
+    return tried[-1] if surely_n.max() <= 0.0 else tried[int(np.argmax(surely_n))]
+
+
+def _margin_after_n(standing: Standing, way_mm: np.ndarray) -> float:
+    """The smallest margin in one world after ways; where it has no rest, none."""
+    try:
+        after = standing.world.moved(standing, way_mm)
+    except NoStanceError:
+        return 0.0
+    return _least_margin_n(after.statics, after.state)
+
+
+def _least_margin_n(statics: Statics, state: State) -> float:
+    """Of all feet that bear."""
+    return min(
+        statics.margin_n(i, force)
+        for i, (force, contact) in enumerate(zip(state.force_n, state.contact, strict=True))
+        if contact not in (OPEN, LET_GO)
+    )
 
 
 def _linear(world: World, state: State) -> tuple[np.ndarray, np.ndarray]:
