@@ -8,6 +8,7 @@ The command knows the forces under the payload, read with noise, and nothing tha
 when its set-points have been executed and the forces read again. Every set-point may move by TRAVEL_MM each time. The
 best margin is that of TRIES ways, tried in the truth's own law made linear at its rest: half anywhere, half near the
 best so far. Wanted are the forces of a way drawn in the same law, so that there are such.
+Beside it stands what sensors alone cost: a way by that law, so with K exact, from forces read once.
 """
 
 from __future__ import annotations
@@ -26,7 +27,8 @@ from pathlib import Path
 import numpy as np
 from judge import SPARE_BEFORE, TIME_OUT_S, _stands, share
 from limbs import Array, loaded
-from truth import NoStance, Siconos, State, World, crossing, execute, margins, payload, stand
+from scipy.optimize import linprog
+from truth import NoStance, Siconos, State, World, crossing, execute, frames, margins, payload, stand
 from world import Hidden, Stance, draw, write, write_measured
 
 TRAVEL_MM = 3.0
@@ -37,17 +39,20 @@ ROUNDS = 2
 GOOD = 0.95  # of the best margin
 NEAR = 0.05  # of the load, from the wanted force
 SLOW_S = 2.0
+FACES = 24  # of a cone
 
 
 @dataclass(frozen=True)
 class Case:
-    """before_share, margin_share: of the best margin, as it stood and after each round. off: of each foot's force from
+    """before_share, margin_share: of the best margin, as it stood and after each round; exact_k_share: after a way by
+    exact K. off: of each foot's force from
     the wanted one, of the load, after each round. slipped: how many feet did while set-points moved. seconds: the
     command's, of processor."""
 
     number: int
     kind: str
     before_share: float
+    exact_k_share: float
     margin_share: list[float]
     off: list[list[float]]
     slipped: int
@@ -94,6 +99,22 @@ def _best(world: World, state: State, by_ways: Array, rng: np.random.Generator) 
         if least.max() > best:
             best, way = float(least.max()), ways[np.argmax(least)]
     return best
+
+
+def _by_exact_k(world: World, state: State, by_ways: Array, sensor_n: float, rng: np.random.Generator) -> float:
+    """The smallest margin after the best way that forces read once allow, K exact: a linear programme."""
+    internal = np.linalg.svd(by_ways)[0][:, : len(by_ways) - 6]  # of balanced forces: the rest of the noise is known
+    read = state.force_n.ravel() + internal @ (internal.T @ rng.normal(0.0, sensor_n, len(by_ways)))
+    rows, limits = [], []
+    for i, along in enumerate(frames(world.normal)):
+        for at in 2 * np.pi * np.arange(FACES) / FACES:
+            side = np.cos(at) * along[:, 1] + np.sin(at) * along[:, 2] - world.friction[i] * along[:, 0]
+            foot = slice(3 * i, 3 * i + 3)
+            rows.append(np.append(side @ by_ways[foot], 1.0))
+            limits.append(world.friction[i] * world.grip_n[i] - side @ read[foot])
+    bounds = [(-TRAVEL_MM, TRAVEL_MM)] * len(by_ways) + [(None, None)]
+    way = linprog(np.append(np.zeros(len(by_ways)), -1.0), np.array(rows), np.array(limits), bounds=bounds).x[:-1]
+    return float(_least(world, (state.force_n.ravel() + by_ways @ way)[None])[0])
 
 
 @dataclass(frozen=True)
@@ -159,7 +180,8 @@ def case(seed: int, number: int, hidden: Hidden, brace: list[str], solver: Sicon
     wanted = state.force_n + (by_ways @ rng.uniform(-WANTED_MM, WANTED_MM, len(by_ways))).reshape(-1, 3)
     if margins(world, wanted).min() < SPARE_BEFORE * load_n:
         wanted = state.force_n + 0.3 * (wanted - state.force_n)
-    found = Case(number, stance.name.split()[0], least / best, [], [], 0, 0.0)
+    exact_k = _by_exact_k(world, state, by_ways, hidden.sensor_n, np.random.default_rng([seed, number, 5]))
+    found = Case(number, stance.name.split()[0], least / best, exact_k / best, [], [], 0, 0.0)
     try:
         for after, slipped, seconds in _rounds(brace, stance, solver, state, None, rng):
             shares = [*found.margin_share, float(margins(world, after.force_n).min()) / best]
@@ -196,7 +218,12 @@ def run(seed: int, hidden: Hidden, brace: list[str], count: int, jobs: int) -> I
 def table(cases: list[Case]) -> str:
     """Lines of text."""
     before = np.median([one.before_share for one in cases])
-    lines = [f"smallest margin before: median {before:.2f} of the best of {TRIES}"]
+    exact_k = np.array([one.exact_k_share for one in cases])
+    lines = [
+        f"smallest margin before: median {before:.2f} of the best of {TRIES}",
+        f"K exact, forces read once: at least {GOOD:g} of the best {share((exact_k >= GOOD).tolist())}, median "
+        f"{np.median(exact_k):.2f}",
+    ]
     for k in range(ROUNDS):
         shares = np.array([one.margin_share[k] if len(one.margin_share) > k else -np.inf for one in cases])
         off = [value for one in cases for value in (one.off[k] if len(one.off) > k else [np.inf])]
