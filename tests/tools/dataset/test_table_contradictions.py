@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from brace.dataset import load_dataset
+from brace.dataset.check_table import _single_repair
 from brace.identify.faults import settle
 from command_bench import LIMB, Outcome, physics_k
 
@@ -126,3 +127,22 @@ def test_cross_entries_without_printed_eigenvalues(tmp_path: Path) -> None:
     (folder / "data.csv").write_text("\n".join([*lines[:2], ",".join(row), *lines[3:]]))
     faults = load_dataset(folder).faults
     assert [(fault.row, fault.field, fault.suggestion) for fault in faults] == [(2, "k_zx", right)]
+
+
+@pytest.mark.parametrize(
+    ("place", "wrong", "field", "right"),
+    [
+        (0, 50.0, "k_xx", 5.0),
+        (2, 0.4, "k_zz", 4.0),
+        (1, -15.0, "k_xz", -1.5),
+        (1, 0.15, "k_xz", 1.5),
+    ],
+)
+def test_the_one_entry_that_the_eigenvalues_mend(place: int, wrong: float, field: str, right: float) -> None:
+    """Trace and determinant name the entry and its value; the cross entry keeps its sign."""
+    decimals = dict.fromkeys(("k_xx", "k_xz", "k_zz", "lambda_min", "lambda_max"), 2)
+    stated = np.round(np.linalg.eigvalsh([[5.0, 1.5], [1.5, 4.0]]), 2)
+    k = np.array([5.0, 1.5, 4.0])
+    k[place] = wrong
+    named, value = _single_repair(k, stated, decimals)
+    assert named == field and value == pytest.approx(right, abs=0.02)
