@@ -10,6 +10,8 @@ import pytest
 
 from brace.dataset import load_dataset
 from brace.dataset.check_table import _single_repair
+from brace.dataset.table_poses import TablePoses
+from brace.dataset.unit_slips import STIFFNESS_UNITS
 from brace.identify.faults import settle
 from command_bench import LIMB, Outcome, physics_k
 
@@ -93,6 +95,22 @@ def test_units_of_the_source(
     folder = table(tmp_path, k_factor=factor, meta=META + f'[source]\nunit_as_printed = "{unit}"\n')
     outcome = identified(folder, brace)
     assert outcome.code == 3 and words in outcome.err and not (folder / "f.toml").exists()
+
+
+def test_every_unit_of_stiffness_has_its_factor() -> None:
+    """A force over a length, each by its definition."""
+    force_n = {"N": 1.0, "kN": 1e3, "mN": 1e-3, "MN": 1e6, "kgf": 9.80665, "gf": 9.80665e-3}
+    force_n |= dict.fromkeys(("lb", "lbf"), 4.4482216152605)
+    length_mm = {"mm": 1.0, "um": 1e-3, "cm": 10.0, "in": 25.4} | dict.fromkeys(("m", "metre", "meter"), 1e3)
+    for unit, factor in STIFFNESS_UNITS.items():
+        force, _, length = unit.replace("mm^-1", "/mm").replace("m^-1", "/m").partition("/")
+        assert factor == pytest.approx(force_n[force] / length_mm[length], rel=1e-6), unit
+
+
+@pytest.mark.parametrize(("z_mm", "angles", "asks"), [(None, False, True), (100.0, False, False), (None, True, False)])
+def test_a_table_whose_tip_has_a_direction_needs_no_height(z_mm: float | None, angles: bool, asks: bool) -> None:
+    heights = None if z_mm is None else np.full(2, z_mm)
+    assert TablePoses(np.full(2, 300.0), heights, np.zeros((2, 2)) if angles else None).needs_height is asks
 
 
 @pytest.mark.parametrize("unit", ["N/mm", "kN/m", ""])
