@@ -22,7 +22,7 @@ from brace.dataset.enough import enough_rows
 from brace.diagnose.loading.parts import locked_rows
 from brace.identify import record as loading_record
 from brace.identify.record import load_record, setting_of
-from brace.diagnose.loading import run as loading_run
+from brace.diagnose.loading import run as loading_run, search as loading_search
 from brace.diagnose.loading.run import search_pass
 from brace.diagnose.loading.screen import Remover
 from brace.diagnose.loading.search import Search
@@ -398,6 +398,20 @@ def test_a_quarter_of_the_configurations_is_locked_and_none_at_the_ends(tmp_path
     assert POSES[:, 1].min() < knees.min() and knees.max() < POSES[:, 1].max()
     few = data.select(data["config"] <= 3)
     assert not locked_rows(few).any()
+
+
+@pytest.mark.parametrize(("hoped", "kept", "again"), [(96.0, 1.0, True), (94.0, 1.0, False), (96.0, 60.0, False)])
+def test_a_promise_is_tried_again_where_it_would_come_near_the_best(
+    monkeypatch: pytest.MonkeyPatch, hoped: float, kept: float, again: bool
+) -> None:
+    """By 5 nats, and where the first fit kept no more than half of what the slopes promised."""
+    monkeypatch.setattr(loading_search, "evidence", lambda *_: hoped)
+    record = SimpleNamespace(readings=100, noise_freedom=10.0)
+    at = SimpleNamespace(fit=SimpleNamespace(cost=200.0))
+    searched = SimpleNamespace(tried={"best": SimpleNamespace(score=100.0)}, base=at, record=record)
+    promise = SimpleNamespace(cost=100.0, space=SimpleNamespace(own=1, variants=()))
+    fitted = SimpleNamespace(cost=200.0 - kept)
+    assert Search._fell_short(cast(Any, searched), cast(Any, promise), cast(Any, fitted), cast(Any, at)) is again
 
 
 def test_a_long_record_is_thinned_by_whole_runs(tmp_path: Path, believed: LimbModel) -> None:
