@@ -19,6 +19,7 @@ from bus_bench import limb_on_tcp, told_in_time, wait_for_mode
 from command_bench import LIMB, PROJECT, Outcome, spawn
 
 from brace.bus.frame import Frame
+from brace.bus.loading_test import Plan
 from brace.bus.log import read
 from brace.bus.recording import Recording
 from brace.bus.session import Session
@@ -118,8 +119,7 @@ def _as_other_tools_read_it(folder: Path, ours: list[tuple[Any, ...]]) -> None:
         elif function == 0x280 and node in halves:
             b, a = database.decode_message(0x281, message.data, decode_choices=False), halves.pop(node)
             values = {
-                name.split("_", 2)[-1] if name.startswith("stiffness_") else name: v
-                for name, v in {**a, **b}.items()
+                name.split("_", 2)[-1] if name.startswith("stiffness_") else name: v for name, v in {**a, **b}.items()
             }
             theirs.append((node, *(values[name] for name in ("k_xx", "k_xz", "k_zz"))))
     assert [entry[0] for entry in theirs] == [entry[0] for entry in ours]
@@ -130,12 +130,8 @@ def _as_other_tools_read_it(folder: Path, ours: list[tuple[Any, ...]]) -> None:
     from mcap.reader import make_reader
 
     with (folder / "a.mcap").open("rb") as file:
-        frames = [
-            json.loads(message.data) for _, _, message in make_reader(file).iter_messages(topics=["/can"])
-        ]
-    assert [(f["id"], f["data"]) for f in frames] == [
-        (f.identifier, f.data.hex()) for f in read(folder / "a.log")
-    ]
+        frames = [json.loads(message.data) for _, _, message in make_reader(file).iter_messages(topics=["/can"])]
+    assert [(f["id"], f["data"]) for f in frames] == [(f.identifier, f.data.hex()) for f in read(folder / "a.log")]
 
 
 @pytest.mark.parametrize("ending", [".log", ".mcap"])
@@ -334,11 +330,17 @@ def test_a_loading_test_becomes_a_dataset(brace: Callable[..., Outcome], limb: P
     k = physics_k(live["theta1_rad"], live["theta2_rad"])
     for column, expected in (("fx_n", k[0, 0]), ("fz_n", k[1, 0])):
         slope = np.polyfit(dataset["dx_mm"], dataset[column], 1)[0]
-        assert (
-            abs(slope - expected) < 0.02 * k[0, 0]
-        )  # sensor noise 0.02 N over 1 mm; motor play in the readings
+        assert abs(slope - expected) < 0.02 * k[0, 0]  # sensor noise 0.02 N over 1 mm; motor play in the readings
     outcome = brace("identify", tmp_path / "test", "--model", limb, "--out", tmp_path / "fitted.toml")
     assert outcome.code == 0, outcome.err
+
+
+def test_how_long_a_loading_test_takes() -> None:
+    """Three steps to each side are 13 readings, each after a dwell and up to a second for the servos."""
+    plan = Plan("x", 3, 0.5, 0.1)
+    assert plan.rows == 13
+    assert 13 * 0.2 < plan.quick_s < 13 * 1.1
+    assert 2.0 * plan.quick_s < plan.most_s < 60.0
 
 
 def test_an_interrupted_loading_test_is_stopped(limb: Path, tmp_path: Path) -> None:

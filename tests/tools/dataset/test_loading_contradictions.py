@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from brace.dataset import load_dataset
+from brace.dataset import check_poses, load_dataset
 from brace.ground.errors import BadFileError
 from command_bench import LIMB, LOADING_HEADER, LOADING_META, Outcome, loading_rows, write_loading
 
@@ -22,9 +22,7 @@ def place(name: str) -> int:
     return LOADING_HEADER.split(",").index(name)
 
 
-def scaled(
-    name: str, factor: float, offset: float = 0.0, where: slice = slice(None)
-) -> Callable[[Rows], None]:
+def scaled(name: str, factor: float, offset: float = 0.0, where: slice = slice(None)) -> Callable[[Rows], None]:
     def change(rows: Rows) -> None:
         for row in rows[where]:
             row[place(name)] = f"{float(row[place(name)]) * factor + offset:.9g}"
@@ -129,12 +127,8 @@ def test_a_contradiction_is_located(case: str, tmp_path: Path) -> None:
     assert words in str(faults[0].suggestion)
 
 
-@pytest.mark.parametrize(
-    "case", ["all forces zero", "axis exchanged", "one axis entry", "fx in kgf", "kelvin"]
-)
-def test_a_contradictory_record_is_not_fitted(
-    case: str, tmp_path: Path, brace: Callable[..., Outcome]
-) -> None:
+@pytest.mark.parametrize("case", ["all forces zero", "axis exchanged", "one axis entry", "fx in kgf", "kelvin"])
+def test_a_contradictory_record_is_not_fitted(case: str, tmp_path: Path, brace: Callable[..., Outcome]) -> None:
     rows = loading_rows()
     CASES[case][0](rows)
     (tmp_path / "limb.toml").write_text(LIMB)
@@ -184,3 +178,22 @@ def test_zeroed_counts_at_the_top_and_under_rig(tmp_path: Path) -> None:
         with pytest.raises(BadFileError) as caught:
             load_dataset(write_loading(tmp_path, rows, meta=meta))
         assert f"meta.toml:{line}" in caught.value.render() and "zeroed" in caught.value.render()
+
+
+@pytest.mark.parametrize("slips", [1, 3, 4])
+def test_a_few_entries_off_the_path_of_all_runs_are_slips(slips: int) -> None:
+    """Up to three of a run; more are another plan."""
+    runs, path_mm = 12, np.array([0.0, 0.5, 1.0, 0.5, 0.0, -0.5, -1.0, -0.5])
+    length = path_mm.size
+    columns = {name: np.zeros(runs * length) for name in ("theta1_rad", "theta2_rad", "dz_mm")}
+    columns |= {
+        name: np.repeat(values, length) for name, values in (("run", np.arange(runs)), ("axis", np.zeros(runs)))
+    }
+    columns |= {"config": np.ones(runs * length), "step": np.tile(np.arange(length), runs)}
+    columns["dx_mm"] = np.tile(path_mm, runs)
+    rows = 5 * length + np.arange(slips) + 1
+    columns["dx_mm"][rows] += 0.3
+    found = check_poses.faults(columns, 0.5)
+    slipped = rows if slips <= 3 else rows[:0]
+    assert [(fault.row, fault.field) for fault in found] == [(int(row) + 1, "dx_mm") for row in slipped]
+    assert [fault.suggestion for fault in found] == path_mm[slipped % length].tolist()

@@ -9,6 +9,9 @@ import numpy as np
 import pytest
 
 from brace.dataset import load_dataset
+from brace.dataset.check_table import _single_repair
+from brace.dataset.table_poses import TablePoses
+from brace.dataset.unit_slips import STIFFNESS_UNITS
 from brace.identify.faults import settle
 from command_bench import LIMB, Outcome, physics_k
 
@@ -94,6 +97,22 @@ def test_units_of_the_source(
     assert outcome.code == 3 and words in outcome.err and not (folder / "f.toml").exists()
 
 
+def test_every_unit_of_stiffness_has_its_factor() -> None:
+    """A force over a length, each by its definition."""
+    force_n = {"N": 1.0, "kN": 1e3, "mN": 1e-3, "MN": 1e6, "kgf": 9.80665, "gf": 9.80665e-3}
+    force_n |= dict.fromkeys(("lb", "lbf"), 4.4482216152605)
+    length_mm = {"mm": 1.0, "um": 1e-3, "cm": 10.0, "in": 25.4} | dict.fromkeys(("m", "metre", "meter"), 1e3)
+    for unit, factor in STIFFNESS_UNITS.items():
+        force, _, length = unit.replace("mm^-1", "/mm").replace("m^-1", "/m").partition("/")
+        assert factor == pytest.approx(force_n[force] / length_mm[length], rel=1e-6), unit
+
+
+@pytest.mark.parametrize(("z_mm", "angles", "asks"), [(None, False, True), (100.0, False, False), (None, True, False)])
+def test_a_table_whose_tip_has_a_direction_needs_no_height(z_mm: float | None, angles: bool, asks: bool) -> None:
+    heights = None if z_mm is None else np.full(2, z_mm)
+    assert TablePoses(np.full(2, 300.0), heights, np.zeros((2, 2)) if angles else None).needs_height is asks
+
+
 @pytest.mark.parametrize("unit", ["N/mm", "kN/m", ""])
 def test_units_that_are_the_formats(unit: str, tmp_path: Path) -> None:
     folder = table(tmp_path, meta=META + f'[source]\nunit_as_printed = "{unit}"\n')
@@ -126,3 +145,22 @@ def test_cross_entries_without_printed_eigenvalues(tmp_path: Path) -> None:
     (folder / "data.csv").write_text("\n".join([*lines[:2], ",".join(row), *lines[3:]]))
     faults = load_dataset(folder).faults
     assert [(fault.row, fault.field, fault.suggestion) for fault in faults] == [(2, "k_zx", right)]
+
+
+@pytest.mark.parametrize(
+    ("place", "wrong", "field", "right"),
+    [
+        (0, 50.0, "k_xx", 5.0),
+        (2, 0.4, "k_zz", 4.0),
+        (1, -15.0, "k_xz", -1.5),
+        (1, 0.15, "k_xz", 1.5),
+    ],
+)
+def test_the_one_entry_that_the_eigenvalues_mend(place: int, wrong: float, field: str, right: float) -> None:
+    """Trace and determinant name the entry and its value; the cross entry keeps its sign."""
+    decimals = dict.fromkeys(("k_xx", "k_xz", "k_zz", "lambda_min", "lambda_max"), 2)
+    stated = np.round(np.linalg.eigvalsh([[5.0, 1.5], [1.5, 4.0]]), 2)
+    k = np.array([5.0, 1.5, 4.0])
+    k[place] = wrong
+    named, value = _single_repair(k, stated, decimals)
+    assert named == field and value == pytest.approx(right, abs=0.02)

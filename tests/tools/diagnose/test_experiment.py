@@ -4,6 +4,7 @@ physics of look-alikes, the file against the rig."""
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, cast
@@ -139,9 +140,7 @@ def brute_force(
         x = rival.fit.x + steps * unit
         limb = believed.with_values({key: float(value) for key, value in zip(space.keys, x)})
         forces = old.play(limb)
-        parts = [
-            (record.measured[i] - forces[name]) / record.sigma[i] for i, name in enumerate(("fx_n", "fz_n"))
-        ]
+        parts = [(record.measured[i] - forces[name]) / record.sigma[i] for i, name in enumerate(("fx_n", "fz_n"))]
         parts.append(np.where(np.isinf(space.sigma), 0.0, (x - space.mean) / space.sigma))
         if added:
             readings = new.play(limb, read)
@@ -149,9 +148,7 @@ def brute_force(
         return np.concatenate(parts)
 
     start = np.zeros(space.size)
-    costs = [
-        2.0 * float(least_squares(off, start, args=(added,), diff_step=1e-4).cost) for added in (True, False)
-    ]
+    costs = [2.0 * float(least_squares(off, start, args=(added,), diff_step=1e-4).cost) for added in (True, False)]
     return costs[0] - costs[1]
 
 
@@ -180,9 +177,7 @@ def test_chance_to_win_is_that_of_drawn_records() -> None:
         away = np.array([1.5, -2.0, 1.0])
         draws = rng.standard_normal((40000, 3))
         ratio = 0.5 * np.sum((draws + away) ** 2 - draws**2, axis=1) + lead
-        assert float(chance_to_win(np.array(away @ away), lead)) == pytest.approx(
-            np.mean(ratio > 3.0), abs=0.01
-        )
+        assert float(chance_to_win(np.array(away @ away), lead)) == pytest.approx(np.mean(ratio > 3.0), abs=0.01)
 
 
 def test_knee_and_tibia_are_told_apart_by_encoders(
@@ -220,9 +215,7 @@ def test_instruments_that_are_there_stay_on(believed: LimbModel, tmp_path: Path)
     assert found.minutes < 20.0
 
 
-def test_the_same_under_two_names_is_said_to_be_inseparable(
-    believed: LimbModel, soft_knee: tuple[Record, Any]
-) -> None:
+def test_the_same_under_two_names_is_said_to_be_inseparable(believed: LimbModel, soft_knee: tuple[Record, Any]) -> None:
     record, _ = soft_knee
     twin = Variant("another_name", "joint.tibia", JOINT.freedoms)
     found = proposed(record, searched(record, believed, [JOINT, twin]), believed)
@@ -252,6 +245,29 @@ def test_a_larger_set_is_no_rival_of_its_part(believed: LimbModel, soft_knee: tu
     hypotheses = contenders(sets)
     assert no_rivals(hypotheses).tolist() == [[True, True], [False, True]]
     assert separated(np.zeros((1, 2, 2)), hypotheses)[0].round(3).tolist() == [[1.0, 1.0], [0.0, 1.0]]
+
+
+def test_what_the_record_leaves_possible_contends(soft_knee: tuple[Record, Any]) -> None:
+    """Sets of their own count down to odds of e^-8, three rivals even where they are less likely, six sets in all; one
+    that adds an effect to another counts from 2 % of the posterior. An infinite misfit does not count."""
+    fitted = soft_knee[1].base.fit
+
+    def count(*shares: float, added: float = 0.0) -> int:
+        labels = [frozenset({f"effect {place}"}) for place in range(len(shares))]
+        sets = [LabelSet(label, Hypothesis(fitted, 0.0), share) for label, share in zip(labels, shares, strict=True)]
+        larger = labels[0] | {"added"}
+        chosen = contenders([*sets, LabelSet(larger, Hypothesis(fitted, 0.0), added)])
+        assert [one.log_odds for one in chosen] == sorted((one.log_odds for one in chosen), reverse=True)
+        assert all(one.log_odds <= 0.0 for one in chosen)
+        return len(chosen)
+
+    assert count(0.97, added=0.03) == 2 and count(0.99, added=0.01) == 1
+    assert count(1.0, 1e-9, 1e-9, 1e-9, 1e-9) == 4
+    assert count(1.0, 4e-4, 4e-4, 4e-4, 4e-4) == 5 and count(1.0, 3e-4, 3e-4, 3e-4, 3e-4) == 4
+    assert count(0.2, 0.2, 0.2, 0.1, 0.1, 0.1, 0.1) == 6
+    broken = Hypothesis(replace(fitted, cost=np.inf), 0.0)
+    sets = [LabelSet(frozenset({"a"}), Hypothesis(fitted, 0.0), 0.5), LabelSet(frozenset({"b"}), broken, 0.5)]
+    assert len(contenders(sets)) == 1
 
 
 def test_look_alikes_of_the_knee(soft_knee: tuple[Record, Any]) -> None:

@@ -16,6 +16,7 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -53,9 +54,7 @@ def _joint_test(folder: Path, gap_rad: float, noise_n_mm: float = 40.0, seed: in
 def fleet(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
     """Three joints: tight, loose, looser; and one record that is none."""
     root = tmp_path_factory.mktemp("fleet")
-    sound = [
-        _joint_test(root / name, gap) for name, gap in (("tight", 0.0), ("loose", 0.01), ("looser", 0.02))
-    ]
+    sound = [_joint_test(root / name, gap) for name, gap in (("tight", 0.0), ("loose", 0.01), ("looser", 0.02))]
     broken = root / "broken"
     broken.mkdir()
     (broken / "meta.toml").write_text('format = 1\nkind = "joint_test"\n')
@@ -88,9 +87,7 @@ def locally(fleet: list[Path], tmp_path_factory: pytest.TempPathFactory) -> tupl
 
 
 @pytest.mark.minutes
-def test_a_broken_one_is_told_and_the_others_are_written(
-    fleet: list[Path], locally: tuple[Path, Outcome]
-) -> None:
+def test_a_broken_one_is_told_and_the_others_are_written(fleet: list[Path], locally: tuple[Path, Outcome]) -> None:
     out, outcome = locally
     assert outcome.code == 3 and "broken: not diagnosed" in outcome.err and "torque_n_mm" in outcome.err
     for name in ("tight", "loose", "looser"):
@@ -111,9 +108,7 @@ def test_the_worst_comes_first(locally: tuple[Path, Outcome]) -> None:
     assert [limb["name"] for limb in summary["limbs"]] == ["looser", "loose", "tight"]
     assert [limb["name"] for limb in summary["broken"]] == ["broken"]
     page = (out / "fleet.html").read_text()
-    assert (
-        page.index("looser/report.html") < page.index("loose/report.html") < page.index("tight/report.html")
-    )
+    assert page.index("looser/report.html") < page.index("loose/report.html") < page.index("tight/report.html")
     assert "torque_n_mm" in page
     rows = [line.split()[0] for line in outcome.out.splitlines()]
     assert rows == ["limb", "looser", "loose", "tight"]
@@ -128,9 +123,7 @@ def test_the_same_as_one_by_one(fleet: list[Path], locally: tuple[Path, Outcome]
 def test_without_a_broken_one_it_ends_with_0(
     brace: Callable[..., Outcome], fleet: list[Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(
-        local, "run_local", lambda jobs, _n: iter([_fake(job.name, 1.0, 0.5) for job in jobs])
-    )
+    monkeypatch.setattr(local, "run_local", lambda jobs, _n: iter([_fake(job.name, 1.0, 0.5) for job in jobs]))
     outcome = brace("diagnose", fleet[0], fleet[1], "--out", tmp_path / "out", "--json")
     assert outcome.code == 0, outcome.err
     assert json.loads(outcome.out)["broken"] == [] and len(json.loads(outcome.out)["limbs"]) == 2
@@ -169,9 +162,7 @@ def _kills_itself(job: Job) -> Diagnosed:
     return Diagnosed(job.name, {"x": b""}, {"verdict": "none"})
 
 
-def test_a_process_that_dies_costs_its_own_record_only(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
+def test_a_process_that_dies_costs_its_own_record_only(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setattr(local, "run_job", _kills_itself)
     jobs = [Job(name, tmp_path, None, Options()) for name in ("a", "killer", "b", "c", "d")]
     found = {outcome.name: outcome.done for outcome in local.run_local(jobs, 2)}
@@ -299,9 +290,7 @@ def cluster(workers: int) -> Iterator[str]:
 
 
 @pytest.mark.minutes
-def test_on_a_cluster_the_same_bytes(
-    fleet: list[Path], locally: tuple[Path, Outcome], tmp_path: Path
-) -> None:
+def test_on_a_cluster_the_same_bytes(fleet: list[Path], locally: tuple[Path, Outcome], tmp_path: Path) -> None:
     with cluster(1) as address:
         outcome = _run(*fleet, "--out", tmp_path / "out", "--scheduler", address)
     assert outcome.code == 3 and "broken: not diagnosed" in outcome.err, outcome.err
@@ -328,6 +317,26 @@ def test_a_cluster_without_workers_is_told_in_time(
     with cluster(0) as address:
         outcome = brace("diagnose", *fleet, "--out", tmp_path / "out", "--scheduler", address)
     assert outcome.code == 4 and "no workers" in outcome.err and "dask worker" in outcome.err
+
+
+def test_workers_have_time_to_come(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Ten seconds at least; the command without workers is tested with less."""
+    from brace.diagnose.fleet import cluster as there
+
+    class Client:
+        def __init__(self, address: str, timeout: float) -> None:
+            self.address, self.timeout_s = address, timeout
+
+        def wait_for_workers(self, count: int, timeout: float) -> None:
+            if count != 1 or not 10.0 <= timeout < 60.0:
+                raise TimeoutError
+
+        def close(self, timeout: float) -> None:
+            pass
+
+    monkeypatch.setitem(sys.modules, "distributed", SimpleNamespace(Client=Client, TimeoutError=TimeoutError))
+    client, _ = there._connected("tcp://somewhere:8786")
+    assert client.address == "tcp://somewhere:8786" and 1.0 <= client.timeout_s < 60.0
 
 
 def test_a_faulty_record_is_not_counted_as_a_limb_that_differs() -> None:

@@ -5,6 +5,8 @@ from __future__ import annotations
 
 import time
 from pathlib import Path
+from types import SimpleNamespace
+from typing import cast
 
 import numpy as np
 import pytest
@@ -12,6 +14,8 @@ import pytest
 from brace.dataset import load_dataset
 from brace.diagnose.diagnosis import Diagnosis
 from brace.diagnose.loading.data_faults.gate import gate
+from brace.diagnose.loading.data_faults.judge import Judge
+from brace.diagnose.loading.data_faults.readings import _stands_under_load
 from brace.diagnose.options import Options
 from brace.model import LimbModel
 from spoiled import (
@@ -75,6 +79,31 @@ def test_an_effect_is_no_data_fault(effect: str, design: str, paper_limb: Path, 
     found = judged(write(tmp_path / "d", columns, meta), believed)
     faults = [fault.sentence(Path("data.csv")) for fault in (found.data_faults if found else ())]
     assert found is None or found.verdict != "data_fault", faults[:3]
+
+
+class _Table(dict[str, np.ndarray]):
+    """Columns, and a sensor that reads in steps of 0.05 N."""
+
+    meta = SimpleNamespace(number={"sensor.resolution_n": 0.05}.__getitem__)
+
+
+def test_a_force_that_stands_under_load_was_stuck() -> None:
+    """It lies off the unloaded level by more than 3 times noise and resolution together, and the limb's force goes by
+    more than 10 times that. 5 readings say so along the force's own axis, 8 across it."""
+
+    def stands(level_n: float, way_n: float, count: int = 8, axis: int = 1) -> bool:
+        rows, stretch = 20, slice(6, 6 + count)
+        force_n, played_n, moved_mm = np.zeros((2, rows)), np.zeros((2, rows)), np.full(rows, 0.5)
+        force_n[0, stretch], played_n[0, stretch], moved_mm[:3] = level_n, np.linspace(0.0, way_n, count), 0.0
+        force_n[0, 3:6] = level_n  # loaded as well: the unloaded level is that of the rows that are not moved
+        columns = {"axis": np.full(rows, axis), "dx_mm": moved_mm, "dz_mm": moved_mm}
+        table, sigma_n = _Table(columns), np.full((2, rows), 0.1)
+        judge = SimpleNamespace(dataset=table, measured=force_n, played=played_n, sigma=sigma_n)
+        return _stands_under_load(cast(Judge, judge), 0, stretch)
+
+    assert stands(0.5, 1.6) and stands(-0.5, 1.6)
+    assert not stands(0.4, 1.6) and not stands(0.5, 1.4)
+    assert not stands(0.5, 1.6, 7) and stands(0.5, 1.6, 5, axis=0) and not stands(0.5, 1.6, 4, axis=0)
 
 
 def test_the_row_and_the_reading_of_a_slip(paper_limb: Path, tmp_path: Path) -> None:

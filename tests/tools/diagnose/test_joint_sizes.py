@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -29,9 +30,7 @@ FULL_N_MM = 4000.0
 GAP_KEY, RATIO_KEY = "joint.femur.gap_rad", "joint.femur.coulomb_per_load_ratio"
 
 
-def ramps(
-    reach_rad: float, gap_rad: float, compliance: float, hardening: float = 0.0
-) -> tuple[np.ndarray, np.ndarray]:
+def ramps(reach_rad: float, gap_rad: float, compliance: float, hardening: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
     """Angles that are imposed, and the torque. Friction turns over a hundredth of the swing."""
     angle = reach_rad * np.concatenate([triangle(), triangle()])
     rubs, friction = 0.0, []
@@ -95,27 +94,40 @@ def test_a_model_is_laid_against_the_right_side_of_its_gap(tmp_path: Path) -> No
     assert left(problem.aligned(model)) <= grid
 
 
-def test_a_friction_that_no_gear_has_needs_evidence_to_match(tmp_path: Path) -> None:
-    """Of what a record does not tell, the fit says what gears have: a turn of the friction is told by few readings of
-    a small test, and constant friction may stand in for one that grows with the load."""
+def _fitter(folder: Path) -> Fitter:
+    """Of a small test whose friction grows with the load."""
     torque = FULL_N_MM * triangle()
     angle = under_torque(torque, 0.0, 0.5 * FULL_N_MM, COMPLIANCE)
     times = 0.02 * np.arange(angle.size)
     columns = {"t_s": times, "angle_rad": angle, "torque_n_mm": torque, "test": np.zeros(angle.size)}
-    folder = joint_cases.Case("", {}, columns).write(tmp_path)
-    record = JointRecord(load_dataset(folder))
-    fitter = Fitter(record, spring_alone(load_dataset(folder)), np.inf)
-    bench = JointTestBench(record.size, given=False, rests=False)
+    data = load_dataset(joint_cases.Case("", {}, columns).write(folder))
+    return Fitter(JointRecord(data), spring_alone(data), np.inf)
+
+
+def test_a_friction_that_no_gear_has_needs_evidence_to_match(tmp_path: Path) -> None:
+    """Of what a record does not tell, the fit says what gears have: a turn of the friction is told by few readings of
+    a small test, and constant friction may stand in for one that grows with the load."""
+    fitter = _fitter(tmp_path)
+    bench = JointTestBench(fitter.record.size, given=False, rests=False)
     rubs = next(term for term in effects_of(fitter.base, "femur", bench) if term.name == "coulomb_friction")
     chosen = fitter.parameter_set((rubs,))
     at = chosen.keys.index(RATIO_KEY)
     x = chosen.array("start").copy()
-    off = np.full(record.fitted.size, 10.0)
+    off = np.full(fitter.record.fitted.size, 10.0)
     x[at] = 0.15
     assert fitter._pull(chosen, x, off) is None
     x[at] = 0.5
     pull = fitter._pull(chosen, x, off)
     assert pull is not None and pull[at] > 0.0 and np.count_nonzero(pull) == 1
+
+
+def test_of_fits_of_the_same_terms_the_best_is_kept(tmp_path: Path) -> None:
+    fitter = _fitter(tmp_path)
+    found = fitter.fit(())
+    for rss, kept in ((0.0, 0.0), (np.inf, found.rss)):
+        fitter.known[frozenset()] = replace(found, rss=rss)
+        fitter.fit(())
+        assert fitter.known[frozenset()].rss == pytest.approx(kept)
 
 
 @pytest.mark.minutes

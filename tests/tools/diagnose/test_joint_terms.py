@@ -5,11 +5,15 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import joint_cases
 import numpy as np
 import pytest
+from brace.dataset import load_dataset
 from brace.dataset.check_joint_test import faults
 from brace.diagnose.diagnosis import Diagnosis, Interval, NamedEffect
 from brace.diagnose.joint_test.choose import at_an_end
+from brace.diagnose.joint_test.localise import _contrasts
+from brace.diagnose.joint_test.record import JointRecord
 from brace.diagnose.joint_test.terms import effects_of
 from brace.diagnose.joint_test.workflow import _may_be_nothing
 from brace.effects import JointTestBench
@@ -25,9 +29,7 @@ AMPLITUDES = (0.4, 1.0, 0.42, 0.98, 0.41)
 SPRING = "joint.femur.compliance_rad_per_n_mm"
 
 
-def bench(
-    folder: Path, torque_of: object, hold: int = 0, late_s: float = 0.0, noise_n_mm: float = 20.0
-) -> Diagnosis:
+def bench(folder: Path, torque_of: object, hold: int = 0, late_s: float = 0.0, noise_n_mm: float = 20.0) -> Diagnosis:
     """Tests at two amplitudes; `torque_of` plays the angles of one. `hold`: readings at which the joint stands at each
     reversal."""
     assert callable(torque_of)
@@ -143,3 +145,19 @@ def test_a_time_constant_at_an_end_of_its_range_is_no_creep() -> None:
     low, high = next((one.low, one.high) for one in creep.parameters if one.key == "creep.time_constant_s")
     for constant_s, at_end in ((low, True), (1.05 * low, True), (2.0 * low, False), (0.9 * high, False), (high, True)):
         assert at_an_end(creep, {"creep.ratio": 0.1, "creep.time_constant_s": constant_s}) == at_end
+
+
+def test_where_the_residuals_of_a_joint_test_are_looked_for(tmp_path: Path) -> None:
+    """The middle of the range is its middle third, far from it are the outer thirds."""
+    angle = np.linspace(-REACH_RAD, REACH_RAD, 400)
+    folder = joint_cases.Case("", {}, {
+        "t_s": STEP_S * np.arange(400), "angle_rad": angle, "torque_n_mm": STIFFNESS * angle, "test": np.zeros(400)
+    }).write(tmp_path)  # fmt: skip
+    record = JointRecord(load_dataset(folder))
+    told, weights = _contrasts(record)
+    place = record.columns["angle_rad"] / REACH_RAD
+    middle, far = (weights[told.index(next(name for name in told if name.startswith(words)))]
+                   for words in ("in the middle", "far from the middle"))  # fmt: skip
+    assert np.ptp(place) > 1.9
+    assert middle == pytest.approx(np.where(np.abs(place) < 1.0 / 3.0, place, 0.0), abs=0.02)
+    assert far + middle == pytest.approx(np.where(np.abs(place) > 2.0 / 3.0, np.sign(place), 0.0))

@@ -8,9 +8,11 @@ import numpy as np
 import pytest
 from brace.dataset import Dataset, load_dataset
 from brace.diagnose.diagnosis import Diagnosis
+from brace.diagnose.loading.choose import LabelSet
 from brace.diagnose.loading.fit import Fit, fit
 from brace.diagnose.loading.run import diagnose_loading
 from brace.diagnose.loading.troubles import likeliest
+from brace.diagnose.loading.search import Hypothesis
 from brace.diagnose.loading.space import space_of, trust_of
 from brace.diagnose.loading.troubles.presliding import (
     STRAINS,
@@ -155,6 +157,26 @@ def plain(tmp_path: Path, paper_limb: Path) -> tuple[Record, Fit]:
     record = load_record(load_dataset(loading_record(tmp_path / "record", paper_limb, values={})))
     space = space_of(trust_of(load_limb(paper_limb), turns=True), ())
     return record, fit(record, space, space.mean)
+
+
+def test_the_joint_that_rubs_is_found_alone(tmp_path: Path, paper_limb: Path, plain: tuple[Record, Fit]) -> None:
+    """With its friction's size, ahead of all that has no friction. Sets with friction do not count, sets without do."""
+    record = load_record(rubbing(tmp_path / "rubbing", paper_limb, "tibia"))
+    space = space_of(trust_of(load_limb(paper_limb), turns=True), ())
+    fitted = fit(record, space, space.mean)
+    nothing = LabelSet(frozenset(), Hypothesis(fitted, 0.0), 0.1)
+    found, lead = likeliest.rubs(record, [nothing])
+    assert found is not None and found.name == "presliding_friction@joint.tibia" and not found.alike
+    assert lead == found.lead > 100.0
+    assert found.value == pytest.approx(LEVEL_N_MM, rel=0.25)
+    friction, other = (
+        LabelSet(frozenset({label}), Hypothesis(fitted, lead + 1000.0), 0.9)
+        for label in ("coulomb_friction@joint.tibia", "backlash@joint.tibia")
+    )
+    assert likeliest.rubs(record, [friction, nothing])[1] == lead
+    assert likeliest.rubs(record, [other, nothing])[1] < -likeliest.MUST_LEAD
+    sound, fitted = plain
+    assert likeliest.rubs(sound, [LabelSet(frozenset(), Hypothesis(fitted, 0.0), 1.0)])[1] < likeliest.MAY_BE
 
 
 def test_elements_slide_at_their_strain(plain: tuple[Record, Fit]) -> None:

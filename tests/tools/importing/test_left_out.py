@@ -40,6 +40,16 @@ def test_rows_of_overloads_are_counted_and_cut_no_run(brace: Brace, tmp_path: Pa
     assert data.rows == len(PATH) - 2 and data["run"].max() == 1 and data["rep"].max() == 1
 
 
+def test_rows_without_a_force_are_counted(brace: Brace, tmp_path: Path) -> None:
+    path = one_run(tmp_path, {})
+    lines = path.read_text().splitlines()
+    lines[4] = lines[4].rpartition(",")[0] + ","
+    path.write_text("\n".join(lines) + "\n")
+    done = brace("import", path, *AXIS, "--out", tmp_path / "out")
+    assert done.code == 0 and f"1 of {len(PATH)} rows left out: no force in the row (1)" in done.err, done.err
+    assert load_dataset(tmp_path / "out").rows == len(PATH) - 1
+
+
 def test_after_an_overload_displacements_count_from_the_same_place(brace: Brace, tmp_path: Path) -> None:
     path = one_run(tmp_path, {3: "12.0,OL,OL,OL,OL"}, place_mm=12.0)
     mapping = tmp_path / "m.toml"

@@ -6,6 +6,7 @@ import re
 import tomllib
 from collections.abc import Callable
 from pathlib import Path
+from typing import cast
 
 import logs_of_a_rig as rig
 import numpy as np
@@ -15,7 +16,10 @@ from foreign_files import POSES_DEG, Record
 from test_foreign_files import matches
 
 from brace.dataset import load_dataset
+from brace.ground.errors import BadFileError
+from brace.importing.logs.collect import Collector
 from brace.importing.logs.ros_units import unit_of_field
+from brace.importing.logs.wanted import Wanted
 
 Brace = Callable[..., Outcome]
 LATE_S = 0.21  # the log begins with the load cell
@@ -254,3 +258,12 @@ def test_our_own_recordings(brace: Brace, tmp_path: Path, one_pose: Record, endi
 def test_units_of_ros_messages_are_si(schema: str, path: str, unit: str) -> None:
     """REP 103; a type that fixes no unit leaves it to be asked."""
     assert unit_of_field(schema, path) == unit
+
+
+def test_entries_of_several_senders_come_out_of_order_by_a_second() -> None:
+    """By more, the clock was set back, and the file is refused."""
+    collector = Collector(Path("a.bag"), cast(Wanted, None))
+    for time_s in (10.0, 9.5, 9.01, 11.0):
+        collector.clock(time_s)
+    with pytest.raises(BadFileError, match="goes back by 1.1 s"):
+        collector.clock(9.9)

@@ -75,6 +75,8 @@ def test_degrees_celsius_and_fahrenheit_have_an_offset() -> None:
         ("q2_deg", "", "theta2_rad", "deg"),
         ("Joint 2 angle [deg]", "", "theta2_rad", "deg"),
         ("thetaFemurDeg", "", "theta1_rad", "deg"),
+        ("forceXMN", "", "fx_n", None),
+        ("forceXKN", "", "fx_n", None),
         ("knee (deg)", "", "theta2_rad", "deg"),
         ("tSec", "", "t_s", "s"),
         ("Zeit", "s", "t_s", "s"),

@@ -162,6 +162,7 @@ def test_questions_at_a_terminal(brace: Brace, tmp_path: Path, monkeypatch: pyte
         "tube 20 16",
         "tube 20 16 alu",
         "'rod 12 cfrp'",
+        "",  # asked again: only play and travel may stay open
         "unknown",
         "60",
         "20arcmin",
@@ -173,6 +174,7 @@ def test_questions_at_a_terminal(brace: Brace, tmp_path: Path, monkeypatch: pyte
     out = tmp_path / "limb.toml"
     done = brace("new", "--out", out)
     assert done.code == 0, done.err
+    assert done.err.count("empty: unknown") == 4
     assert "The femur's length" in done.err and "if it was in metres" not in done.out
     limb = tomllib.loads(out.read_text())
     assert limb["geometry"]["femur_mm"] == 185.0 and "tibia" not in limb["motor"]

@@ -9,7 +9,7 @@ from typing import cast
 import numpy as np
 import pytest
 from brace.bus.watch import NodeState
-from brace.stance.from_bus import BusReader
+from brace.stance.from_bus import BusReader, _Noise
 from brace.stance.limb_law import shape_of
 from brace.stance.stance_file import load_stance
 
@@ -53,6 +53,20 @@ def test_what_came_just_after_a_shape_is_not_forgotten() -> None:
         reading = reader.read({LIMB.node: state_at(at, time_s)}, time_s)[0].reading
     assert reading is not None
     assert np.linalg.norm(reading.tip_mm - shape_of(LIMB, LIMB.model, theta).tip_mm) > 0.05
+
+
+def test_a_force_is_as_noisy_as_its_readings_show() -> None:
+    """From the controller's interval to what neighbouring readings differ by; never less than the sensor's own noise.
+    A load that comes at once is hardly noise."""
+    noise, still = _Noise(0.09), np.array([1.0, 2.0, 3.0])
+    assert noise.of(still, np.full(3, 4.0)) == pytest.approx(np.full(3, 4.0))
+    for _ in range(300):
+        found = noise.of(still, np.full(3, 4.0))
+    assert found == pytest.approx(np.full(3, 0.09))
+    assert np.all(noise.of(still + 100.0, np.zeros(3)) < 0.15)
+    chance = np.random.default_rng(1)
+    shown = [noise.of(still + 2.0 * chance.standard_normal(3), np.zeros(3)) for _ in range(2000)]
+    assert np.mean(shown[200:], axis=0) == pytest.approx(np.full(3, 4.0), rel=0.1)
 
 
 @pytest.mark.parametrize(("age_s", "words"), [(0.01, set()), (0.05, {"late"}), (5.0, {"K is old"})])

@@ -43,10 +43,7 @@ class Robot:
         self.unmeasured: set[int] = set()
         self.laws = MIDDLE.laws
         self.time_s = 0.0
-        places = [
-            place_covariance_mm2(limb, law)
-            for limb, law in zip(STANCE.limbs, MIDDLE.laws, strict=True)
-        ]
+        places = [place_covariance_mm2(limb, law) for limb, law in zip(STANCE.limbs, MIDDLE.laws, strict=True)]
         self.observer = Observer(STANCE, MIDDLE.weight, places, self.readings(), 0.0)
 
     def readings(self) -> list[Reading]:
@@ -67,19 +64,12 @@ class Robot:
 
     def under(self, factor: float) -> np.ndarray:
         """The true forces under so much of the payload."""
-        _, state = self.world.load(
-            self.standing, [(factor * STANCE.payload_n, STANCE.payload_at_mm)]
-        )
+        _, state = self.world.load(self.standing, [(factor * STANCE.payload_n, STANCE.payload_at_mm)])
         return state.force_n
 
     def covered(self) -> list[bool]:
         estimate = self.observer.estimate()
-        return list(
-            np.ravel(
-                (estimate.force_low_n <= self.force_n)
-                & (self.force_n <= estimate.force_high_n)
-            )
-        )
+        return list(np.ravel((estimate.force_low_n <= self.force_n) & (self.force_n <= estimate.force_high_n)))
 
 
 def _holding(chance: np.random.Generator) -> World:
@@ -119,9 +109,7 @@ def test_a_payload_that_is_hung_on_is_an_event_with_its_force() -> None:
     events = robot.run(30)
     assert [event.kind for event in events] == ["load"]
     estimate = robot.observer.estimate()
-    off = (
-        np.abs(estimate.carried_n[:3] - STANCE.payload_n) / estimate.carried_sigma_n[:3]
-    )
+    off = np.abs(estimate.carried_n[:3] - STANCE.payload_n) / estimate.carried_sigma_n[:3]
     assert off.max() < 4.0
 
 
@@ -132,9 +120,7 @@ def test_a_foot_that_slips_is_named() -> None:
     offset_mm[2] += [2.0, 1.0, 0.0]
     robot.force_n = replace(robot.world, offset_mm=offset_mm).stand().state.force_n
     events = robot.run(40)
-    assert ("moved", STANCE.limbs[2].name) in [
-        (event.kind, event.limb) for event in events
-    ]
+    assert ("moved", STANCE.limbs[2].name) in [(event.kind, event.limb) for event in events]
 
 
 def test_a_set_point_that_moves_is_no_event() -> None:
@@ -149,35 +135,32 @@ def test_a_set_point_that_moves_is_no_event() -> None:
     laws, offset_mm = (moved, *MIDDLE.laws[1:]), MIDDLE.offset_mm.copy()
     offset_mm[0] += MIDDLE.laws[0].tip_mm - moved.tip_mm
     before_n = robot.force_n
-    robot.force_n = (
-        replace(MIDDLE, laws=laws, offset_mm=offset_mm).stand().state.force_n
-    )
+    robot.force_n = replace(MIDDLE, laws=laws, offset_mm=offset_mm).stand().state.force_n
     assert np.abs(robot.force_n - before_n).max() > 10 * SENSOR_N
     assert robot.run(2) == []
     robot.laws = laws
     assert robot.run(40) == []
-    assert (
-        np.abs(robot.observer.estimate().force_n - robot.force_n).max() < 3 * SENSOR_N
-    )
+    assert np.abs(robot.observer.estimate().force_n - robot.force_n).max() < 3 * SENSOR_N
 
 
-def test_a_lift_and_a_landing_are_named() -> None:
+def test_a_lift_and_a_landing_are_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The search for soft limbs begins again with each of them."""
     robot = Robot(4, world=MIDDLE)
+    begun: list[bool] = []  # whether the foot was down
+    softness, estimate = robot.observer._softness, robot.observer.estimate
+    monkeypatch.setattr(softness, "disturbed", lambda: begun.append(bool(estimate().is_down[2])))
     before_n = robot.force_n = robot.under(1.0)
     robot.run(30)
     robot.standing.state.lift(2)  # `brace stance lift` says that it stands so
     robot.force_n = robot.under(1.0)
     lifted = robot.run(30)
-    assert ("lifted", STANCE.limbs[2].name) in [
-        (event.kind, event.limb) for event in lifted
-    ]
+    assert ("lifted", STANCE.limbs[2].name) in [(event.kind, event.limb) for event in lifted]
     assert not robot.observer.estimate().is_down[2]
     robot.force_n = before_n
     landed = robot.run(30)
-    assert ("landed", STANCE.limbs[2].name) in [
-        (event.kind, event.limb) for event in landed
-    ]
+    assert ("landed", STANCE.limbs[2].name) in [(event.kind, event.limb) for event in landed]
     assert np.abs(robot.observer.estimate().force_n - before_n).max() < 3 * SENSOR_N
+    assert begun == [False, True]
 
 
 def test_a_foot_without_a_sensor_is_told_by_the_others_and_k() -> None:
@@ -211,10 +194,7 @@ def test_margins_have_an_interval_and_a_foot_near_its_cone_is_no_surprise() -> N
     robot = Robot(6)
     robot.run(40)
     margin_n, sigma_n = robot.observer.margins()
-    true_n = [
-        robot.standing.statics.margin_n(i, force)
-        for i, force in enumerate(robot.force_n)
-    ]
+    true_n = [robot.standing.statics.margin_n(i, force) for i, force in enumerate(robot.force_n)]
     assert np.all(np.abs(margin_n - true_n) < 4.0 * sigma_n + 1e-9)
 
 

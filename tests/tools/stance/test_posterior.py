@@ -55,6 +55,20 @@ def test_without_play_it_is_the_gaussian_of_the_linear_law() -> None:
     assert found.std(axis=0) == pytest.approx(sigma, rel=4.0 / np.sqrt(1600.0))
 
 
+@pytest.mark.parametrize("grip_n", [0.0, 1.0])
+def test_a_foot_bears_what_its_friction_holds(grip_n: float) -> None:
+    """Where the readings lie beyond the cone of friction, the forces end at it, to a tenth of a reading's sigma."""
+    stance = _stance(0.0, 100.0, compliance_rel=0.0, gain_rel=0.0, length_mm=0.0)
+    force_n = believed(stance).stand().state.force_n
+    measured = _read(force_n, np.random.default_rng(1))
+    friction = 0.95 * float(np.mean(np.hypot(force_n[:, 0], force_n[:, 1]) / (force_n[:, 2] + grip_n)))
+    limbs = tuple(replace(limb, grip_n=grip_n, friction_ratio=friction) for limb in stance.limbs)
+    middle = believed(replace(stance, limbs=limbs))
+    _, forces = likely_forces([middle] * 100, middle, measured, np.random.default_rng(2))
+    beyond = np.hypot(forces[..., 0], forces[..., 1]) - friction * (forces[..., 2] + grip_n)
+    assert np.all(np.abs(beyond.max(axis=0)) < 0.5 * SENSOR_N)
+
+
 def _truths(stance: Stance, count: int) -> list[tuple[World, Standing]]:
     chance, middle = np.random.default_rng(3), believed(stance)
     found: list[tuple[World, Standing]] = []

@@ -96,6 +96,18 @@ def test_the_feet_bear_weight_limbs_and_payload(brace: Callable[..., Outcome], s
     assert forces(found)[0][0] == pytest.approx(forces(found)[1][0]) and found["body"]["displacement_mm"][2] < 0.0
 
 
+def test_the_text_tells_each_foots_force(brace: Callable[..., Outcome], stance: Path) -> None:
+    """As --json has it, to two decimals, and its interval."""
+    found = json.loads(brace("stance", "load", stance, "--draws", 20, "--json").out)
+    lines = brace("stance", "load", stance, "--draws", 20).out.splitlines()
+    for limb in found["limbs"]:
+        line = next(line for line in lines if line.strip().startswith(limb["name"]))
+        for axis, force, low, high in zip(
+            "xyz", limb["force_n"], limb["force_low_n"], limb["force_high_n"], strict=True
+        ):
+            assert f"{axis} {force + 0.0:8.2f} ({low:.2f} to {high:.2f})" in line
+
+
 def test_a_payload_at_its_factor_makes_the_first_foot_slide(brace: Callable[..., Outcome], tmp_path: Path) -> None:
     first = json.loads(brace("stance", "load", write(tmp_path), "--draws", 20, "--json").out)["first_slip"]
     for more, slides in ((0.98, False), (1.03, True)):

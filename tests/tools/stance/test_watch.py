@@ -68,6 +68,7 @@ def test_what_is_hung_on_and_who_bears_it(
     assert said.code == 0, said.err
     found = events(said)
     assert "load" in found and not {"lifted", "landed", "moved", "soft"} & set(found)
+    assert len(found["stance"]) <= SECONDS + 1  # one each second
     last = found["stance"][-1]
     assert [limb["name"] for limb in last["limbs"]] == NAMES
     with truth.open() as file:

@@ -150,6 +150,19 @@ def test_against_the_reference(brace: Callable[..., Outcome], heavy_limb: Path, 
     assert judged >= 40
 
 
+@pytest.mark.parametrize("ask", [loaded.under_force, loaded.under_displacement])
+def test_a_beam_is_as_of_very_many_parts(ask: Callable[..., loaded.LoadedLimbs], paper_limb: Path) -> None:
+    """Unless somebody asks for few; one part is not enough."""
+    values = {"link.femur.moment_transfer": True, "link.tibia.bending_mm_per_n": 0.5}
+    model = load_limb(paper_limb).with_values(values)
+
+    def k(**given: int) -> np.ndarray:
+        return ask(model, 1.0, 1.4, [[2.0, 3.0]], **given).k_n_per_mm
+
+    assert k() == pytest.approx(k(parts=400), rel=1e-6)
+    assert k() != pytest.approx(k(parts=1), rel=1e-6)
+
+
 def test_a_single_posture(brace: Callable[..., Outcome], paper_limb: Path) -> None:
     given = ("k", "--model", paper_limb, "--theta1", 1.0, "--theta2", 1.4)
     plain = json.loads(brace(*given, "--json").out)

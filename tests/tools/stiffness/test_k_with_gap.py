@@ -54,7 +54,10 @@ def test_a_posture_outside_the_travel_is_flagged(brace: Brace, paper_limb: Path,
     limb.write_text(paper_limb.read_text() + "\n[motor.tibia]\nangle_min_rad = 0.2\nangle_max_rad = 1.3\n")
     outside = brace("k", "--model", limb, *POSTURE)
     assert "OUT_OF_RANGE" in outside.out and "theta2_rad = 1.4 is outside the travel of [motor.tibia]" in outside.err
-    assert "OUT_OF_RANGE" not in brace("k", "--model", limb, "--theta1", 1, "--theta2", 1.2).out
+    below = brace("k", "--model", limb, "--theta1", 1, "--theta2", 0.1)
+    assert "OUT_OF_RANGE" in below.out and "theta2_rad = 0.1 is outside" in below.err
+    within = brace("k", "--model", limb, "--theta1", 1, "--theta2", 1.2)
+    assert "OUT_OF_RANGE" not in within.out and "outside" not in within.err
     grid = json.loads(brace("map", "--model", limb, "--postures", 400, "--out", tmp_path / "m", "--json").out)
     r = [(185**2 + 313.5**2 + 2 * 185 * 313.5 * math.cos(theta2)) ** 0.5 for theta2 in (1.3, 0.2)]
     assert grid["r_mm"] == pytest.approx(r, rel=1e-5)
