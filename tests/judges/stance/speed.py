@@ -5,10 +5,12 @@
 
 From no load to weight and payload in one implicit step. Prints times and their ratios: feet that stick (friction 5) and
 feet that slide (0.35). DAQP's is the time that it says itself, ours that of the C call, less that of one that does
-nothing. With --beside the first stances go to two more. Siconos solves problems of friction with the body against soft springs,
-one after the other until the body balances, as the judge's truth does; told is the time in its own functions, and how
-far its forces are from ours. MuJoCo takes a step of the same springs (elliptic cones, ten iterations without slip), once
-the body has come to rest.
+nothing.
+
+With --beside the first stances also go to two others. Siconos solves problems of friction, the body against soft
+springs, one after the other until the body balances, as the judge's truth does. Its time is that of its own functions,
+and its forces are compared with ours. MuJoCo takes a step of the same springs (elliptic cones, ten iterations without
+slip) when the body has come to rest.
 """
 
 from __future__ import annotations

@@ -105,8 +105,9 @@ def _fitter(folder: Path) -> Fitter:
 
 
 def test_a_friction_that_no_gear_has_needs_evidence_to_match(tmp_path: Path) -> None:
-    """Of what a record does not tell, the fit says what gears have: a turn of the friction is told by few readings of
-    a small test, and constant friction may stand in for one that grows with the load."""
+    """Where a record does not show how friction depends on the load, the fit takes what gears usually have. A small
+    test has few readings where the friction turns, and constant friction may stand in for one that grows with the
+    load."""
     fitter = _fitter(tmp_path)
     bench = JointTestBench(fitter.record.size, given=False, rests=False)
     rubs = next(term for term in effects_of(fitter.base, "femur", bench) if term.name == "coulomb_friction")

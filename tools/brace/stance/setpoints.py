@@ -24,6 +24,7 @@ _ROUNDS = 6
 _STEPS_MOST = 6
 _SHARES = (1.0, 0.5, 0.25, 0.125)
 _JUDGING_DRAWS = 24
+_JUDGED_STEPS = 2  # the last, beside no way at all: all of them cost a second
 _ENOUGH_RATIO = 0.005  # a step that gains less is the last
 
 
@@ -204,15 +205,18 @@ def _surest(begun: Begun, tried: Sequence[_Executed]) -> _Executed:
         drawn.append(Standing(carrying(standing.world), standing.statics, under))
     if not drawn or not any(one.world.has_play for one in drawn):
         return tried[-1]
-    margins_n = np.array([[_margin_after_n(at, one.shift_mm) for at in drawn] for one in tried])
+    some = [tried[0], *tried[1:][-_JUDGED_STEPS:]]
+    margins_n = np.array([[_margin_after_n(at, one.shift_mm) for at in drawn] for one in some])
     better_n = margins_n - margins_n[-1]
     doubt_n = better_n.std(axis=1) / np.sqrt(len(drawn))
     surely_n = better_n.mean(axis=1) - doubt_n
-    return tried[-1] if surely_n.max() <= 0.0 else tried[int(np.argmax(surely_n))]
+    return tried[-1] if surely_n.max() <= 0.0 else some[int(np.argmax(surely_n))]
 
 
 def _margin_after_n(standing: Standing, way_mm: np.ndarray) -> float:
     """The smallest margin in one world after ways; where it has no rest, none."""
+    if not np.any(way_mm):
+        return _least_margin_n(standing.statics, standing.state)
     try:
         after = standing.world.moved(standing, way_mm)
     except NoStanceError:

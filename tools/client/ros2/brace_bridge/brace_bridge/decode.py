@@ -1,4 +1,4 @@
-"""This module decodes CAN frames into the values that the ROS bridge publishes. It imports nothing of ROS."""
+"""This module decodes CAN frames into the values that the ROS bridge publishes. It does not import ROS."""
 
 from __future__ import annotations
 

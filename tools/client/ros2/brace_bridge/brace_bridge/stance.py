@@ -1,4 +1,4 @@
-"""This module decodes CAN frames of a stance's limbs for the ROS bridge. It needs nothing of ROS."""
+"""This module decodes CAN frames of a stance's limbs for the ROS bridge. It does not import ROS."""
 
 from __future__ import annotations
 
