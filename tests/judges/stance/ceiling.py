@@ -90,13 +90,14 @@ class Changes:
     best: list[float] = field(default_factory=list)
     right: list[bool] = field(default_factory=list)
 
-    def count(self, by: Callable[[Standing], Array], true: Standing, drawn: list[Standing], feet: list[int]) -> None:
+    def count(self, by: Callable[[Standing], Array], true: Standing, draws: list[Standing], feet: list[int]) -> None:
+        """One change of one stance, in the truth and in the draws; nothing where the truth has no rest after it."""
         try:
             change = by(true)
         except NoStanceError:
             return
         changes = []
-        for one in drawn:
+        for one in draws:
             try:
                 changes.append(by(one))
             except NoStanceError:

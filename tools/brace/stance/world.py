@@ -170,7 +170,7 @@ class World:
 
     def lifted(self, state: State, limb: int, forces: Sequence[Force]) -> State:
         """The body under its weight and further forces, as `state` has it, when a foot is let go. What it bore fades in
-        steps, for what slides and which play opens hangs on the way there."""
+        steps, for what slides and which play opens hangs on the way there. Raises NoStanceError."""
         statics, loads, bore = self._statics(), [*self.weight, *forces], state.force_n[limb]
         at = self.laws[limb].tip_mm + state.place_mm[limb]
         state = state.copy()
@@ -186,7 +186,7 @@ class World:
     def moved(self, standing: Standing, way_mm: np.ndarray, laws: Sequence[LimbLaw] | None = None) -> Standing:
         """After the tips' set-points have moved by ways (a row a limb), under the weight: tips where they then are
         without load, feet where they stand. laws: the limbs at their new angles; without them a limb's K is that of
-        before."""
+        before. Raises NoStanceError."""
         laws = [law.at(way) for law, way in zip(self.laws, way_mm, strict=True)] if laws is None else laws
         world = replace(self, laws=tuple(laws), offset_mm=standing.state.place_mm - way_mm)
         statics, state = world._statics(), standing.state.copy()
