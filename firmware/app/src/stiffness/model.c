@@ -1,11 +1,13 @@
 #include "stiffness/model.h"
 
+#include <string.h>
+
 #define LEAST_FACTOR 1e-3f        /* no temperature makes a spring push the wrong way */
 #define WARMER_MOST_DEGC 200.0f
 #define NEWTON_STEPS 2
 #define DEFLECTION_MOST_RAD 8.0f  /* no spring is wound further than a joint turns */
 #define LOAD_MOST_N_MM 1e9f
-#define STEPS_TO_REST_MOST 4u /* ticks that go on towards a rest before the search begins anew */
+#define STEPS_TO_REST_MOST 8u /* ticks that go on towards a rest before the search begins anew */
 
 void model_configure_loaded(model_t *model, const brace_limb_t *limb, const brace_gravity_t *weights, bool is_spatial)
 {
@@ -23,35 +25,39 @@ void model_configure_loaded(model_t *model, const brace_limb_t *limb, const brac
 #endif
 }
 
-static brace_status_t loaded_stiffness(const model_loaded_limb_t *limb, const float unbent_rad[BRACE_LINK_COUNT],
-                                       const brace_load_t *load, brace_loaded_stiffness_t *result)
+/* K where the tick's step leads. */
+static brace_status_t plane_follow(const model_loaded_limb_t *limb, const float unbent_rad[BRACE_LINK_COUNT],
+                                   const brace_load_t *load, bool is_bent, model_plane_place_t *place,
+                                   brace_loaded_stiffness_t *found)
 {
+    const float theta1_rad = unbent_rad[BRACE_FEMUR], theta2_rad = unbent_rad[BRACE_TIBIA];
 #ifdef __SOFTFP__
-    return brace_loaded_fixed_stiffness(limb, unbent_rad[BRACE_FEMUR], unbent_rad[BRACE_TIBIA], load, result);
+    return brace_loaded_fixed_follow(limb, theta1_rad, theta2_rad, load, is_bent, place, found);
 #else
-    return brace_loaded_stiffness(limb, unbent_rad[BRACE_FEMUR], unbent_rad[BRACE_TIBIA], load, result);
+    return brace_loaded_follow(limb, theta1_rad, theta2_rad, load, is_bent, place, found);
 #endif
 }
 
 static brace_status_t plane_settle(const model_loaded_limb_t *limb, const float unbent_rad[BRACE_LINK_COUNT],
-                                   const brace_load_t *load, model_plane_rest_t *rest)
+                                   const brace_load_t *load, model_plane_work_t *work)
 {
+    const float theta1_rad = unbent_rad[BRACE_FEMUR], theta2_rad = unbent_rad[BRACE_TIBIA];
 #ifdef __SOFTFP__
-    return loaded_stiffness(limb, unbent_rad, load, rest); /* without an FPU the first step does all of it */
+    return brace_loaded_fixed_stiffness(limb, theta1_rad, theta2_rad, load, work);
 #else
-    return brace_loaded_settle(limb, unbent_rad[BRACE_FEMUR], unbent_rad[BRACE_TIBIA], load, rest);
+    return brace_loaded_settle(limb, theta1_rad, theta2_rad, load, work);
 #endif
 }
 
-static brace_status_t plane_stiffness(const model_loaded_limb_t *limb, const model_plane_rest_t *rest,
+static brace_status_t plane_stiffness(const model_loaded_limb_t *limb, const model_plane_work_t *work,
                                       brace_loaded_stiffness_t *result)
 {
 #ifdef __SOFTFP__
     (void)limb;
-    *result = *rest;
+    *result = *work;
     return BRACE_OK;
 #else
-    return brace_loaded_stiffness_at(limb, rest, result);
+    return brace_loaded_stiffness_at(limb, work, result);
 #endif
 }
 
@@ -233,31 +239,54 @@ static brace_status_t report_space(const brace_limb_t *limb, const brace_space_r
     return BRACE_OK;
 }
 
+/* Joints that do not yield, in bits: a joint whose angle is measured behind its spring has nowhere to be turned to. */
+static uint8_t unyielding(const brace_loaded_joint_t springs[BRACE_LINK_COUNT])
+{
+    uint32_t joints = 0u;
+    for (uint32_t i = 0; i < BRACE_LINK_COUNT; i++) {
+        uint32_t bits;
+        memcpy(&bits, &springs[i].yields_by_rad_per_n_mm, sizeof bits); /* cheaper than to compare floats in software */
+        joints |= bits == 0u ? 1u << i : 0u;
+    }
+    return (uint8_t)joints;
+}
+
+/* has_come: to a rest. Where several ticks have not, the next one begins anew. */
+static void note(model_place_t *place, bool has_come)
+{
+    place->ticks_without = has_come ? 0u : (uint8_t)(place->ticks_without % STEPS_TO_REST_MOST + 1u);
+    place->is_there = place->ticks_without < STEPS_TO_REST_MOST;
+}
+
 brace_status_t model_loaded(const model_t *model, const brace_limb_t *limb, const float unbent_rad[BRACE_LINK_COUNT],
                             const brace_loaded_joint_t springs[BRACE_LINK_COUNT], brace_vec3_t tip_n, brace_vec3_t down,
                             model_place_t *place, model_rest_t *rest)
 {
+    const uint8_t before = place->unyielding;
+    place->unyielding = unyielding(springs);
+    const bool goes_on = place->is_there && place->unyielding == before;
+    brace_status_t status;
     if (!model->is_spatial) {
         const brace_load_t load = plane_load(springs, tip_n, down);
         brace_loaded_stiffness_t found;
-        const brace_status_t status = loaded_stiffness(&model->loaded, unbent_rad, &load, &found);
+        status = plane_follow(&model->loaded, unbent_rad, &load, goes_on, &place->at.plane, &found);
         if (status == BRACE_OK) {
             report_plane(limb, load.hip.yields_by_rad_per_n_mm, &found, rest);
         }
+        note(place, status == BRACE_OK);
         return status;
     }
     const brace_space_load_t load = space_load(springs, tip_n, down);
     brace_space_result_t found;
-    brace_status_t status = brace_loaded_space_follow(&model->loaded_space, unbent_rad[BRACE_FEMUR],
-                                                      unbent_rad[BRACE_TIBIA], &load, place->is_there, &place->at);
+    status = brace_loaded_space_follow(&model->loaded_space, unbent_rad[BRACE_FEMUR], unbent_rad[BRACE_TIBIA], &load,
+                                       goes_on, &place->at.space);
+    if (status == BRACE_OK) {
+        status = brace_loaded_space_stiffness(&model->loaded_space, &place->at.space, &found);
+    }
     for (int i = 0; i < BRACE_LINK_COUNT; i++) {
         place->springs[i] = springs[i];
     }
-    if (status == BRACE_OK) {
-        status = brace_loaded_space_stiffness(&model->loaded_space, &place->at, &found);
-    }
-    place->ticks_without = status == BRACE_OK ? 0u : (uint8_t)(place->ticks_without % STEPS_TO_REST_MOST + 1u);
-    place->is_there = place->ticks_without < STEPS_TO_REST_MOST;
+    note(place, status == BRACE_OK);
     return status == BRACE_OK ? report_space(limb, &found, rest) : status;
 }
 

@@ -23,10 +23,12 @@
 /* What K under a load takes of a limb in its plane: floats, or integers where floats are computed in software. */
 #ifdef __SOFTFP__
 typedef brace_loaded_fixed_t model_loaded_limb_t;
-typedef brace_loaded_stiffness_t model_plane_rest_t; /* the first of two steps does it all */
+typedef brace_loaded_stiffness_t model_plane_work_t; /* the first of two steps does it all */
+typedef brace_loaded_fixed_place_t model_plane_place_t;
 #else
 typedef brace_loaded_t model_loaded_limb_t;
-typedef brace_loaded_rest_t model_plane_rest_t;
+typedef brace_loaded_rest_t model_plane_work_t;
+typedef brace_loaded_place_t model_plane_place_t;
 #endif
 
 typedef struct {
@@ -88,23 +90,29 @@ typedef struct {
     float buckling_factor;    /* NaN: of a limb in space (stiffness/softening.h) */
 } model_rest_t;
 
-/* Where a limb in space rests. All zero before the first tick. */
+/* Where a limb rests. All zero before the first tick. */
 typedef struct {
-    brace_space_rest_t at;
+    union {
+        brace_space_rest_t space;
+        model_plane_place_t plane;
+    } at;
     uint8_t ticks_without; /* so many after one another have not come near a rest */
-    bool is_there;         /* the next tick goes on from `at` */
-    brace_loaded_joint_t springs[BRACE_LINK_COUNT]; /* there */
+    bool is_there;         /* the next tick goes on from `at`, */
+    uint8_t unyielding; /* unless other joints yield then: a joint whose angle comes to be measured behind its spring
+                              rests elsewhere. In bits */
+    brace_loaded_joint_t springs[BRACE_LINK_COUNT]; /* of a limb in space, there */
 } model_place_t;
 
 /* K at the equilibrium under a load, every gap closed.
  *   unbent_rad: angles without what the load turns
  *   tip_n: force of the ground; down: where the weight pulls. Frame: x outwards, y to the left, z up; a limb in its
  *     plane does not feel y
- *   place (in, out): of a limb in space, from the tick before: the search goes on from there, a step a tick, so that a
- *     load that comes at once may need some ticks. So a limb that stands comes to its rest within rounding
+ *   place (in, out): from the tick before: the search goes on from there, a step a tick, so that a load that comes at
+ *     once may need some ticks. So a limb that stands comes to its rest within rounding
  *   rest (out): after BRACE_OK
- * returns BRACE_OK, or as brace_loaded_stiffness, brace_loaded_space_follow and brace_loaded_space_stiffness. At most
- *   2,600 instructions in the plane, 7,400 in space. */
+ * returns BRACE_OK, or as brace_loaded_follow, brace_loaded_fixed_follow and brace_loaded_space_follow, and as
+ *   brace_loaded_space_stiffness. At most 2,600 instructions in the plane, 7,400 in
+ *   space. */
 brace_status_t model_loaded(const model_t *model, const brace_limb_t *limb, const float unbent_rad[BRACE_LINK_COUNT],
                             const brace_loaded_joint_t springs[BRACE_LINK_COUNT], brace_vec3_t tip_n, brace_vec3_t down,
                             model_place_t *place, model_rest_t *rest);
@@ -118,7 +126,7 @@ typedef struct {
     bool is_under_way;
     float hip_yields_rad_per_n_mm; /* the joint alone */
     union {
-        model_plane_rest_t plane;
+        model_plane_work_t plane;
         brace_space_work_t space;
     } of;
 } model_work_t;

@@ -67,7 +67,7 @@ void softening_work(softening_t *softening, model_t *model, const brace_limb_t *
         find_unloaded(softening, model, limb, unbent_rad);
     } else if (!softening->runs) {
         softening->runs = true;
-        brace_loaded_space_buckling_begin(&model->loaded_space, &softening->now.at, &softening->shape,
+        brace_loaded_space_buckling_begin(&model->loaded_space, &softening->now.at.space, &softening->shape,
                                           &softening->search);
     } else if (brace_loaded_space_buckling_step(&model->loaded_space, &softening->shape, &softening->search,
                                                 &softening->factor)) {

@@ -29,9 +29,18 @@ void brace_loaded_fixed_collapse(const brace_loaded_t *loaded, brace_loaded_fixe
  * Accuracy: as brace_loaded_stiffness, and at most 1e-4 of lambda_max more for the rounding. At no load K within 2e-6
  *         of lambda_max where det C is above 1e-3 of its squared mean, less exact the more slender the limb.
  *         tests/judges/engine/test_core_under_load.py judges random limbs.
- * Cost on a Cortex-M3: at most 6,000 instructions, 5,668 to 5,800 measured: the search for the buckling factor differs
- *         from posture to posture. Stack at most 700 bytes. */
+ * Cost on a Cortex-M3: at most 6,000 instructions, 5,841 to 5,972 on the bench: the search for the buckling factor
+ *         differs from posture to posture. Stack at most 700 bytes. */
 brace_status_t brace_loaded_fixed_stiffness(const brace_loaded_fixed_t *fixed, float theta1_rad, float theta2_rad,
                                             const brace_load_t *load, brace_loaded_stiffness_t *result);
+
+/* The same for who follows a limb from tick to tick, as brace_loaded_follow.
+ * is_bent: `place` is of the same limb at a posture nearby, as this call has left it; after BRACE_E_SINGULAR too.
+ * place (in, out): else room to work in. result: written on success only.
+ * returns as brace_loaded_fixed_stiffness, for these steps, as brace_loaded_follow.
+ * Cost on a Cortex-M3: at most 6,500 instructions; stack at most 750 bytes. */
+brace_status_t brace_loaded_fixed_follow(const brace_loaded_fixed_t *fixed, float theta1_rad, float theta2_rad,
+                                         const brace_load_t *load, bool is_bent, brace_loaded_fixed_place_t *place,
+                                         brace_loaded_stiffness_t *result);
 
 #endif

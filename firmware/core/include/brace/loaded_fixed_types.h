@@ -27,4 +27,16 @@ typedef struct {
     int32_t length_exponent, bend_exponent, spring_exponent, weight_exponent;
 } brace_loaded_fixed_t;
 
+/* The coordinates of a link, as brace_loaded_shape_t [rad, q29]. */
+typedef struct {
+    int32_t root, a, b;
+} brace_loaded_fixed_shape_t;
+
+/* Where a limb has been bent to. brace_loaded_fixed_follow writes it; other code must not read its members. */
+typedef struct {
+    brace_loaded_fixed_shape_t femur_shape, tibia_shape;
+    brace_fixed_vec_t on_base_q30; /* the whole load, in units of 2^force_exponent N */
+    int32_t force_exponent;
+} brace_loaded_fixed_place_t;
+
 #endif

@@ -3,12 +3,10 @@
 #ifndef BRACE_CORE_LOADED_FIXED_LINK_H
 #define BRACE_CORE_LOADED_FIXED_LINK_H
 
+#include "brace/loaded_fixed_types.h"
 #include "loaded/fixed_vec.h"
 
-/* Angles. */
-typedef struct {
-    int32_t root, a, b;
-} fixed_shape_t;
+typedef brace_loaded_fixed_shape_t fixed_shape_t; /* angles */
 
 /* Moments. */
 typedef struct {

@@ -1,6 +1,7 @@
 #include "brace/loaded.h"
 
 #include <float.h>
+#include <stddef.h>
 
 #include "base/check.h"
 #include "chain/tensor.h"
@@ -13,6 +14,7 @@
 #define BEND_PROMISED_RAD 0.25f /* both curvatures of a link together: a line of curvature follows it up to here */
 #define FORCE_MOST_N 1e4f
 #define STEPS_MOST 4
+#define FOLLOWED_RATIO2 0.25f /* square of the load's change over the load, beyond which a rest is not followed */
 #define SURE_RAD 0.05f    /* a step that turns no link's end further leaves less than 0.3 % of K */
 #define SETTLED_RAD 0.14f /* how far the last of all steps may turn them */
 
@@ -92,9 +94,16 @@ INLINE bool is_settled(float unsettled_rad, float det)
     return unsettled_rad * unsettled_rad <= SETTLED_RAD * SETTLED_RAD * det;
 }
 
-/* The equilibrium, by steps of Newton's method from the straight limb: two, and two more where these are not enough. */
+static bool is_near(brace_vec_t load_n, brace_vec_t before_n)
+{
+    const brace_vec_t change_n = vec_minus(load_n, before_n);
+    return vec_dot(change_n, change_n) <= FOLLOWED_RATIO2 * vec_dot(load_n, load_n);
+}
+
+/* The equilibrium, by steps of Newton's method from the straight limb: two, and two more where these are not enough.
+ * place: NULL, or with is_bent as brace_loaded_follow */
 INLINE brace_status_t settle(const brace_loaded_t *loaded, float theta1_rad, float theta2_rad, const brace_load_t *load,
-                             brace_loaded_rest_t *at)
+                             bool is_bent, brace_loaded_place_t *place, brace_loaded_rest_t *at)
 {
     const float reach = brace_fma(theta1_rad, theta1_rad, theta2_rad * theta2_rad);
     const float force = fabsf(load->tip.x_n) + fabsf(load->tip.z_n);
@@ -105,21 +114,30 @@ INLINE brace_status_t settle(const brace_loaded_t *loaded, float theta1_rad, flo
     const brace_vec_t tibia = brace_direction(-theta2_rad); /* seen from the femur */
     const brace_vec_t tip_n = {load->tip.x_n, load->tip.z_n}, seen_n = vec_turned_back(tip_n, femur);
     const brace_vec_t down = vec_turned_back(load->down, femur);
+    const brace_vec_t on_base_n = vec_plus_scaled(tip_n, load->down, loaded->weight_n);
+    const bool goes_on = place != NULL && is_bent && is_near(on_base_n, place->on_base_n);
+    const shape_t straight = {0.0f, 0.0f, 0.0f};
     const float base = loaded->base_rotation_rad_per_n_mm;
     *at = (brace_loaded_rest_t){
         .femur_commanded = femur,
         .tibia_commanded = tibia,
         .femur = link_seen(&loaded->femur, forwards, vec_plus_scaled(seen_n, down, loaded->knee_n), down),
         .tibia = link_seen(&loaded->tibia, tibia, seen_n, down),
-        .femur_shape = {0.0f, 0.0f, 0.0f},
-        .tibia_shape = {0.0f, 0.0f, 0.0f},
+        .femur_shape = goes_on ? place->femur_shape : straight,
+        .tibia_shape = goes_on ? place->tibia_shape : straight,
         .hip_rad_per_n_mm = load->hip.slope_rad_per_n_mm + base,
         .knee_rad_per_n_mm = load->knee.slope_rad_per_n_mm,
-        .on_base_n = vec_plus_scaled(tip_n, load->down, loaded->weight_n),
+        .on_base_n = on_base_n,
         .unsettled_rad = 0.0f};
     const float hip_yields = load->hip.yields_by_rad_per_n_mm + base, knee_yields = load->knee.yields_by_rad_per_n_mm;
-    (void)bounded_step(at, true, hip_yields, knee_yields);
+    if (!goes_on) {
+        (void)bounded_step(at, true, hip_yields, knee_yields);
+    }
     at->unsettled_rad = bounded_step(at, false, hip_yields, knee_yields);
+    if (place != NULL) {
+        *place = (brace_loaded_place_t){at->femur_shape, at->tibia_shape, on_base_n};
+        return at->unsettled_rad <= SURE_RAD ? BRACE_OK : BRACE_E_SINGULAR;
+    }
     for (int taken = 2; taken < STEPS_MOST && !(at->unsettled_rad <= SURE_RAD); taken++) {
         at->unsettled_rad = bounded_step(at, false, hip_yields, knee_yields);
     }
@@ -166,7 +184,7 @@ INLINE brace_status_t stiffness_at(const brace_loaded_t *loaded, const brace_loa
 brace_status_t brace_loaded_settle(const brace_loaded_t *loaded, float theta1_rad, float theta2_rad,
                                    const brace_load_t *load, brace_loaded_rest_t *rest)
 {
-    return settle(loaded, theta1_rad, theta2_rad, load, rest);
+    return settle(loaded, theta1_rad, theta2_rad, load, false, NULL, rest);
 }
 
 brace_status_t brace_loaded_stiffness_at(const brace_loaded_t *loaded, const brace_loaded_rest_t *rest,
@@ -179,6 +197,15 @@ brace_status_t brace_loaded_stiffness(const brace_loaded_t *loaded, float theta1
                                       const brace_load_t *load, brace_loaded_stiffness_t *result)
 {
     brace_loaded_rest_t at;
-    const brace_status_t status = settle(loaded, theta1_rad, theta2_rad, load, &at);
+    const brace_status_t status = settle(loaded, theta1_rad, theta2_rad, load, false, NULL, &at);
+    return status == BRACE_OK ? stiffness_at(loaded, &at, result) : status;
+}
+
+brace_status_t brace_loaded_follow(const brace_loaded_t *loaded, float theta1_rad, float theta2_rad,
+                                   const brace_load_t *load, bool is_bent, brace_loaded_place_t *place,
+                                   brace_loaded_stiffness_t *result)
+{
+    brace_loaded_rest_t at;
+    const brace_status_t status = settle(loaded, theta1_rad, theta2_rad, load, is_bent, place, &at);
     return status == BRACE_OK ? stiffness_at(loaded, &at, result) : status;
 }

@@ -163,7 +163,7 @@ static void inverts(void)
     fixed_tensor_t c;
     brace_stiffness_t k;
     const int32_t exponent = any_within(UINT8_MAX);
-    ASSUME(exponent >= FORCE_EXPONENT_LEAST - 20 && exponent <= FORCE_MOST_EXPONENT - 1);
+    ASSUME(exponent >= FORCE_EXPONENT_LEAST - 22 && exponent <= FORCE_MOST_EXPONENT - 1);
     ASSUME(c.xx <= C_MOST && c.zz <= C_MOST);
     /* xz^2 is at most xx zz but for rounding: no more than half of the trace */
     const int64_t half = (int64_t)((c.xx + c.zz) / 2u) + C_ROUNDED, xz = (int64_t)c.xz;

@@ -159,9 +159,10 @@ static int weight_count;
 
 static int weight_of(int32_t by)
 {
-    static const int forces[] = {KNEE_WEIGHT, FEMUR_WEIGHT, TIBIA_WEIGHT, WHOLE_WEIGHT};
-    const int32_t weights[] = {limb.knee_q31, limb.femur.weight_q31, limb.tibia.weight_q31, limb.weight_q31};
-    PROVE(weight_count < 4 && by == weights[weight_count] >> weight_shift, "a weight in its unit");
+    static const int forces[] = {KNEE_WEIGHT, FEMUR_WEIGHT, TIBIA_WEIGHT, WHOLE_WEIGHT, WHOLE_WEIGHT};
+    const int32_t weights[] = {limb.knee_q31, limb.femur.weight_q31, limb.tibia.weight_q31, limb.weight_q31,
+                               limb.weight_q31};
+    PROVE(weight_count < 5 && by == weights[weight_count] >> weight_shift, "a weight in its unit");
     return forces[weight_count++];
 }
 
@@ -218,7 +219,7 @@ static brace_status_t any_inputs(const brace_loaded_fixed_t *limb, float theta1_
     ASSUME(in->hip >= 0 && in->hip_yields >= 0 && in->knee >= 0 && in->knee_yields >= 0);
     ASSUME(in->bend_shift >= 1u && in->bend_shift <= 31u && in->spring_shift >= 3u && in->spring_shift <= 31u);
     ASSUME(in->root_shift >= 2u && in->root_shift <= 31u && in->parity <= 1u);
-    ASSUME(in->weight_shift >= 1u && in->weight_shift <= 31u);
+    ASSUME(in->weight_shift >= 1u && in->weight_shift <= 31u && (in->coarser == 0u || in->coarser == 2u));
     ASSUME(in->force_exponent >= FORCE_EXPONENT_LEAST && in->force_exponent <= FORCE_EXPONENT_MOST);
     in->tip_q30 = any_force(TIP);
     weight_shift = in->weight_shift, weight_count = 0;
@@ -241,19 +242,30 @@ static void is_link(const fixed_link_t *link, bool is_femur)
     PROVE(link->own.forces == (is_femur ? FEMUR_WEIGHT : TIBIA_WEIGHT), "its own");
 }
 
-static fixed_shape_t any_shape(void)
+/* A shape that a step leads to and may begin from (loaded_solve). */
+static bool is_shape_in_range(const fixed_shape_t *shape)
 {
-    return (fixed_shape_t){any_within(ROOT_ANGLE_MOST), any_within(CURVATURE_MOST), any_within(CURVATURE_MOST)};
+    return size_of(shape->root) <= ROOT_ANGLE_MOST && size_of(shape->a) <= CURVATURE_MOST &&
+           size_of(shape->b) <= CURVATURE_MOST &&
+           size_of(shape->root) + size_of(shape->a) + size_of(shape->b) <= PART_OF(29, 3.9);
 }
 
-static bool any_step(fixed_limb_t *limb, bool is_first, int32_t hip, int32_t knee)
+static void any_shape(fixed_shape_t *shape)
 {
-    (void)is_first;
+    *shape = (fixed_shape_t){any_within(ROOT_ANGLE_MOST), any_within(CURVATURE_MOST), any_within(CURVATURE_MOST)};
+    ASSUME(is_shape_in_range(shape));
+}
+
+/* Where the step is refused, one of the two links may stand where it leads. */
+static bool any_step(fixed_limb_t *limb, bool is_first, int32_t hip, int32_t knee, int32_t *turned_q27)
+{
     IF_SEEN_ONLY(is_link(&limb->femur, true));
     IF_SEEN_ONLY(is_link(&limb->tibia, false));
     PROVE(hip >= 0 && knee >= 0, "joints' compliances");
-    limb->femur_shape = any_shape();
-    limb->tibia_shape = any_shape();
+    PROVE(is_first || (is_shape_in_range(&limb->femur_shape) && is_shape_in_range(&limb->tibia_shape)), "shapes");
+    any_shape(&limb->femur_shape);
+    any_shape(&limb->tibia_shape);
+    *turned_q27 = any_not_below_0();
     IF_SEEN_ONLY(ASSUME(false));
     return any_bool();
 }
@@ -340,7 +352,7 @@ static brace_status_t stiffness_fits(const fixed_tensor_t *c, uint32_t theta1_tu
 {
     (void)theta1_turn, (void)stiffness;
     PROVE(c->xx <= C_MOST && c->zz <= C_MOST, "C's diagonal");
-    PROVE(exponent >= FORCE_EXPONENT_LEAST - UNIT_LENGTH_EXPONENT_MOST && exponent <= FORCE_EXPONENT_MOST - 1, "units");
+    PROVE(exponent >= FORCE_EXPONENT_LEAST - 22 && exponent <= FORCE_EXPONENT_MOST - 1, "units"); /* loaded_levers */
     return any_bool() ? BRACE_OK : BRACE_E_SINGULAR;
 }
 
@@ -360,10 +372,10 @@ static int32_t any_kept(bool is_not_negative, int bits, int room, lost_t *lost)
     return number;
 }
 
-#define IS_COMPLIANCE(text) ((text)[9] == 'i' && (text)[10] == 'n') /* (int64_t)in.knee * p.per_knee */
+#define IS_COMPLIANCE(text) ((text)[10] == 'i' && (text)[11] == 'n') /* (int64_t)(in.knee >> in.coarser) * p.per_knee */
 #define kept(sum, bits, room, lost) any_kept(IS_COMPLIANCE(#sum), bits, room, lost)
 #define inputs_of any_inputs
-#define fixed_step any_step
+#define fixed_bounded_step any_step
 #define fixed_rest_of any_rest_of
 #define fixed_pivots_of any_pivots_of
 #define fixed_product any_product
@@ -383,13 +395,30 @@ static void add_scaled_once(fixed_tensor_t *c, fixed_vec_t v, int32_t by, const 
 #endif
 #include "loaded/loaded_fixed.c"
 
+/* A place as a tick has left it: brace_loaded_fixed_follow promises it of every place that it writes. */
+static bool is_place(const brace_loaded_fixed_place_t *place)
+{
+    return is_shape_in_range(&place->femur_shape) && is_shape_in_range(&place->tibia_shape) &&
+           size_of(place->on_base_q30.x) <= FORCE_MOST && size_of(place->on_base_q30.z) <= FORCE_MOST &&
+           place->force_exponent >= FORCE_EXPONENT_LEAST && place->force_exponent <= FORCE_EXPONENT_MOST;
+}
+
 static void told(bool is_femur_the_short_one)
 {
     brace_load_t load;
     brace_loaded_stiffness_t result;
+    brace_loaded_fixed_place_t place;
+    const bool is_bent = any_bool();
     is_femur_short = is_femur_the_short_one;
     any_limb();
-    (void)brace_loaded_fixed_stiffness(&limb, any_float(), any_float(), &load, &result);
+    if (any_bool()) {
+        (void)brace_loaded_fixed_stiffness(&limb, any_float(), any_float(), &load, &result);
+        return;
+    }
+    ASSUME(!is_bent || is_place(&place));
+    if (brace_loaded_fixed_follow(&limb, any_float(), any_float(), &load, is_bent, &place, &result) == BRACE_OK) {
+        PROVE(is_place(&place), "a place again");
+    }
 }
 
 int main(void)
