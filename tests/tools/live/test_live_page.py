@@ -71,6 +71,13 @@ def test_a_limb_is_told_with_its_place_and_its_trust(limb_file: Path) -> None:
     json.dumps([words, view], allow_nan=False)
 
 
+def test_the_trust_in_k_is_that_of_the_knee_s_angle(limb_file: Path) -> None:
+    """Turning the whole limb turns K's axes and leaves its eigenvalues; bending the knee changes them."""
+    card = card_of(load_limb(limb_file))
+    here, turned, bent = (card.relative_sigmas(*theta_rad) for theta_rad in ((0.4, 1.4), (1.2, 1.4), (0.4, 0.2)))
+    assert here == pytest.approx(turned) and here != pytest.approx(bent, rel=0.05)
+
+
 def test_what_is_not_known_is_told_as_that() -> None:
     nothing = snapshot(k_xx=None, lambda_min=None, lambda_max=None, theta1=None, theta2=None)
     words, view = view_of(nothing, Card(why_not="nobody told"), now_s=110.0)
