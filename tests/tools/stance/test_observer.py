@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from brace.stance.limb_law import LimbLaw
-from brace.stance.observer import Event, Observer, Reading
+from brace.stance.observer import Event, Observer, Reading, _Change
 from brace.stance.stance_file import load_stance
 from brace.stance.world import (
     NoStanceError,
@@ -141,6 +141,16 @@ def test_a_set_point_that_moves_is_no_event() -> None:
     robot.laws = laws
     assert robot.run(40) == []
     assert np.abs(robot.observer.estimate().force_n - robot.force_n).max() < 3 * SENSOR_N
+
+
+def test_what_a_limb_measures_after_a_change_is_where_it_is_last_and_its_mean_force() -> None:
+    robot = Robot(4, world=MIDDLE)
+    first, last = (replace(robot.readings()[0], tip_mm=np.full(3, x), force_n=np.full(3, x)) for x in (1.0, 3.0))
+    change = _Change(-10.0, np.zeros(0), np.zeros((0, 0)), [[]])
+    for reading in (first, last):
+        change.take([reading], 0.0)
+    (found,) = change.means()
+    assert found is not None and list(found.tip_mm) == [3.0] * 3 and list(found.force_n) == [2.0] * 3
 
 
 def test_a_lift_and_a_landing_are_named(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -232,7 +232,8 @@ def test_without_a_stance_the_nearest_load_is_said(brace: Callable[..., Outcome]
     nearest, first = found["nearest_load"]["payload_factor"], found["first_slip"]
     assert "slide" in found["reason"] and 0.1 < first["payload_factor"] < nearest < 0.5 and first["limb"] in CORNERS
     done = brace("stance", "load", path, "--draws", 20)
-    assert done.code == 5 and "% of the payload is borne; first to slide" in done.err and done.out == ""
+    borne = re.search(r"([\d.]+) % of the payload is borne; first to slide", done.err)
+    assert done.code == 5 and borne and float(borne[1]) == pytest.approx(100.0 * nearest, abs=1.0) and done.out == ""
     two = {name: CORNERS[name] for name in ("front left", "rear right")}
     done = brace("stance", "load", write(tmp_path, corners=two), "--json")
     assert done.code == 5 and "do not hold the body" in json.loads(done.out)["reason"]
@@ -274,6 +275,8 @@ def test_show_and_lift_say_it_in_words(brace: Callable[..., Outcome], stance: Pa
     found = json.loads(brace("stance", "show", stance, "--json").out)
     assert found["limbs"][0]["foot_mm"][:2] == pytest.approx([263.8, 233.8], abs=0.1)
     assert forces(found).sum(axis=0) == pytest.approx([0.0, 0.0, WEIGHT_N + LIMBS_N], abs=1e-6), "weight, no payload"
+    mrad_per_n_m = " ".join(f"{1e6 * found['body']['compliance'][i][i]:.2f}" for i in (3, 4, 5))
+    assert f"by {mrad_per_n_m} mrad for each N m about them" in shown.out
     lifted = json.loads(brace("stance", "lift", stance, "--json").out)["lifted"]
     assert [one["name"] for one in lifted] == list(CORNERS)
     for one in lifted:
