@@ -20,7 +20,7 @@ from command_bench import FREE, LIMB, PROJECT, Outcome, physics_k, running
 
 from brace.bus.modbus_controller import ModbusController
 from brace.bus.url import parse
-from brace.ground.errors import NoDeviceError, UsageError
+from brace.ground.errors import NoDeviceError, UsageError, VersionMismatchError
 from brace.model import load_limb
 from brace.native.loaded import under_force
 from brace.wire.frames import ANSWERS, DICTIONARY_HASH, MESSAGES
@@ -247,6 +247,14 @@ def test_over_modbus_another_master_s_answer_is_not_taken(limb: Path, monkeypatc
         assert np.allclose(k, physics_k(0.9, 1.5).ravel()[[0, 1, 3]], rtol=1e-5)
         ours.close()
         theirs.close()
+
+
+def test_over_modbus_a_controller_without_a_dictionary_is_told_with_zeros(monkeypatch: pytest.MonkeyPatch) -> None:
+    blank = ModbusController.__new__(ModbusController)
+    blank.url = "modbus-tcp://somewhere"
+    monkeypatch.setattr(blank, "_read", lambda _table, _address, count: (0,) * count)
+    with pytest.raises(VersionMismatchError, match=f"dictionary is 00000000, ours {DICTIONARY_HASH:08x}"):
+        blank.identify()
 
 
 @pytest.mark.parametrize("question", ["--load", "--sag"])

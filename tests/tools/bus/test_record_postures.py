@@ -103,8 +103,9 @@ def test_of_a_pressed_foot_each_row_is_where_its_force_is(press_n: tuple[float, 
     assert np.abs(np.stack([rows["fx_n"], rows["fz_n"]]) - played).max() < 2e-3
 
 
-def test_a_straight_knee_keeps_the_angles_told(model: LimbModel) -> None:
-    columns = _columns(1, (0.7, 0.0), np.array([[0.0, 1.0], [0.0, 0.0]]))
+@pytest.mark.parametrize("knee_rad", [0.0, 5e-4])
+def test_a_straight_knee_keeps_the_angles_told(knee_rad: float, model: LimbModel) -> None:
+    columns = _columns(1, (0.7, knee_rad), np.array([[0.0, 1.0], [0.0, 0.0]]))
     assert with_motor_angles(columns, model)["theta1_rad"].tolist() == [0.7, 0.7]
 
 
