@@ -50,6 +50,20 @@ def test_rows_without_a_force_are_counted(brace: Brace, tmp_path: Path) -> None:
     assert load_dataset(tmp_path / "out").rows == len(PATH) - 1
 
 
+@pytest.mark.parametrize("column", ["fx", "fz"])
+def test_a_row_without_one_of_two_forces_is_counted(brace: Brace, tmp_path: Path, column: str) -> None:
+    r = Record(poses=POSES_DEG[:1], axes="x", repeats=1)
+    cells = {name: shown(r[name]) for name in ("t", "theta1", "theta2", "dx", "dz", "fx", "fz")}
+    cells[column][5] = ""
+    path = tmp_path / "run.csv"
+    names = "t [s],theta1 [deg],theta2 [deg],dx [mm],dz [mm],Fx [N],Fz [N]"
+    path.write_text(text([names], list(cells.values()), ","))
+    done = brace("import", path, "--yes", "--out", tmp_path / "out")
+    assert done.code == 0 and f"1 row left out: {column}_n is blank there" in done.err, done.err
+    data = load_dataset(tmp_path / "out")
+    assert data.rows == len(PATH) - 1 and data[f"{column}_n"] == pytest.approx(np.delete(r[column], 5), abs=1e-4)
+
+
 def test_after_an_overload_displacements_count_from_the_same_place(brace: Brace, tmp_path: Path) -> None:
     path = one_run(tmp_path, {3: "12.0,OL,OL,OL,OL"}, place_mm=12.0)
     mapping = tmp_path / "m.toml"
@@ -106,11 +120,12 @@ def test_a_matrix_as_matlab_shows_it_is_refused(brace: Brace, tmp_path: Path) ->
     assert refused.code == 3 and "a factor of all numbers below it: 1.0e+03 *" in refused.err, refused.err
 
 
-def test_names_with_line_breaks_in_every_column(brace: Brace, tmp_path: Path) -> None:
+@pytest.mark.parametrize("above", [[], ["Limb 3, before repair"]])
+def test_names_with_line_breaks_in_every_column(brace: Brace, tmp_path: Path, above: list[str]) -> None:
     """A header of ten lines was given up after six, and the file was said to name no columns."""
     path = one_run(tmp_path, {})
     header, *rows = path.read_text().splitlines()
     quoted = ",".join('"' + name.replace(" ", "\n\n") + '"' for name in header.split(","))
-    path.write_text("\n".join([quoted, *rows]) + "\n")
+    path.write_text("\n".join([*above, quoted, *rows]) + "\n")
     done = brace("import", path, *AXIS, "--out", tmp_path / "out")
     assert done.code == 0 and load_dataset(tmp_path / "out").rows == len(PATH), done.err

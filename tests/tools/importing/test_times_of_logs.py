@@ -17,6 +17,7 @@ from command_bench import Outcome
 
 from brace.dataset import load_dataset
 from brace.importing.logs.can_formats import are_distances
+from brace.importing.stamps import stamp_s
 
 pytest.importorskip("cantools")
 Brace = Callable[..., Outcome]
@@ -176,6 +177,12 @@ def test_what_the_writer_of_these_tests_writes_is_read(tmp_path: Path) -> None:
     with (tmp_path / "a.log").open("w") as file:
         CanutilsLogWriter(file)(can.Message(timestamp=1.0, is_error_frame=True, channel="can0"))
     assert re.search(r"can0 200000[0-9A-F]{2}#", (tmp_path / "a.log").read_text())
+
+
+@pytest.mark.parametrize("names", [("sec", "nanosec"), ("secs", "nsecs"), ("seconds", "nanos")])
+def test_a_stamp_has_seconds_and_nanoseconds_by_any_of_their_names(names: tuple[str, str]) -> None:
+    stamp = dict(zip(names, (1_700_000_000, 250_000_000)))
+    assert stamp_s({"header": {"stamp": stamp}}) == stamp_s({"stamp": stamp}) == 1_700_000_000.25
 
 
 def mcap(path: Path, force_late_s: float, stamp: Callable[[str, float], object]) -> Path:

@@ -140,7 +140,7 @@ def test_dates_of_a_column_are_of_one_form(dates: tuple[str, str], days: int) ->
     [
         ("Force kN", "kN"), ("Force in kN", "kN"), ("Fx mN", "mN"), ("Fx daN", "daN"), ("Fx cN", "cN"),
         ("Torque mNm", "mN m"), ("Torque kNm", "kN m"), ("Angle mRad", "mrad"), ("Fx N", "N"), ("Time ms", "ms"),
-        ("forceXN", "N"), ("ForceKN", None), ("forceXkN", None), ("tauMNm", None),
+        ("forceXN", "N"), ("ForceKN", None), ("forceXkN", None), ("forceXdaN", None), ("tauMNm", None),
     ],
 )  # fmt: skip
 def test_a_units_prefix_behind_a_name_counts(name: str, unit: str | None) -> None:

@@ -51,6 +51,18 @@ def test_rows_beyond_what_the_sheet_says_it_has(brace: Brace, tmp_path: Path) ->
     assert done.code == 0 and load_dataset(tmp_path / "out").rows == Record().rows, done.err
 
 
+def test_formulas_with_results_beside_an_empty_cell(brace: Brace, tmp_path: Path) -> None:
+    """An empty cell makes the formulas be read; they stand for a cell without a result alone."""
+
+    def with_formulas(sheet: bytes) -> bytes:
+        return re.sub(rb'(<c r="F[0-9]+">)(<v>)', rb"\1<f>2*3</f>\2", sheet.replace(b'"A1"', b'"B1"'))
+
+    done = brace("import", changed(excel(tmp_path)[0], with_formulas), "--yes", "--out", tmp_path / "out")
+    assert done.code == 0 and load_dataset(tmp_path / "out")["fx_n"] == pytest.approx(Record()["fx"], abs=1e-6), (
+        done.err
+    )
+
+
 def test_a_sheet_that_is_a_chart(brace: Brace, tmp_path: Path) -> None:
     import openpyxl
     import openpyxl.chart
