@@ -54,6 +54,7 @@ def test_three_files_and_nothing_else(
     first = outcome.out.splitlines()[0]
     assert first == "The knee has play of 0.0061 rad (21 arcmin): the tip moves before it meets force."
     assert f"{GAP_KEY} = 0.0061 rad (21 arcmin), 90 %: 0.0057 to 0.0065" in outcome.out
+    assert "  next       Repeat configuration 2 with a preload of 3 mm along z.\n" in outcome.out
 
 
 def test_json_is_as_the_contract_has_it(

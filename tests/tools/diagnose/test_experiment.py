@@ -31,6 +31,7 @@ from brace.diagnose.loading.next_experiment.separation import (
     lambda_squared,
     no_rivals,
     play,
+    power,
     separated,
 )
 from brace.diagnose.loading.search import Hypothesis
@@ -245,6 +246,8 @@ def test_a_larger_set_is_no_rival_of_its_part(believed: LimbModel, soft_knee: tu
     hypotheses = contenders(sets)
     assert no_rivals(hypotheses).tolist() == [[True, True], [False, True]]
     assert separated(np.zeros((1, 2, 2)), hypotheses)[0].round(3).tolist() == [[1.0, 1.0], [0.0, 1.0]]
+    # the part has no rival, so only the larger set is judged
+    assert power(np.zeros((1, 2, 2)), hypotheses) == pytest.approx(0.0, abs=1e-3)
 
 
 def test_what_the_record_leaves_possible_contends(soft_knee: tuple[Record, Any]) -> None:

@@ -13,6 +13,7 @@ import pytest
 
 from brace.dataset import load_dataset
 from brace.diagnose.diagnosis import Diagnosis
+from brace.diagnose.loading.data_faults import sides
 from brace.diagnose.loading.data_faults.gate import gate
 from brace.diagnose.loading.data_faults.judge import Judge
 from brace.diagnose.loading.data_faults.readings import _stands_under_load
@@ -30,6 +31,7 @@ from spoiled import (
     record,
     true_limb,
     write,
+    zeroed_and_not_said,
 )
 
 
@@ -104,6 +106,18 @@ def test_a_force_that_stands_under_load_was_stuck() -> None:
     assert stands(0.5, 1.6) and stands(-0.5, 1.6)
     assert not stands(0.4, 1.6) and not stands(0.5, 1.4)
     assert not stands(0.5, 1.6, 7) and stands(0.5, 1.6, 5, axis=0) and not stands(0.5, 1.6, 4, axis=0)
+
+
+@pytest.mark.parametrize(("runs", "is_told"), [(3, False), (14, True)])
+def test_first_readings_of_nothing_in_a_few_runs_are_no_zeroing(
+    runs: int, is_told: bool, paper_limb: Path, tmp_path: Path
+) -> None:
+    believed = believed_limb(paper_limb, "paper")
+    columns, meta = record(tmp_path, believed, seed=8)
+    zeroed_and_not_said(columns, meta, np.random.default_rng(8))
+    few = {name: values[columns["run"] <= runs] for name, values in columns.items()}
+    judge = Judge(load_dataset(write(tmp_path / "d", few, meta)), believed)
+    assert [fault.field for fault in sides.faults(judge)] == ["zeroed"] * is_told
 
 
 def test_the_row_and_the_reading_of_a_slip(paper_limb: Path, tmp_path: Path) -> None:

@@ -13,7 +13,7 @@ from by_torque import LEG, found_in, recorded, triangle, under_torque
 
 from brace.dataset import load_dataset
 from brace.dataset.grid import step_of
-from brace.diagnose.joint_test.dead_zone import is_friction_turning
+from brace.diagnose.joint_test.dead_zone import is_friction_turning, refusal
 from brace.diagnose.joint_test.fit import Fitted, Fitter
 from brace.diagnose.joint_test.intake import spring_alone
 from brace.diagnose.joint_test.record import JointRecord
@@ -169,6 +169,20 @@ def test_a_shape_is_rare_only_where_the_spring_has_none_yet() -> None:
     assert further == pytest.approx(0.5)
     lucky = _share(fitter, left(1e6, "end_stop"), left(1e6, "end_stop", "soft_middle"))
     assert lucky == pytest.approx(0.25)
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_a_gap_of_which_one_side_was_not_reached_is_no_play(side: float) -> None:
+    """Of a gap of 0.01 rad the joint goes 0.015 rad beyond one side, and ends within it on the other."""
+    deflection = side * np.concatenate([[-0.004], np.linspace(0.006, 0.02, 199)])
+    size = SimpleNamespace(swing_rad=1.0)
+    record = SimpleNamespace(
+        joint="femur", size=size, fitted=np.full(200, True), deflection_rad=lambda *_: deflection[None]
+    )
+    values = {"joint.femur.gap_rad": 0.01, "joint.femur.compliance_rad_per_n_mm": 1e-5}
+    model = SimpleNamespace(number=values.__getitem__)
+    fitted = SimpleNamespace(model=model, nuisances={}, off_n_mm=np.zeros(200))
+    assert "does not reach both" in refusal(cast(JointRecord, record), cast(Fitted, fitted))
 
 
 def test_a_gap_that_is_crossed_while_friction_turns_is_no_play(tmp_path: Path) -> None:

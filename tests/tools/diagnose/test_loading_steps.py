@@ -15,12 +15,13 @@ from brace.dataset.intake import Dataset
 from brace.diagnose.loading.choose import LabelSet, posterior_of
 from brace.diagnose.loading.confidence import RIGHT_IN_BOTH, RIGHT_IN_ONE, as_found_twice, of_label
 from brace.diagnose.loading.evidence import SPREAD, score
+from brace.diagnose.loading.noise_after_base import with_growth
 from brace.diagnose.loading.extensions import TAKES_BACK, Outside, _by_load, outside
 from brace.diagnose.loading.fit import fit
 from brace.identify.noise import growth_of, hinted_growth, noise_of, robust_sigma
 from brace.dataset.enough import enough_rows
 from brace.diagnose.loading.parts import locked_rows
-from brace.identify import record as loading_record
+from brace.identify import record as identify_record
 from brace.identify.record import load_record, setting_of
 from brace.diagnose.loading import run as loading_run, search as loading_search
 from brace.diagnose.loading.run import search_pass
@@ -32,6 +33,7 @@ from brace.diagnose.loading.verdict import HINT, NOTHING_STANDS, decide
 from brace.effects import EFFECTS, all_variants
 from brace.model import LimbModel, load_limb
 from brace.native.plant import play_rig
+from handmade import loading_record
 
 NOISE_N = 0.06
 META = """format = 1
@@ -156,6 +158,19 @@ def test_repeats_that_only_hint_at_a_noise_that_grows_ask_what_the_search_leaves
     assert set(hinted) == {"fx_n", "fz_n"} and hinted_growth(steady, ["fx_n", "fz_n"]) == {}
 
 
+def test_only_a_force_s_noise_may_grow_with_the_reading(tmp_path: Path) -> None:
+    """Noise in proportion to the reading, on a force and on an encoder: an encoder's is as large as what it reads."""
+    limb = Path(__file__).parents[3] / "tools" / "brace" / "data" / "paper-limb.toml"
+    data = load_dataset(loading_record(tmp_path / "record", limb, values={}, repeats=1, sensor="encoders = true\n"))
+    record = load_record(data)
+    space = space_of(trust_of(load_limb(limb), turns=True), ())
+    size = np.abs(record.measured) / np.abs(record.measured).max(axis=1)[:, None]
+    grown = np.hypot(1.0, 9.0 * size) * np.random.default_rng(5).standard_normal(size.shape)
+    found = with_growth(record, replace(fit(record, space, space.mean), residual=grown.ravel()))
+    assert found is not None
+    assert {name for name in found.channels if found.noise[name].growth_ratio > 0.0} == {"fx_n", "fz_n"}
+
+
 def test_rounding_is_no_sign_of_a_load() -> None:
     """What a model plays at rest is rounding, whose sign would follow the reading."""
     ways = _by_load(np.array([1e-15, -1e-15, 2.0, -3.0]))
@@ -246,7 +261,7 @@ def test_a_limb_seen_before_has_the_residuals_that_it_had(
     tmp_path: Path, believed: LimbModel, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Whatever was asked for in between, and whatever was done to what was given."""
-    monkeypatch.setattr(loading_record, "MOST_KNOWN", 3)
+    monkeypatch.setattr(identify_record, "MOST_KNOWN", 3)
     record = load_record(recorded(tmp_path, believed, 12))
     space = space_of(trust_of(believed, turns=True), ())
     models = space.models(space.mean + np.outer(np.arange(5), 0.1 * space.sigma))
@@ -314,6 +329,15 @@ def test_names_that_are_wrong_more_often_than_right_are_not_said(lead: float, ve
     sets = [LabelSet(frozenset({name}), fitted, 0.5) for name in ("a", "b")]
     structure, base = cast(Any, SimpleNamespace(structured=False)), cast(Any, SimpleNamespace(cost=200.0))
     assert decide(sets, structure, base, Outside(lead, "", TAKES_BACK)).verdict == verdict
+
+
+@pytest.mark.parametrize(("rest", "verdict"), [(2.9, "ambiguous"), (3.1, "unknown"), (50.0, "unknown")])
+def test_what_is_left_unnames_an_effect_from_three_hundredths_of_what_it_explains(rest: float, verdict: str) -> None:
+    fitted = cast(Any, SimpleNamespace(fit=SimpleNamespace(cost=100.0), label="x"))
+    sets = [LabelSet(frozenset({name}), fitted, 0.5) for name in ("a", "b")]
+    structure = cast(Any, SimpleNamespace(structured=True, strongest=SimpleNamespace(gain=rest)))
+    base = cast(Any, SimpleNamespace(cost=200.0))
+    assert decide(sets, structure, base, Outside(-50.0, "")).verdict == verdict
 
 
 def against_the_catalogue(data: Dataset, believed: LimbModel) -> tuple[Outside, str]:

@@ -73,6 +73,14 @@ def test_only_what_a_record_may_not_tell_apart_is_told_as_alike() -> None:
     assert in_words(replace(found, power=np.ones((4, 4))), ["a"]) == ()
 
 
+def test_a_class_holds_what_is_alike_by_way_of_another() -> None:
+    """a makes what b makes, b what c makes, and a not what c makes; d is like none."""
+    alike = np.eye(4)
+    alike[0, 1] = alike[1, 2] = 0.99
+    found = Confusability(("a", "b", "c", "d"), np.ones(4), alike, np.zeros((4, 4)), np.ones((4, 4)))
+    assert found.classes == (("a", "b", "c"),)
+
+
 def test_two_that_look_like_each_other_are_told_once() -> None:
     power = np.array([[1.0, 0.3], [0.2, 1.0]])
     found = Confusability(("a", "b"), np.ones(2), np.ones((2, 2)), np.zeros((2, 2)), power)

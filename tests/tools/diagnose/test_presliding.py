@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import cast
 
 import numpy as np
 import pytest
 from brace.dataset import Dataset, load_dataset
-from brace.diagnose.diagnosis import Diagnosis
+from brace.diagnose.diagnosis import Diagnosis, Verdict
 from brace.diagnose.loading.choose import LabelSet
+from brace.diagnose.loading.extensions import Outside
 from brace.diagnose.loading.fit import Fit, fit
+from brace.diagnose.loading.plain_loop import with_plain_loop
 from brace.diagnose.loading.run import diagnose_loading
 from brace.diagnose.loading.troubles import likeliest
 from brace.diagnose.loading.search import Hypothesis
+from brace.diagnose.loading.search_pass import Pass
 from brace.diagnose.loading.space import space_of, trust_of
 from brace.diagnose.loading.troubles.presliding import (
     STRAINS,
@@ -23,6 +27,8 @@ from brace.diagnose.loading.troubles.presliding import (
     turned_columns,
     turned_rad,
 )
+from brace.diagnose.loading.structure import structure_of
+from brace.diagnose.loading.verdict import Decision
 from brace.diagnose.options import Options, silent
 from brace.identify.record import Record, levers, load_record
 from brace.model import LimbModel, load_limb
@@ -179,6 +185,19 @@ def test_the_joint_that_rubs_is_found_alone(tmp_path: Path, paper_limb: Path, pl
     assert likeliest.rubs(sound, [LabelSet(frozenset(), Hypothesis(fitted, 0.0), 1.0)])[1] < likeliest.MAY_BE
 
 
+def test_where_nothing_was_said_a_plain_loop_is_friction(tmp_path: Path, paper_limb: Path) -> None:
+    """What was said stays as it is."""
+    record = load_record(rubbing(tmp_path / "rubbing", paper_limb, "tibia"))
+    trust = trust_of(load_limb(paper_limb), turns=True)
+    fitted = fit(record, space_of(trust, ()), space_of(trust, ()).mean)
+    alone = LabelSet(frozenset(), Hypothesis(fitted, 0.0), 1.0)
+    structure = structure_of(record, fitted)
+    for verdict, named in (("none", []), ("unknown", ["presliding_friction@joint.tibia"])):
+        decision = Decision(cast(Verdict, verdict), (), (), alone, structure, Outside(-np.inf, ""))
+        found = with_plain_loop(Pass(record, trust, alone.best, [alone], structure, decision))
+        assert [one.name for one in found.troubles] == named and found.decision.verdict == "none"
+
+
 def test_elements_slide_at_their_strain(plain: tuple[Record, Fit]) -> None:
     """A triangle of a way: the stiffest element never slides and follows it; a weak one is a loop of constant height,
     whose work over the way is its strain, less what it is bent by at each turn."""
@@ -210,6 +229,18 @@ def test_columns_push_against_the_way(plain: tuple[Record, Fit]) -> None:
         work = np.einsum("frs,fr->s", np.concatenate([columns, turned], axis=2)[:2], steps)
         assert np.all(work[-5:] > 0.0)
         assert np.all(friction_n_mm(record, fitted, joint)[-5:] > 0.0)
+
+
+def test_the_base_moves_along_with_the_force_on_each_axis(tmp_path: Path, paper_limb: Path) -> None:
+    soft = {"base.x_mm_per_n": 0.004, "base.z_mm_per_n": 0.003}
+    data = load_dataset(loading_record(tmp_path / "record", paper_limb, values=soft, sensor="base_gauge = true\n"))
+    record, space = load_record(data), space_of(trust_of(load_limb(paper_limb).with_values(soft), turns=True), ())
+    fitted = fit(record, space, space.mean)
+    columns = dict(zip(record.channels, turned_columns(record, fitted, "tibia", np.ones((2, record.rows, 2)))))
+    for axis in "xz":
+        yields = fitted.model[number_index()[f"base.{axis}_mm_per_n"]]
+        assert np.ptp(columns[f"base_{axis}_mm"]) > 0.0
+        assert columns[f"base_{axis}_mm"] == pytest.approx(yields * columns[f"f{axis}_n"])
 
 
 def test_what_a_ringing_joint_keeps_turns_with_the_first_step_back(plain: tuple[Record, Fit]) -> None:

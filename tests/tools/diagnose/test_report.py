@@ -186,6 +186,17 @@ def test_every_verdict_with_and_without_its_parts(
         _read(text)
 
 
+def test_each_row_of_a_table_has_a_cell_below_each_head(
+    made: tuple[Dataset, LimbModel, Diagnosis], limb: Path
+) -> None:
+    dataset, believed, found = made
+    text = page(dataset, believed, found, _origin(dataset))
+    tables = re.findall(r"<table>\n(.*?)</table>", text, re.DOTALL)
+    assert len(tables) > 2 and any("held out (rms)" in table for table in tables)
+    for table in tables:
+        assert len({len(re.findall("<t[hd][ >]", row)) for row in table.strip().split("\n")}) == 1, table
+
+
 def test_odd_residuals_are_left_out_not_drawn_wrong(
     made: tuple[Dataset, LimbModel, Diagnosis], limb: Path
 ) -> None:

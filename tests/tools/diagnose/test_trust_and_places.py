@@ -16,10 +16,12 @@ from brace.diagnose.loading.fit import Fit, fit
 from brace.diagnose.loading.localise import localise
 from brace.diagnose.loading.outcome import _as_named
 from brace.diagnose.loading.space import space_of, trust_of
+from brace.diagnose.loading.structure import slopes
 from brace.diagnose.loading.within_trust import allowed_sigma, pull_sigma, within_trust
 from brace.diagnose.stiffness_change import apart, stiffness_change
 from brace.identify.record import Record, load_record
 from brace.model import LimbModel, load_limb
+from brace.native.plant_batch import reference_planar_many
 
 KNEE = "joint.tibia.compliance_rad_per_n_mm"
 
@@ -162,6 +164,22 @@ def test_each_place_is_said_once(sound: Dataset, believed: LimbModel) -> None:
     assert first.startswith(f"at configuration {np.unique(sound['config'])[1]} ") and ", in fx whatever" in first
     assert second.startswith(f"at configuration {np.unique(sound['config'])[4]} ") and ", in fx whatever" in second
     assert len(found) <= 4 and sum(found.values()) <= 1.0 and min(found.values()) >= 0.05
+
+
+def test_a_force_that_is_off_at_every_reading_is_placed_there(sound: Dataset, believed: LimbModel) -> None:
+    for name in ("fx", "fz"):
+        off = sound.with_columns({f"{name}_n": sound[f"{name}_n"] + 1.0})
+        assert next(iter(_places(off, believed))) == f"in {name}, the same at every reading"
+
+
+def test_what_a_force_rises_by_along_a_run_is_an_entry_of_k(sound: Dataset, believed: LimbModel) -> None:
+    record, fitted = _refitted(sound, believed)
+    is_x = sound["axis"] == 0
+    angles = np.stack([sound["theta1_rad"], sound["theta2_rad"]], axis=1)
+    xx, xz, zz = reference_planar_many(fitted.model[None], angles[None])[0, :, :3].T
+    found = slopes(record, fitted, np.where(is_x, sound["dx_mm"], sound["dz_mm"]))
+    wanted = np.stack([np.where(is_x, xx, xz), np.where(is_x, xz, zz)])
+    assert np.abs(found - wanted).max() < 0.02 * np.abs(wanted).max()
 
 
 def test_traces_of_one_shape_are_not_places_of_their_own(tmp_path: Path, limb: Path, believed: LimbModel) -> None:
