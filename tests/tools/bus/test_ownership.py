@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from brace.bus.ownership import Owner
+from brace.bus.siphash import siphash
 from brace.wire.codes import SETTING
 
 KEY = bytes(range(16))
@@ -20,3 +21,8 @@ def test_a_session_in_which_a_command_was_taken_goes_on_until_the_challenge_chan
     owner.accepted()
     assert not opens(1)
     assert opens(2)
+
+
+def test_a_check_is_that_of_the_published_example() -> None:
+    """SipHash-2-4 of the bytes 0 to 14 with the key of the bytes 0 to 15 (Aumasson and Bernstein, appendix A)."""
+    assert siphash(KEY, bytes(range(15))) == 0xA129CA6149BE45E5
