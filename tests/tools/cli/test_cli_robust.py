@@ -132,6 +132,7 @@ def test_bad_models_name_their_line(brace: Brace, tmp_path: Path, text: str, lin
         (("--theta1", 1, "--theta2", 3.15), "beyond the folded knee"),
         (("--theta1", 90, "--theta2", 1), "degrees"),
         (("--csv", "a", "--out", ""), "an empty name"),
+        (("--csv", "a\0b", "--out", "c"), "a name with a zero byte"),
         (("--theta1",), "--theta1: a value is missing"),
         (("--theta1", 1, "--theta2", 1, "--arith", "fixd"), "did you mean fixed?"),
     ],

@@ -46,6 +46,17 @@ def test_map_draws_the_papers_curves(tmp_path: Path, brace: Callable[..., Outcom
     assert (tmp_path / "m" / "map.png").read_bytes().startswith(b"\x89PNG")
 
 
+def test_map_says_how_k_goes_with_reach(tmp_path: Path, brace: Callable[..., Outcome], paper_limb: Path) -> None:
+    """lambda_min of the paper's limb falls all the way; lambda_max turns once."""
+    asked = ("map", "--model", paper_limb, "--postures", 2500, "--out")
+    summary = json.loads(brace(*asked, tmp_path / "a", "--json").out)
+    (turn_mm,) = summary["turning_points_r_mm"]["lambda_max"]
+    _, least, most, *_ = brace(*asked, tmp_path / "b").out.splitlines()
+    assert least.startswith("lambda_min ") and least.endswith("; falls steadily with reach")
+    assert most.startswith("lambda_max ")
+    assert most.endswith(f"; turns between rising and falling at r = {turn_mm:.1f} mm")
+
+
 def test_map_of_a_yielding_base_shows_a_band(tmp_path: Path, brace: Callable[..., Outcome]) -> None:
     limb = tmp_path / "limb.toml"
     limb.write_text(LIMB + "[base]\nx_mm_per_n = 0.5\n")
