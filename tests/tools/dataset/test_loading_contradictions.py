@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from brace.dataset import check_poses, load_dataset
+from brace.dataset import check_copies, check_poses, load_dataset
 from brace.ground.errors import BadFileError
 from command_bench import LIMB, LOADING_HEADER, LOADING_META, Outcome, loading_rows, write_loading
 
@@ -178,6 +178,24 @@ def test_zeroed_counts_at_the_top_and_under_rig(tmp_path: Path) -> None:
         with pytest.raises(BadFileError) as caught:
             load_dataset(write_loading(tmp_path, rows, meta=meta))
         assert f"meta.toml:{line}" in caught.value.render() and "zeroed" in caught.value.render()
+
+
+@pytest.mark.parametrize(("copied", "is_told"), [((4,), True), ((4, 7), False)])
+def test_more_than_a_fifth_of_a_poses_repeats_alike_is_a_record_without_noise(
+    copied: tuple[int, ...], is_told: bool
+) -> None:
+    """Ten runs of one pose are nine repeats; some have the readings of the run before, bit by bit."""
+    runs, length = 10, 17
+    random = np.random.default_rng(2)
+    columns = {name: np.zeros(runs * length) for name in ("theta1_rad", "theta2_rad", "axis")}
+    columns |= {"run": np.repeat(np.arange(1, runs + 1), length), "config": np.ones(runs * length)}
+    for name in ("fx_n", "fz_n"):
+        force = np.tile(np.linspace(0.0, 9.0, length), (runs, 1)) + np.round(random.normal(0, 0.1, (runs, length)), 6)
+        for run in copied:
+            force[run - 1] = force[run - 2]
+        columns[name] = force.ravel()
+    rows = [fault.row for fault in check_copies.faults(columns)]
+    assert rows == ([(copied[0] - 1) * length + 1] * 2 if is_told else [])
 
 
 @pytest.mark.parametrize("slips", [1, 3, 4])
