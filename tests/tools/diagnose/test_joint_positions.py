@@ -6,11 +6,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from by_torque import found_in, triangle, under_torque
+from by_torque import found_in, recorded, triangle, under_torque
 
+from brace.dataset import load_dataset
 from brace.diagnose.diagnosis import Diagnosis, Interval
 from brace.diagnose.joint_test.evidence import beside_what_is_left
 from brace.diagnose.plain_words import joint_sizes
+from brace.identify.gear_positions import apart, count
 
 GAP_RAD, FRICTION_N_MM, COMPLIANCE = 0.02, 700.0, 2e-6
 AMPLITUDES_N_MM = (4000.0, 9000.0)
@@ -50,6 +52,17 @@ def test_zeros_that_differ_by_less_than_the_swing_are_several(tmp_path: Path) ->
     found = bench(tmp_path, (0.1, 0.104, 0.093, 0.1105), (GAP_RAD,) * 4)
     assert found.joint is not None and found.joint.gear_positions == 4
     assert {effect.name for effect in found.effects} == {"backlash", "coulomb_friction"}, found.sentence
+
+
+@pytest.mark.parametrize("zeros_rad", [(0.1,), (0.1, -0.15), (0.1, -0.15, 0.22), (0.1, -0.15, 0.1)])
+def test_each_zero_is_a_position(tmp_path: Path, zeros_rad: tuple[float, ...]) -> None:
+    torque = 9000.0 * triangle()
+    angle = under_torque(torque, GAP_RAD, FRICTION_N_MM, COMPLIANCE)
+    data = apart(load_dataset(recorded(tmp_path, [(zero + angle, torque) for zero in zeros_rad])))
+    assert count(data) == len(set(zeros_rad))
+    for test in range(len(zeros_rad) if len(zeros_rad) > 1 else 0):
+        counted = data["angle_rad"][data["test"] == test]
+        assert counted.max() == pytest.approx(-counted.min(), abs=1e-7), "from its own middle"
 
 
 def test_what_a_model_leaves_widens_play_and_friction() -> None:
