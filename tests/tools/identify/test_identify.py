@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from brace.dataset import load_dataset
+from brace.identify.classes import remedy
 from brace.identify.combinations import COMBINATIONS
 from brace.identify.families import FAMILIES, fit_family
 from brace.identify.faults import settle
@@ -103,6 +104,21 @@ def test_classes_are_named(tmp_path: Path, brace: Callable[..., Outcome]) -> Non
     for key in KNEE:
         assert report["parameters"][key]["sigma"] is None and not report["parameters"][key]["identifiable"]
     assert report["split"]["structure_share_low"] < 0.25 < report["split"]["structure_share_high"]
+
+
+@pytest.mark.parametrize(
+    ("members", "words"),
+    [
+        (("sensor.gain", "link.tibia.bending_mm_per_n"), "a known mass hung on the tip"),
+        (("sensor.rotation_rad", "sensor.crosstalk_xz"), "the sensor turned by 90 degrees"),
+        (("base.x_mm_per_n", "link.femur.axial_mm_per_n"), "a dial gauge on the base"),
+        (KNEE, "output-side encoders at the joints"),
+        (("base.x_mm_per_n", "sensor.gain"), "a dial gauge on the base and a known mass hung on the tip"),
+        (("link.femur.axial_mm_per_n", "link.tibia.axial_mm_per_n"), "postures further apart"),
+    ],
+)
+def test_each_class_has_the_measurement_that_separates_it(members: tuple[str, ...], words: str) -> None:
+    assert remedy(members) == words
 
 
 def test_the_split_reaches_as_far_as_the_knee_can_be_exchanged(tmp_path: Path) -> None:
