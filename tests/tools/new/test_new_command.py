@@ -57,6 +57,13 @@ def test_a_round_beam_by_integration() -> None:
     assert found.torsion_rad_per_n_mm == pytest.approx(200.0 / (26e3 * np.trapezoid(2 * math.pi * r**3, r)), rel=1e-6)
 
 
+def test_materials_that_are_alike_in_all_directions_have_a_poisson_ratio_of_such() -> None:
+    """G = E / (2 (1 + nu)); metals and plastics have 0.28 to 0.45."""
+    for name in MATERIALS.keys() - {"cfrp", "gfrp", "wood"}:
+        material = MATERIALS[name]
+        assert 0.28 < material.e_gpa / (2.0 * material.g_gpa) - 1.0 < 0.45, name
+
+
 def test_units_of_gears_and_joints() -> None:
     assert play_rad("20 arcmin") == pytest.approx(0.0058178, rel=1e-4)
     assert play_rad("0.5deg") == pytest.approx(0.0087266, rel=1e-4) and play_rad("0.006 rad") == 0.006
@@ -104,6 +111,14 @@ def test_guesses_are_told_in_words_and_in_the_file(brace: Brace, tmp_path: Path)
     assert "play of femur and tibia: not given" in told.out and "may be off by 50 %" in told.out
     text = out.read_text()
     assert "A GUESS" in text and "# gap_rad = 0.0" in text and "compliance_rel = 0.5" in text
+
+
+def test_a_limb_that_nothing_lets_yield_is_refused_by_its_file(brace: Brace, tmp_path: Path) -> None:
+    rigid = [part for name in ("femur", "tibia") for part in (f"--{name}-link", "rigid", f"--{name}-joint", "rigid")]
+    out = tmp_path / "limb.toml"
+    refused = brace("new", "--out", out, "--femur", 185, "--tibia", 313, *rigid)
+    assert refused.code == 3 and f"{out}:" in refused.err and "nothing in this limb yields" in refused.err, refused.err
+    assert not out.exists()
 
 
 def test_without_a_terminal_the_missing_options_are_named(brace: Brace, tmp_path: Path) -> None:

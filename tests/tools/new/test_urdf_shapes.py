@@ -139,6 +139,18 @@ def test_a_roll_in_the_legs_plane_is_a_limb_in_space_along_the_legs_axes(brace: 
     assert down["direction_rad"] == pytest.approx(0.0) and down["lean_rad"] == pytest.approx(0.0)
 
 
+@pytest.mark.parametrize("axis", ["1 0 0", "-1 0 0"])
+def test_along_the_legs_axes_z_points_forwards_either_way_the_roll_counts(
+    brace: Brace, tmp_path: Path, axis: str
+) -> None:
+    pytest.importorskip("mujoco")
+    roll, hip = _joint("abad", "0.2 0.05 0", axis), _joint("hip", "0.08 0 0", "0 1 0")
+    robot = _robot(tmp_path / "leg.urdf", roll, hip, *ROLL[2:])
+    told = brace("new", "--out", tmp_path / "limb.toml", "--urdf", robot, "--urdf-frame", "leg", *SPACE)
+    assert told.code == 0 and "z is the robot's (1, 0, 0), 90 deg from its vertical" in told.out, told.err
+    assert f"theta0 = {'-' * axis.startswith('-')}abad," in told.out, "an angle that is no offset is not written as one"
+
+
 def test_two_hinges_are_no_limb_in_space_until_the_coxa_is_given(brace: Brace, tmp_path: Path) -> None:
     pytest.importorskip("mujoco")
     out, robot = tmp_path / "limb.toml", _robot(tmp_path / "leg.urdf", HIP, KNEE, FOOT)
