@@ -150,7 +150,8 @@ def test_what_a_limb_measures_after_a_change_is_where_it_is_last_and_its_mean_fo
     for reading in (first, last):
         change.take([reading], 0.0)
     (found,) = change.means()
-    assert found is not None and list(found.tip_mm) == [3.0] * 3 and list(found.force_n) == [2.0] * 3
+    assert found is not None and found.force_n is not None
+    assert found.tip_mm.tolist() == [3.0] * 3 and found.force_n.tolist() == [2.0] * 3
 
 
 def test_a_lift_and_a_landing_are_named(monkeypatch: pytest.MonkeyPatch) -> None:
