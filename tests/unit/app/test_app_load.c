@@ -255,6 +255,28 @@ static void test_a_load_that_softens_the_limb_is_flagged_and_one_that_folds_it_h
     TEST_ASSERT_EQUAL_HEX32(0, now()->stiffness.now.flags);
 }
 
+/* The limb is moved while nobody reads a joint. What is known of its bend is of before then: the first tick that can have
+ * K has it. */
+static void test_after_a_while_unseen_the_first_tick_has_K(void)
+{
+    parameters.limb.joint[BRACE_FEMUR].compliance_rad_per_n_mm = 2e-5f;
+    start_pressed(0.0f, 8.0f);
+    fake.joint[BRACE_FEMUR].not_newer = true;
+    ticks(300);
+    TEST_ASSERT_FALSE(now()->load.is_counted);
+    fake.joint[BRACE_FEMUR].not_newer = false;
+    fake.joint[BRACE_FEMUR].sample.motor_rad = 2.14f;
+    fake.joint[BRACE_TIBIA].sample.motor_rad = -1.4f;
+    for (int tick = 0; tick < 1500; tick++) {
+        ticks(1);
+        TEST_ASSERT_EQUAL_HEX32(0u, now()->stiffness.now.flags & BRACE_FLAG_SOFTENED);
+        if (tick == 2) {
+            bench_believe();
+        }
+    }
+    TEST_ASSERT_TRUE(now()->load.is_counted && now()->k_is_valid);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -267,5 +289,6 @@ int main(void)
     RUN_TEST(test_the_parameters_say_where_down_is);
     RUN_TEST(test_without_a_force_K_is_the_one_without_load_and_flagged);
     RUN_TEST(test_a_load_that_softens_the_limb_is_flagged_and_one_that_folds_it_has_no_K);
+    RUN_TEST(test_after_a_while_unseen_the_first_tick_has_K);
     return UNITY_END();
 }

@@ -222,7 +222,10 @@ void stiffness_take(model_t *model, const brace_parameters_t *parameters, bool i
     stiffness_springs_of_now(model, parameters, joints, flank, springs);
     stiffness_hold_measured_joints(posture, springs);
     posture_settle(posture, NULL);
-    const bool computed = sound && inside && posture->has_levers &&
+    const bool is_seen = sound && inside && posture->has_levers;
+    softening->now.is_there =
+        softening->now.is_there && is_seen; /* a limb that is not seen may rest elsewhere by then */
+    const bool computed = is_seen &&
                           take_engaged(model, &parameters->limb, springs, gravity, softening, posture, snapshot,
                                        &engaged, &flags) == BRACE_OK &&
                           brace_gap_stiffness_known(&engaged.plane, &posture->pose, open & plane_joints,
