@@ -255,8 +255,8 @@ static void test_a_load_that_softens_the_limb_is_flagged_and_one_that_folds_it_h
     TEST_ASSERT_EQUAL_HEX32(0, now()->stiffness.now.flags);
 }
 
-/* The limb is moved while nobody reads a joint. What is known of its bend is of before then: the first tick that can have
- * K has it. */
+/* The limb is moved while nobody reads a joint. What is known of its bend is of before then: the first tick that can
+ * have K has it. */
 static void test_after_a_while_unseen_the_first_tick_has_K(void)
 {
     parameters.limb.joint[BRACE_FEMUR].compliance_rad_per_n_mm = 2e-5f;
