@@ -63,6 +63,8 @@ typedef struct {
     int32_t a_driven, b_driven, driven;
 } fixed_solved_t;
 
+#define LESS_MOST (4u * ONE_Q27) /* an entry times a ratio, at most */
+
 INLINE bool fixed_solve_in(const fixed_pull_t *pull, int32_t bend, int32_t resists, int32_t drives, fixed_solved_t *s)
 {
     lost_t lost = 0u;
@@ -75,9 +77,10 @@ INLINE bool fixed_solve_in(const fixed_pull_t *pull, int32_t bend, int32_t resis
     s->a_driven = pull->drives.a + end_drives;
     s->b_driven =
         wrapped_less(pull->drives.b + end_drives, kept((int64_t)s->f.b_by_a * s->a_driven, 27, ROOM_RATIO, &lost));
-    s->driven =
-        wrapped_less(pull->drives.root + end_drives,
-                     kept(sum2(s->f.root_by_a, s->a_driven, s->f.root_by_b, s->b_driven), 27, ROOM_RATIO, &lost));
+    const int32_t root_driven = pull->drives.root + end_drives;
+    lost |= (magnitude_of(root_driven) + LESS_MOST) >> 7; /* LOST where the sum leaves its word */
+    s->driven = wrapped_less(
+        root_driven, kept(sum2(s->f.root_by_a, s->a_driven, s->f.root_by_b, s->b_driven), 27, ROOM_RATIO, &lost));
     return lost < LOST;
 }
 
@@ -96,6 +99,8 @@ INLINE uint32_t end_turned(const fixed_far_shape_t *to, const fixed_shape_t *fro
     const int64_t turned = far_end_turn(to) - (fixed_end_turn(from) >> 2);
     return (uint32_t)(turned < 0 ? -turned : turned);
 }
+
+#define FAR_TURN_TO_LOST 6 /* 8 rad in q27 make LOST */
 
 /* A turn in q27: what a compliance (q29) and a moment make, less what a ratio (q27) and a turn in q27 make. Noted as
  * lost from 8 rad on. */
@@ -168,7 +173,9 @@ INLINE bool fixed_step(const fixed_limb_t *limb, bool is_first, int32_t hip, int
     if (lost >= LOST) {
         return false;
     }
-    fixed_solve_out(&tibia, by_end + by_knee, tibia_to, &lost);
+    const int32_t root = by_end + by_knee;
+    lost |= magnitude_of(root) >> FAR_TURN_TO_LOST;
+    fixed_solve_out(&tibia, root, tibia_to, &lost);
     return lost < LOST;
 }
 

@@ -44,14 +44,16 @@ int main(void)
         return 0;
     }
     PROVE(in.hip >= 0 && in.hip_yields >= 0 && in.knee >= 0 && in.knee_yields >= 0, "compliances are not negative");
-    PROVE(in.bend_shift >= 1u && in.bend_shift <= 31u, "curvatures' shift");
+    PROVE(in.bend_shift <= 31u, "curvatures' shift");
+    PROVE(in.coarser == 0u || in.coarser == 2u, "by how many bits C is coarser");
     PROVE(in.spring_shift >= 3u && in.spring_shift <= 31u, "springs' shift: they move by a quarter");
     PROVE(in.root_shift >= 2u && in.root_shift <= 31u, "and their roots'");
     PROVE(in.weight_shift >= 1u && in.weight_shift <= 31u && in.parity <= 1u, "weights' shift");
     PROVE(is_in(in.tip_q30.x, 1 << 30) && is_in(in.tip_q30.z, 1 << 30), "the force is below its unit");
     PROVE(is_in(in.down_q30.x, DOWN_MOST_Q30) && is_in(in.down_q30.z, DOWN_MOST_Q30), "the weight's direction");
     PROVE(in.force_exponent >= FORCE_EXPONENT_LEAST && in.force_exponent <= FORCE_MOST_EXPONENT, "the unit of force");
-    const int64_t force = size_of(in.tip_q30.x) + size_of(in.tip_q30.z), weight = limb.weight_q31 >> in.weight_shift;
+    const int64_t x = size_of(in.tip_q30.x), z = size_of(in.tip_q30.z), weight = limb.weight_q31 >> in.weight_shift;
+    const int64_t force = x > z ? x + z / 2 : z + x / 2; /* at least the length */
     PROVE(force + weight * DOWN_MOST_64THS / 64 <= FORCE_UNIT, "force and weight together are below it");
     return 0;
 }

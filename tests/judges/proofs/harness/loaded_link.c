@@ -89,19 +89,20 @@ static int32_t sound_shifted(int64_t sum, int bits)
 }
 
 /* A shape at points of its beam: how far the first and the second are turned from the root (loaded_points). */
-static int32_t first_off, end_off, point_count;
+static int32_t root, first_off, end_off, point_count;
 
 static int32_t any_point(void)
 {
     const int32_t off = any_i32();
     if (point_count == 0) {
         ASSUME(off <= NEAR_MOST && off >= -NEAR_MOST);
+        ASSUME((int64_t)root + off <= FIRST_MOST && (int64_t)root + off >= -FIRST_MOST);
         first_off = off;
     } else {
         PROVE(point_count == 1, "two points");
         ASSUME((int64_t)off - first_off <= FAR_MOST && (int64_t)off - first_off >= -FAR_MOST);
         ASSUME((int64_t)off - end_off <= NEAR_MOST && (int64_t)off - end_off >= -NEAR_MOST);
-        ASSUME(off <= SECOND_MOST - ROOT_ANGLE_MOST && off >= ROOT_ANGLE_MOST - SECOND_MOST);
+        ASSUME((int64_t)root + off <= SECOND_MOST && (int64_t)root + off >= -SECOND_MOST);
     }
     point_count++;
     return off;
@@ -189,12 +190,12 @@ static int32_t cross_of(fixed_vec_t a, fixed_vec_t b, int bits)
 static int64_t driven_most(int32_t turn)
 {
     if (size_of(turn) <= ROOT_ANGLE_MOST) {
-        return (lever_most >> 10) * 2290 + 4096; /* the root of 1 + 2^2 */
+        return (lever_most >> 10) * 3336 + 4096; /* the root of 1 + 3.1^2 */
     }
     if (size_of(turn) <= FIRST_MOST) {
-        return (lever_most >> 10) * 2777 + 4096;
+        return (lever_most >> 10) * 3699 + 4096;
     }
-    return size_of(turn) <= SECOND_MOST ? (lever_most >> 10) * 3649 + 4096 : INT64_MAX;
+    return size_of(turn) <= SECOND_MOST ? (lever_most >> 10) * 4104 + 4096 : INT64_MAX;
 }
 
 static int64_t coarse_product(int32_t a, int32_t b, int bits)
@@ -239,8 +240,8 @@ static int64_t fine_product(int32_t a, int32_t b)
 
 static fixed_vec_t small_turn_of(int32_t angle)
 {
-    PROVE(size_of(angle) <= SMALL_ANGLE_MOST, "a small turn");
-    return any_vector(SMALL_TURN_MOST);
+    PROVE(size_of(angle) <= LARGER_ANGLE_MOST, "a small turn");
+    return any_vector(size_of(angle) <= SMALL_ANGLE_MOST ? SMALL_TURN_MOST : LARGER_TURN_MOST);
 }
 
 #include "loaded/fixed_link.h"
@@ -269,7 +270,9 @@ static fixed_link_t any_link(void)
 
 static fixed_shape_t any_shape(void)
 {
-    return (fixed_shape_t){any_within(ROOT_ANGLE_MOST), any_within(CURVATURE_MOST), any_within(CURVATURE_MOST)};
+    const fixed_shape_t shape = {any_within(ROOT_ANGLE_MOST), any_within(CURVATURE_MOST), any_within(CURVATURE_MOST)};
+    ASSUME(IS_SHAPE(size_of(shape.root), size_of(shape.a), size_of(shape.b)));
+    return shape;
 }
 
 static void are_within(const fixed_matrix_t *m, int64_t most)
@@ -301,7 +304,7 @@ static void bent(void)
     const fixed_link_t link = any_link();
     const fixed_shape_t shape = any_shape();
     fixed_pull_t pull;
-    end_off = shape.a + shape.b, point_count = 0;
+    root = shape.root, end_off = shape.a + shape.b, point_count = 0;
     fixed_pull_bent(&link, &shape, &pull);
     is_pull(&pull);
 }

@@ -9,16 +9,22 @@
 #define DIRECTION_MOST ((1LL << 30) + 2)
 #define SMALL_TURN_LEAST PART_OF(30, 0.999)
 #define SMALL_TURN_MOST PART_OF(30, 1.001)
-#define SMALL_SINE_MOST PART_OF(30, 0.87)
+#define LARGER_TURN_MOST PART_OF(30, 1.0036)
+#define SMALL_SINE_MOST PART_OF(30, 0.986)
 #define SMALL_ANGLE_MOST ((int)PART_OF(29, 1.045))
+#define LARGER_ANGLE_MOST ((int)PART_OF(29, 1.39)) /* of a strongly bent link */
 
-/* Angles of a shape on the way, and at points of it (loaded_points). */
-#define ROOT_ANGLE_MOST PART_OF(29, 3.1)
-#define CURVATURE_MOST PART_OF(29, 1.2)
-#define FIRST_MOST PART_OF(29, 2.52)
-#define SECOND_MOST PART_OF(29, 3.42)
-#define NEAR_MOST PART_OF(29, 0.52)  /* from the root to the first, from the second to the end */
-#define FAR_MOST PART_OF(29, 1.04)   /* from the first to the second */
+/* Angles of a shape as is_shape of loaded/fixed_solve.h keeps them (loaded_solve), and at points of it (loaded_words). */
+#define ROOT_ANGLE_MOST (PART_OF(29, 3.1) + 4)
+#define CURVATURE_MOST (PART_OF(29, 1.2) + 4)
+#define IS_SHAPE(root, a, b) \
+    ((root) <= ROOT_ANGLE_MOST && (a) <= CURVATURE_MOST && (b) <= CURVATURE_MOST && \
+     (root) + (a) + ((a) >> 3) + (b) <= \
+         PART_OF(29, 3.9) + 20) /* magnitudes; of four numbers in q27, and their ends */
+#define FIRST_MOST PART_OF(29, 3.47)
+#define SECOND_MOST PART_OF(29, 3.88)
+#define NEAR_MOST PART_OF(29, 0.694) /* from the root to the first, from the second to the end */
+#define FAR_MOST PART_OF(29, 1.387) /* from the first to the second */
 
 /* A link: the unit of length is above the reach, the unit of force above the loads, springs move by a quarter. The
  * tilt is a quarter turn at most, so that the way to the beam is the root of two times as long. Of two links the
@@ -32,7 +38,7 @@
 #define RIGID_MOST (TO_BEAM_MOST + PART_OF(28, 0.25) + 256)
 #define FORCE_UNIT PART_OF(30, 1.0)
 #define FORCE_MOST (FORCE_UNIT + 256)
-#define DOWN_MOST_64THS 91         /* a direction whose parts are 1.001 is as long, and a little more */
+#define DOWN_MOST_64THS 91 /* a direction whose parts are 1.001 is as long, and a little more */
 #define FORCE_EXPONENT_LEAST (-6)
 #define FORCE_MOST_EXPONENT 40
 #define SPRING_GIVES_MOST PART_OF(30, 0.503) /* turned, along a force or across */
@@ -41,9 +47,9 @@
 /* What a link tells on the way (loaded_link), and at the equilibrium. */
 #define RESISTS_MOST PART_OF(27, 2.7)
 #define END_RESISTS_MOST PART_OF(27, 0.26)
-#define ROOT_DRIVES_MOST PART_OF(27, 6.9)
+#define ROOT_DRIVES_MOST PART_OF(27, 9.6)
 #define DRIVES_MOST PART_OF(27, 4.0)
-#define END_DRIVES_MOST PART_OF(27, 1.095)
+#define END_DRIVES_MOST PART_OF(27, 1.18)
 #define REST_MOST PART_OF(27, 3.0)
 #define SOFTENS_MOST PART_OF(27, 0.51)
 #define TIP_MOST PART_OF(28, 3.2)

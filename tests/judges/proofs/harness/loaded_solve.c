@@ -67,7 +67,9 @@ static int32_t any_times(int32_t a, int32_t b, int bits)
 {
     if (bits == 30) { /* a way, and the part of it that a shape goes */
         PROVE(b >= 0 && b <= 1 << 30, "a part is no more than the whole");
-        return any_within(size_of(a));
+        const int32_t part = any_within(size_of(a));
+        ASSUME(a < 0 ? part <= 0 : part >= 0);
+        return part;
     }
     PROVE(a > 0 && b > 0, "of numbers above zero");
     const uint64_t any = any_u64();
@@ -109,8 +111,7 @@ static void any_pull(fixed_pull_t *pull)
 
 static bool is_bent_as_promised(const fixed_shape_t *shape)
 {
-    return size_of(shape->root) <= ROOT_ANGLE_MOST && size_of(shape->a) <= CURVATURE_MOST &&
-           size_of(shape->b) <= CURVATURE_MOST;
+    return IS_SHAPE(size_of(shape->root), size_of(shape->a), size_of(shape->b));
 }
 
 static void any_pull_straight(const fixed_link_t *link, fixed_pull_t *pull)
@@ -146,7 +147,7 @@ static void steps(void)
 {
     fixed_limb_t limb;
     const bool is_first = any_bool();
-    ASSUME(is_first || (is_bent_as_promised(&limb.femur_shape) && is_bent_as_promised(&limb.tibia_shape)));
+    ASSUME(is_bent_as_promised(&limb.femur_shape) && is_bent_as_promised(&limb.tibia_shape));
     ASSUME(limb.femur.bend >= 0 && limb.tibia.bend >= 0);
     is_true = true;
     int32_t turned_q27;

@@ -21,7 +21,9 @@ static void small_turns(int32_t angle_q29)
     const fixed_vec_t turn = fixed_small_turn(angle_q29);
     const uint64_t square = square_of(turn);
     PROVE(turn.x >= 0 && turn.z <= SMALL_SINE_MOST && turn.z >= -SMALL_SINE_MOST, "a small turn's parts");
-    PROVE(square <= SMALL_TURN_MOST * SMALL_TURN_MOST, "a small turn lengthens by a thousandth at most");
+    const uint64_t most =
+        angle_q29 >= -SMALL_ANGLE_MOST && angle_q29 <= SMALL_ANGLE_MOST ? SMALL_TURN_MOST : LARGER_TURN_MOST;
+    PROVE(square <= most * most, "a small turn lengthens by a thousandth at most, a larger one by four");
     PROVE(square >= SMALL_TURN_LEAST * SMALL_TURN_LEAST, "and shortens by as much");
 }
 
@@ -37,7 +39,7 @@ static void go_through(uint32_t step)
     for (uint64_t i = 0; i < 1ull << 32; i += step) {
         const int32_t number = (int32_t)(uint32_t)i;
         directions_turn((uint32_t)i);
-        if (number >= -SMALL_ANGLE_MOST && number <= SMALL_ANGLE_MOST) {
+        if (number >= -LARGER_ANGLE_MOST && number <= LARGER_ANGLE_MOST) {
             small_turns(number);
         }
         if (number >= LEAST_PIVOT_Q27) {

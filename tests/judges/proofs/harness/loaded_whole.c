@@ -217,7 +217,7 @@ static brace_status_t any_inputs(const brace_loaded_fixed_t *limb, float theta1_
     fixed_inputs_t any;
     *in = any;
     ASSUME(in->hip >= 0 && in->hip_yields >= 0 && in->knee >= 0 && in->knee_yields >= 0);
-    ASSUME(in->bend_shift >= 1u && in->bend_shift <= 31u && in->spring_shift >= 3u && in->spring_shift <= 31u);
+    ASSUME(in->bend_shift <= 31u && in->spring_shift >= 3u && in->spring_shift <= 31u);
     ASSUME(in->root_shift >= 2u && in->root_shift <= 31u && in->parity <= 1u);
     ASSUME(in->weight_shift >= 1u && in->weight_shift <= 31u && (in->coarser == 0u || in->coarser == 2u));
     ASSUME(in->force_exponent >= FORCE_EXPONENT_LEAST && in->force_exponent <= FORCE_EXPONENT_MOST);
@@ -245,9 +245,7 @@ static void is_link(const fixed_link_t *link, bool is_femur)
 /* A shape that a step leads to and may begin from (loaded_solve). */
 static bool is_shape_in_range(const fixed_shape_t *shape)
 {
-    return size_of(shape->root) <= ROOT_ANGLE_MOST && size_of(shape->a) <= CURVATURE_MOST &&
-           size_of(shape->b) <= CURVATURE_MOST &&
-           size_of(shape->root) + size_of(shape->a) + size_of(shape->b) <= PART_OF(29, 3.9);
+    return IS_SHAPE(size_of(shape->root), size_of(shape->a), size_of(shape->b));
 }
 
 static void any_shape(fixed_shape_t *shape)
