@@ -29,6 +29,9 @@ NO_TEST_IS_LEFT = 5  # pytest's exit code where every test of a file is marked `
 INTERFACE_TESTS = ("test_wire_signals", "test_errors_page")  # begin first: what a page forgets shows there
 PYTHON_TESTS_S = 40.0  # no further test file begins after so long, so that the whole takes about a minute
 LEFT_OUT: list[str] = []  # files of tests that had no time
+FAILURES: list[str] = []  # one line for each test that failed: they stand among hundreds, so they are said again last
+FAILURES_SAID = 8
+NAMED_TESTS_MOST = 12
 BUILD = ROOT / "build" / "host"
 ALL_LINES = (".c", ".h", ".cpp")  # where every line is judged, not only new ones
 WRITTEN_BY_HAND = (*ALL_LINES, ".py", ".cmake")
@@ -50,6 +53,9 @@ LAWS = "host_sim/effects"
 LAWS_TESTS = ("test_effects_page", "test_what_laws_depend_on")
 
 
+FAILURE = re.compile(r"^(FAILED|ERROR) tests/|:FAIL: ")  # as pytest and Unity say it
+
+
 def run(*command: str, environment: dict[str, str] | None = None, also_well: tuple[int, ...] = ()) -> bool:
     """Runs a command in the project's folder. Prints its output only when it fails: when it ends neither with 0 nor
     with another code that means all is well."""
@@ -59,7 +65,9 @@ def run(*command: str, environment: dict[str, str] | None = None, also_well: tup
     )  # fmt: skip
     is_well = done.returncode in (0, *also_well)
     if not is_well:
-        print(done.stdout + done.stderr, end="")
+        said = done.stdout + done.stderr
+        print(said, end="")
+        FAILURES.extend(line for line in said.splitlines() if FAILURE.search(line))
     return is_well
 
 
@@ -299,13 +307,15 @@ def main() -> int:
         looks.append(("numbers that masters have stored", lambda: check_stored(since)))
     tests: list[Step] = []
     if in_c:
-        tests.append((f"build and C tests: {' '.join(units) or 'none mirrors what changed'}", lambda: test_c(units)))
+        which = " ".join(units) if len(units) <= NAMED_TESTS_MOST else f"{len(units)} suites"
+        tests.append((f"build and C tests: {which or 'none mirrors what changed'}", lambda: test_c(units)))
     if files:
         tests.append(("Python tests of what changed", lambda: test_python(files)))
     with ThreadPoolExecutor(2) as pool:  # a look takes one processor, a test's build all of them
         done = [*pool.map(timed, looks)] + [timed(step) for step in tests if not wrong]
     failed = [name.partition(":")[0] for name, ok in done if not ok]
     print(f"{time.monotonic() - begun:.0f} s; {summary(failed, bool(changed), bool(wrong))}")
+    print("".join(f"  {line}\n" for line in FAILURES[:FAILURES_SAID]), end="")
     print(wrong, end="")
     return 1 if failed or wrong else 0
 

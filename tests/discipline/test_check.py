@@ -75,6 +75,22 @@ def test_what_the_generator_refuses_stands_last_and_no_test_runs(
     assert said[-3].endswith("failed: generated files, so no test was run")
 
 
+def test_the_sentence_of_a_failed_test_stands_last(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    failed = ["a.c:9:test_that:FAIL: Expected 2 Was 3", "FAILED tests/tools/test_b.py::test_c - no"]
+    said = "\n".join(["a.c:3:test_it:PASS", *failed, "much more"])
+    for look in ("check_format", "check_types", "check_layers"):
+        monkeypatch.setattr(check, look, lambda *_: True)
+    monkeypatch.setattr(check, "FAILURES", [])
+    monkeypatch.setattr(check, "python_tests", lambda _: [])
+    monkeypatch.setattr(check, "test_c", lambda _: check.run("sh", "-c", f"echo '{said}'; false"))
+    monkeypatch.setattr(check, "changed_files", lambda _: [Path("hal/a.c")])
+    assert check.main() == 1
+    last = capsys.readouterr().out.splitlines()[-3:]
+    assert last[0].endswith("failed: build and C tests") and last[1:] == [f"  {line}" for line in failed]
+
+
 def test_the_generator_has_nothing_to_say_of_what_is_checked_in() -> None:
     assert check.generator_says() == ""
 

@@ -5,6 +5,7 @@ the steps something fails. effects/test_adding_an_effect.py does the same of the
 from __future__ import annotations
 
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -113,6 +114,16 @@ def test_with_all_steps_nothing_is_missing(tmp_path: Path, unity: str) -> None:
     for step in STEPS:
         step.do(project)
     assert faults_without(project, unity) == ""
+
+
+def test_no_test_takes_a_name_that_the_examples_add() -> None:
+    """Who follows the page has both in one project."""
+    added = {name for step in STEPS for name in re.findall(r'group\]\]\n *name = "(\w+)"', step.text)}
+    assert "warmth" in added
+    own = {Path(__file__).name, "test_adding_an_effect.py"}
+    tests = [path for path in (PROJECT / "tests/tools").rglob("test_*.py") if path.name not in own]
+    taken = [(path.name, name) for path in tests for name in added if f'name = "{name}' in path.read_text()]
+    assert not taken
 
 
 def test_the_examples_satisfy_the_check_of_columns() -> None:

@@ -64,12 +64,25 @@ def test_faults_and_their_emergency_codes() -> None:
     codes = [int(code, 16) for code in re.findall(r"X\(BRACE_FAULT_\w+, (0x[0-9a-f]{4})\)", CODES)]
     faults = bits(CODES, "BRACE_FAULT_")
     assert len(codes) == len(faults)
-    assert {row[1]: (int(row[0]), int(row[2], 16)) for row in rows("Faults")} == {
-        name: (bit, codes[bit]) for name, bit in faults.items()
-    }
+    known = {(bit, name, f"0x{codes[bit]:04x}") for name, bit in faults.items()}
+    listed = {(int(row[0]), row[1], row[2]) for row in rows("Faults")}
+    lacking = [f"| {bit} | `{name}` | {code} |" for bit, name, code in sorted(known - listed)]
+    assert not lacking, f"docs/errors.md: the table of faults lacks the rows that begin so: {lacking}"
+    assert listed <= known, f"docs/errors.md: no such fault, or another number: {sorted(listed - known)}"
     described = (FIRMWARE / "interface/brace.dbc").read_text()
     (said,) = re.findall(r'SG_ 129 error_code "([^"]*)"', described)
     assert {int(code, 16) for code in re.findall(r"0x[0-9a-f]{4}", said)} == {*codes, 0x1000, 0}
+
+
+def words_of(folder: str) -> set[str]:
+    return {word for path in (PROJECT / folder).rglob("*.c") for word in re.findall(r"\w+", path.read_text())}
+
+
+def test_each_fault_has_a_cause_and_a_test() -> None:
+    faults = {f"BRACE_FAULT_{name}" for name in bits(CODES, "BRACE_FAULT_")}
+    caused, tested = words_of("firmware/app/src"), words_of("tests/unit") | words_of("tests/attack")
+    assert not faults - caused, "nothing in firmware/app/src sets these: see 'Adding a fault' in docs/adding.md"
+    assert not faults - tested, "no test in tests/unit names these: see 'Adding a fault' in docs/adding.md"
 
 
 @pytest.mark.parametrize("heading, text, prefix", [("Flags", STATUS, "BRACE_FLAG_")])

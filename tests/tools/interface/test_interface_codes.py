@@ -156,8 +156,8 @@ def test_a_code_that_is_not_there_is_refused(tmp_path: Path) -> None:
             'number = 16\n[[multiplexed.group.part.signal]]\nname = "more"\nbits = 14\ndescription = "it"\n',
             "space_0: its signals have 62 bits, its frame has room for 48",
         ),  # fmt: skip
-        ('name = "load_fd"', 'name = "warmth"', "warmth: .* put the group warmth into details, and call it warmth_fd"),
-        ('name = "load_fd"', 'name = "warmth_fd"', "warmth_fd: .* put the group warmth into details"),
+        ('name = "load_fd"', 'name = "frost"', "frost: .* put the group frost into details, and call it frost_fd"),
+        ('name = "load_fd"', 'name = "frost_fd"', "frost_fd: .* put the group frost into details"),
         ("code = 2\n", "code = 1\n", "write_entry: 1 is that of read_entry; codes of requests"),
         ("code = 2\n", "code = 0\n", "write_entry: 0 does not fit: codes of requests are 1 to 255"),
         ("number = 2\n", "number = 1\n", "write_entry_answer_0: 1 is that of read_entry_answer_0; numbers of answers"),
