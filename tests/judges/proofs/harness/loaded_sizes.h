@@ -14,7 +14,7 @@
 #define SMALL_ANGLE_MOST ((int)PART_OF(29, 1.045))
 #define LARGER_ANGLE_MOST ((int)PART_OF(29, 1.39)) /* of a strongly bent link */
 
-/* Angles of a shape as is_shape of loaded/fixed_solve.h keeps them (loaded_solve), and at points of it (loaded_words). */
+/* Angles of a shape as is_shape of fixed_solve.h keeps them (loaded_solve), and at points of it (loaded_words). */
 #define ROOT_ANGLE_MOST (PART_OF(29, 3.1) + 4)
 #define CURVATURE_MOST (PART_OF(29, 1.2) + 4)
 #define IS_SHAPE(root, a, b) \
