@@ -4,7 +4,7 @@ parts and answers, codes of requests, and what numbers and bits mean."""
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 from sources import ROOT
@@ -62,6 +62,24 @@ def moved(before: Mapping[str, int], now: Mapping[str, int], on_purpose: Mapping
     ]
 
 
+def twice(names: Iterable[str]) -> str:
+    """A sentence for the first name that stands there twice; empty: none does."""
+    seen: set[str] = set()
+    for whose in names:
+        if whose in seen:
+            return f"{whose.rpartition(' ')[0]} stands there twice; give one of them another name"
+        seen.add(whose)
+    return ""
+
+
+def compared(before: tuple[str, str], now: tuple[str, str], on_purpose: Mapping[str, int]) -> list[str]:
+    """What has moved between the texts of the two files. A name that now stands twice is said alone: which of its two
+    numbers it had before, nobody knows."""
+    dictionary, messages = map(tomllib.loads, now)
+    doubled = twice(whose for whose, _ in numbers(dictionary, messages))
+    return [doubled] if doubled else moved(stored(*before), stored(*now), on_purpose)
+
+
 def _word(whose: str, number: int) -> str:
     return f"0x{number:03x}" if whose.endswith((" id", " emergency")) else str(number)
 
@@ -70,5 +88,5 @@ def moved_since(before: tuple[str, str]) -> list[str]:
     """The same for the project's files; `before` are the texts that they had. Empty texts: nobody knows them."""
     if not all(before):
         return []
-    now = stored((ROOT / DICTIONARY).read_text(), (ROOT / MESSAGES).read_text())
-    return moved(stored(*before), now, tomllib.loads((ROOT / ON_PURPOSE).read_text()))
+    now = (ROOT / DICTIONARY).read_text(), (ROOT / MESSAGES).read_text()
+    return compared(before, now, tomllib.loads((ROOT / ON_PURPOSE).read_text()))

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from stored_numbers import DICTIONARY, MESSAGES, moved, numbers, stored
+from stored_numbers import DICTIONARY, MESSAGES, compared, moved, numbers, stored
 
 PROJECT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(PROJECT / "tests"))
@@ -61,6 +61,24 @@ def test_one_that_moves_is_named(file: int, before: str, after: str, said: str) 
 def test_two_that_change_places_are_named() -> None:
     texts = swapped(NOW[0], "register = 248", "register = 250"), NOW[1]
     assert len(moved(stored(*NOW), stored(*texts), {})) >= 2
+
+
+@pytest.mark.parametrize(
+    ("file", "before", "after", "name"),
+    [
+        (0, '"modbus_baud"', '"load_hz"', "controller.load_hz"),
+        (0, '"JUMP_TIBIA"', '"JUMP_COXA"', "fault.JUMP_COXA"),
+        (0, FAULT, '    {name = "JUMP_COXA", emergency = 0x4210, text = "It is new."},\n' + FAULT, "fault.JUMP_COXA"),
+        (1, 'name = "eigenvalues"', 'name = "stiffness_a"', "stiffness_a"),
+        (1, 'name = "load"', 'name = "space"', "details.space_0"),
+    ],
+)
+def test_a_name_that_stands_twice_is_said_alone(file: int, before: str, after: str, name: str) -> None:
+    texts = list(NOW)
+    assert before in texts[file]
+    texts[file] = texts[file].replace(before, after, 1)
+    said = [f"{name} stands there twice; give one of them another name"]
+    assert compared(NOW, (texts[0], texts[1]), {}) == said
 
 
 def test_each_is_called_by_a_name_of_its_own() -> None:
