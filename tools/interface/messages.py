@@ -367,6 +367,14 @@ def _refuse_name(name: str | None, where: str) -> None:
         raise DictionaryError(f"{where}: a name begins with a small letter, and has small letters, digits and _ only")
 
 
+def _refuse_no_sign(signal: Signal, where: str) -> None:
+    """A value that may be below 0, and would be limited to 0."""
+    if signal.kind == "value" and signal.unit == "degC" and not signal.signed:
+        raise DictionaryError(
+            f"{where}: a temperature in degC may be below 0 and would be sent as 0; write signed = true"
+        )
+
+
 def _refuse_process(frame: Frame) -> None:
     """What goes out at a rate: the rate is the controller's, and receivers put frames of one snapshot together."""
     if frame.rate and not frame.rate.startswith("controller."):
@@ -588,6 +596,7 @@ def _signals(
             raise DictionaryError(f"{at} stands there twice")
         if fault := unit_fault(signal.unit):
             raise DictionaryError(f"{at}: {fault}")
+        _refuse_no_sign(signal, at)
         if table is not None and max(signal.names, default=len(signal.bit_names) - 1) > (
             signal.greatest if signal.names else signal.bits - 1
         ):

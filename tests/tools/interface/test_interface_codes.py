@@ -189,6 +189,11 @@ def test_a_code_that_is_not_there_is_refused(tmp_path: Path) -> None:
         ('name = "k_xz"', 'name = "k_xx"', "stiffness_a.k_xx stands there twice"),
         ('name = "stiffness_a"', 'name = "stiffness a"', "stiffness a: a name begins with a small letter"),
         ('name = "k_xx"', 'name = "K_xx"', "stiffness_a.K_xx: a name begins with a small letter"),
+        (
+            'signed = true\nkind = "value"\nstep = 0.0005\nunit = "N/mm"',
+            'kind = "value"\nstep = 0.01\nunit = "degC"',
+            "stiffness_a.k_xx: a temperature in degC may be below 0 and would be sent as 0; write signed = true",
+        ),
         ('unit = "N/mm"', 'unit = "N/m"', "no unit 'N/m'; units are"),
         ('rate = "controller.stiffness_hz"', 'rates = "controller.stiffness_hz"', "message stiffness_a: unknown rates"),
         ("coxa = true", "cox = true", "group .*: unknown cox; it has .* and may have rate, by_hand, coxa"),
