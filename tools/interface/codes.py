@@ -127,11 +127,11 @@ def _table(raw: Mapping[str, Any], is_bits: bool) -> Table:
         prefix = raw.get("constant", raw.get("prefix"))
         constant = value.get("c", "" if prefix is None else prefix + value["name"])
         codes.append(Code(number, value["name"], value["text"], constant, emergency))
+    _refuse_twice((code.name for code in codes), f"{name}: two values")
     lacking = [code.name for code in codes if code.emergency is None]
     if len(lacking) not in (0, len(codes)):
         raise DictionaryError(f"{name}: {', '.join(lacking)} lacks an emergency; either every value has one, or none")
     _refuse_twice((code.number for code in codes), f"{name}: two values")
-    _refuse_twice((code.name for code in codes), f"{name}: two values")
     return Table(name, raw["description"], is_bits, raw.get("type", ""), header, tuple(codes))
 
 
@@ -145,5 +145,5 @@ def _refuse_twice(items: Iterable[object], what: str) -> None:
     seen: set[object] = set()
     for item in items:
         if item in seen:
-            raise DictionaryError(f"{what} are {item}")
+            raise DictionaryError(f"{what} are {item}; give one of them another")
         seen.add(item)

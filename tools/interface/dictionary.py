@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 import tomllib
 import zlib
@@ -23,6 +24,7 @@ _ENTRY_MAY_HAVE = (
     *("register", "table", "field", "type", "range", "open_low", "infinite", "choices", "default", "required", "safe"),
     "ratio",
 )
+_FORMS = {"range": "range = [least, most]"}  # how to write a key whose name alone does not say it
 
 
 class DictionaryError(Exception):
@@ -118,8 +120,8 @@ def load(path: Path) -> Dictionary:
                 alike = [entry for entry in entries if entry.persistence == group["persistence"]]
                 entries.append(_entry(group, raw, part, len(alike)))
     kept = [entry for entry in entries if entry.persistence == "parameter"]
-    _refuse_twice([entry.key for entry in entries])
-    _refuse_twice([entry.member for entry in kept])
+    refuse_twice([entry.key for entry in entries])
+    refuse_twice([entry.member for entry in kept])
     check_area("parameters", [(entry.register, entry.key) for entry in kept], 0, content)
     groups = [group for group in content["group"] if group["persistence"] == "parameter"]
     return Dictionary(tuple(entries), _structs(groups, kept))
@@ -139,7 +141,7 @@ def _structs(groups: Sequence[Mapping[str, Any]], entries: Sequence[Entry]) -> t
         found = Struct(member, group["struct"], group["says"], fields)
         if structs.setdefault(member, found) != found:
             raise DictionaryError(f"{member}: its groups say different things of one struct")
-    _refuse_twice([struct.type for struct in structs.values()])
+    refuse_twice([struct.type for struct in structs.values()])
     return tuple(structs.values())
 
 
@@ -155,11 +157,18 @@ def check_area(area: str, named: Sequence[tuple[int, str]], first: int, content:
             taken += [(raw["register"] + 2 * place, "a reserved place") for place in range(raw["values"])]
     for place, (register, name) in enumerate(sorted(taken)):
         free = first + 2 * place
-        if register < free:
-            whose = " and ".join(sorted(one for at, one in taken if at in (register - 1, register)))
-            raise DictionaryError(f"{area}: register {register} has two values: {whose}")
-        if register > free:
+        whose = sorted(one for at, one in taken if at in (register - 1, register))
+        if register < free and len(whose) > 1:
+            why = f"register {register} has two values: {' and '.join(whose)}"
+            raise DictionaryError(f"{area}: {why}; the first that is free is {_free(taken, first)}")
+        if register != free:
             raise DictionaryError(f"{area}: {name} has register {register}; the first that is free is {free}")
+
+
+def _free(taken: Sequence[tuple[int, str]], first: int) -> int:
+    """The first register from `first` on where a value has room."""
+    used = {register + part for register, _ in taken for part in (0, 1)}
+    return next(register for register in itertools.count(first, 2) if not used & {register, register + 1})
 
 
 def _entry(group: Mapping[str, Any], raw: Mapping[str, Any], part: int, index: int) -> Entry:
@@ -243,11 +252,13 @@ def _check(entry: Entry) -> None:
         raise refuse("0 fills up the lists of choices: it cannot be one")
     if entry.open_low and entry.low != 0.0:
         raise refuse("open_low is for a range that starts at 0")
-    for value in (entry.safe, None if entry.texts else entry.default):
+    for what, value in (("default", None if entry.texts else entry.default), ("safe value", entry.safe)):
         if value is None:
             continue
         if not entry.low <= value <= entry.high or (entry.open_low and value == entry.low):
-            raise refuse(f"{value} lies outside its range")
+            low, high = entry.low, entry.high
+            span = f"above {low}, at most {high}" if entry.open_low else f"{low} to {high}"
+            raise refuse(f"its {what}, {value}, lies outside its range, {span}")
         if math.isinf(value) and not entry.infinite:
             raise refuse("inf needs infinite = true")
     if entry.safe is None:
@@ -264,12 +275,14 @@ def check_keys(table: Mapping[str, Any], needed: Sequence[str], may_have: Sequen
         )
     lacking = [key for key in needed if key not in table]
     if lacking:
-        raise DictionaryError(f"{where}: it lacks {', '.join(lacking)}")
+        forms = "".join(f"; write {_FORMS[key]}" for key in lacking if key in _FORMS)
+        raise DictionaryError(f"{where}: it lacks {', '.join(lacking)}{forms}")
 
 
-def _refuse_twice(names: Iterable[str]) -> None:
+def refuse_twice(names: Iterable[str]) -> None:
+    """No name stands there twice."""
     seen: set[str] = set()
     for name in names:
         if name in seen:
-            raise DictionaryError(f"{name} stands there twice")
+            raise DictionaryError(f"{name} stands there twice; give one of them another name")
         seen.add(name)

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from interface.codes import Codes, Table
-from interface.dictionary import DictionaryError, check_area, check_keys
+from interface.dictionary import DictionaryError, check_area, check_keys, refuse_twice
 from interface.units import UNIT_SUFFIX, unit_fault
 
 MEASURED_REGISTER, ANSWERED_REGISTER, COMMAND_REGISTER = 0, 0x1000, 0x4000  # the first of each
@@ -54,15 +54,13 @@ class Values:
 def load_values(path: Path, codes: Codes) -> Values:
     """Reads and checks the lists."""
     content = tomllib.loads(path.read_text())
-    values = Values(
+    raws = [raw for kind in ("measured", "answered", "command") for raw in content[kind]]
+    refuse_twice(raw["name"] for raw in raws if "name" in raw)
+    return Values(
         _values(content, "measured", "measured", MEASURED_REGISTER, codes),
         _values(content, "answered", "answered", ANSWERED_REGISTER, codes),
         _values(content, "command", "commands", COMMAND_REGISTER, codes),
     )
-    names = [value.name for group in (values.measured, values.answered, values.commands) for value in group]
-    if len(set(names)) != len(names):
-        raise DictionaryError("two values have one name")
-    return values
 
 
 def _values(content: Mapping[str, Any], kind: str, area: str, first: int, codes: Codes) -> tuple[Measured, ...]:

@@ -593,7 +593,7 @@ def _signals(
         if signal.bits < 1 or not 0.0 < signal.step < float("inf"):
             raise DictionaryError(f"{at}: bits and step are above 0")
         if any(signal.name == other.name for other in signals):
-            raise DictionaryError(f"{at} stands there twice")
+            raise DictionaryError(f"{at} stands there twice; give one of them another name")
         if fault := unit_fault(signal.unit):
             raise DictionaryError(f"{at}: {fault}")
         _refuse_no_sign(signal, at)

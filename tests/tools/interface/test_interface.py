@@ -149,6 +149,41 @@ def test_a_bad_dictionary_is_refused(before: str, after: str, tmp_path: Path) ->
         load(path)
 
 
+@pytest.mark.parametrize(
+    ("before", "after", "why"),
+    [
+        (
+            "range = [-273.15, 1e3]\ndefault = 22.0",
+            "range = [-55, 150]\ndefault = -80.0",
+            "thermal.reference_degc: its default, -80.0, lies outside its range, -55 to 150",
+        ),
+        (
+            "open_low = true\ndefault = 0.0625",
+            "open_low = true\ndefault = 0.0",
+            "controller.bus_load_ratio: its default, 0.0, lies outside its range, above 0.0, at most 1.0",
+        ),
+        ("safe = 185.0", "safe = 0.5", "its safe value, 0.5, lies outside its range, "),
+        (
+            "range = [-273.15, 1e3]\n",
+            "",
+            r"thermal.reference_degc: it lacks range; write range = \[least, most\]$",
+        ),
+        (
+            'name = "heartbeat_hz"\nregister = 206',
+            'name = "load_hz"\nregister = 206',
+            "^controller.load_hz stands there twice; give one of them another name$",
+        ),
+    ],
+)  # fmt: skip
+def test_a_bad_dictionary_is_refused_with_the_way_out(before: str, after: str, why: str, tmp_path: Path) -> None:
+    text = DICTIONARY.read_text()
+    assert before in text
+    path = tmp_path / "dictionary.toml"
+    path.write_text(text.replace(before, after, 1))
+    with pytest.raises(DictionaryError, match=why):
+        load(path)
+
+
 def test_a_range_with_the_greatest_first_is_refused(tmp_path: Path) -> None:
     path = tmp_path / "dictionary.toml"
     path.write_text(DICTIONARY.read_text().replace("range = [0.0, 1e4]", "range = [1e4, 0.0]", 1))

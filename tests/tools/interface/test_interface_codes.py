@@ -125,6 +125,23 @@ def test_bad_codes_are_refused(before: str, after: str, tmp_path: Path) -> None:
         load_codes(path)
 
 
+@pytest.mark.parametrize(
+    ("before", "after", "why"),
+    [
+        ('"JUMP_TIBIA"', '"JUMP_COXA"', "fault: two values are JUMP_COXA; give one of them another"),
+        ('"JUMP_TIBIA", emergency = 0x7305', '"JUMP_COXA"', "fault: two values are JUMP_COXA"),
+        ('"STOPPED", number = 4', '"BOOT", number = 0', "heartbeat_state: two values are BOOT;"),
+    ],
+)
+def test_a_name_that_stands_twice_is_said_first(before: str, after: str, why: str, tmp_path: Path) -> None:
+    text = DICTIONARY.read_text()
+    assert before in text
+    path = tmp_path / "dictionary.toml"
+    path.write_text(text.replace(before, after, 1))
+    with pytest.raises(DictionaryError, match=why):
+        load_codes(path)
+
+
 def test_a_code_that_is_not_there_is_refused(tmp_path: Path) -> None:
     codes = load_codes(DICTIONARY)
     values, wire = tmp_path / "dictionary.toml", tmp_path / "messages.toml"
@@ -186,7 +203,7 @@ def test_a_code_that_is_not_there_is_refused(tmp_path: Path) -> None:
         ("step = 0.001", "step = -0.001", "step are above 0"),
         ("step = 0.001", 'step = "0.001"', "step = '0.001' is not a number"),
         ("bits = 24", "bits = 0", "bits and step are above 0"),
-        ('name = "k_xz"', 'name = "k_xx"', "stiffness_a.k_xx stands there twice"),
+        ('name = "k_xz"', 'name = "k_xx"', "stiffness_a.k_xx stands there twice; give one"),
         ('name = "stiffness_a"', 'name = "stiffness a"', "stiffness a: a name begins with a small letter"),
         ('name = "k_xx"', 'name = "K_xx"', "stiffness_a.K_xx: a name begins with a small letter"),
         (

@@ -97,6 +97,13 @@ def altered(tmp_path: Path, before: str, after: str) -> Path:
         ("register = [6, 18, 30]", "register = [6, 18]", "list of 3"),
         ("register = [6, 18, 30]", "register = 6", "list of 3"),
         ('name = "modbus_baud"\nregister = 214', 'name = "modbus_baud"\nregister = 300', "register"),
+        ('name = "modbus_baud"\nregister = 214', 'name = "modbus_baud"\nregister = 206',
+         "parameters: register 206 has two values: controller.heartbeat_hz and controller.modbus_baud; "
+         "the first that is free is 214$"),
+        ('[[group.entry]]\nname = "bus_load_ratio"',
+         '[[group.entry]]\nname = "gait_hz"\nregister = 206\nunit = "Hz"\nrange = [0, 9]\ndefault = 0\n'
+         'description = "a rate"\n\n[[group.entry]]\nname = "bus_load_ratio"',
+         "controller.gait_hz and controller.heartbeat_hz; the first that is free is 252$"),
     ],
 )
 def test_bad_parameter_registers_are_refused(before: str, after: str, why: str, tmp_path: Path) -> None:
@@ -111,7 +118,9 @@ def test_bad_parameter_registers_are_refused(before: str, after: str, why: str, 
          "measured: .* has register 22; the first that is free is 20"),  # fmt: skip
         ('name = "take_up_tibia"\nregister = 198', 'name = "take_up_tibia"\nregister = 1980',
          "the first that is free is 198"),  # fmt: skip
-        ('name = "asked_k_xx"\nregister = 4096', 'name = "asked_k_xx"\nregister = 4095', "answered"),
+        ('name = "asked_k_xx"\nregister = 4096', 'name = "asked_k_xx"\nregister = 4095',
+         "answered: asked_k_xx has register 4095; the first that is free is 4096"),
+        ('name = "k_xz"\nregister = 22', 'name = "k_xx"\nregister = 20', "^k_xx stands there twice"),
         ('name = "asked_friction"\nregister = 16416', 'name = "asked_friction"\nregister = 16414', "commands"),
     ],
 )
