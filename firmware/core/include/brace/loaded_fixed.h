@@ -29,7 +29,7 @@ void brace_loaded_fixed_collapse(const brace_loaded_t *loaded, brace_loaded_fixe
  * Accuracy: as brace_loaded_stiffness, and at most 1e-4 of lambda_max more for the rounding. At no load K within 2e-6
  *         of lambda_max where det C is above 1e-3 of its squared mean, less exact the more slender the limb.
  *         tests/judges/engine/test_core_under_load.py judges random limbs.
- * Cost on a Cortex-M3: at most 6,000 instructions, 5,841 to 5,972 on the bench: the search for the buckling factor
+ * Cost on a Cortex-M3: at most 6,000 instructions, 5,859 to 5,990 on the bench: the search for the buckling factor
  *         differs from posture to posture. Stack at most 700 bytes. */
 brace_status_t brace_loaded_fixed_stiffness(const brace_loaded_fixed_t *fixed, float theta1_rad, float theta2_rad,
                                             const brace_load_t *load, brace_loaded_stiffness_t *result);
