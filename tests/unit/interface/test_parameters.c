@@ -231,7 +231,7 @@ static void test_the_wrong_member_is_named(void)
                 TEST_ASSERT_EQUAL(BRACE_OK, status);
                 continue;
             }
-            TEST_ASSERT_EQUAL(way == 0 && !whole ? BRACE_E_NOT_FINITE : BRACE_E_PARAMETER, status);
+            TEST_ASSERT_EQUAL_MESSAGE(way == 0 && !whole ? BRACE_E_NOT_FINITE : BRACE_E_PARAMETER, status, key);
             TEST_ASSERT_EQUAL(member, index);
             TEST_ASSERT_EQUAL(status, brace_parameters_pack(&wrong, 1, block, sizeof block));
         }
