@@ -109,6 +109,7 @@ ONLY_PARSED = {  # page, and how the commands begin: why
     ("README.md", "monitor"): "tests/socketcan/test_readme_lines.py",
     ("README.md", "export"): "tests/tools/new/test_exported_c.py",
     ("README.md", "flash"): "needs the firmware's images; test_flash.py",
+    ("adding.md", ""): "of an effect that the reader adds; tests/tools/effects/test_adding_an_effect.py",
     ("calibrate.md", ""): "test_pages_commands.py",
     ("datasets.md", "import"): "test_pages_commands.py",
     ("diagnose.md", ""): "the first two are the README's; a controller's record and fleets: tests/tools/diagnose",
