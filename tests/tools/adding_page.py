@@ -25,6 +25,12 @@ class Step:
     line: str
     text: str
 
+    @property
+    def is_done(self) -> bool:
+        """Somebody who tries the page has done it in the project itself."""
+        path = PROJECT / self.file
+        return path.is_file() and self.text in path.read_text()
+
     def do(self, project: Path) -> None:
         """Writes it in a copy of the project."""
         path = project / self.file
