@@ -262,11 +262,11 @@ brace_status_t model_loaded(const model_t *model, const brace_limb_t *limb, cons
                             const brace_loaded_joint_t springs[BRACE_LINK_COUNT], brace_vec3_t tip_n, brace_vec3_t down,
                             model_place_t *place, model_rest_t *rest)
 {
-    const uint8_t before = place->unyielding;
-    place->unyielding = unyielding(springs);
-    const bool goes_on = place->is_there && place->unyielding == before;
     brace_status_t status;
     if (!model->is_spatial) {
+        const uint8_t before = place->unyielding;
+        place->unyielding = unyielding(springs);
+        const bool goes_on = place->is_there && place->unyielding == before;
         const brace_load_t load = plane_load(springs, tip_n, down);
         brace_loaded_stiffness_t found;
         status = plane_follow(&model->loaded, unbent_rad, &load, goes_on, &place->at.plane, &found);
@@ -279,7 +279,7 @@ brace_status_t model_loaded(const model_t *model, const brace_limb_t *limb, cons
     const brace_space_load_t load = space_load(springs, tip_n, down);
     brace_space_result_t found;
     status = brace_loaded_space_follow(&model->loaded_space, unbent_rad[BRACE_FEMUR], unbent_rad[BRACE_TIBIA], &load,
-                                       goes_on, &place->at.space);
+                                       place->is_there, &place->at.space);
     if (status == BRACE_OK) {
         status = brace_loaded_space_stiffness(&model->loaded_space, &place->at.space, &found);
     }

@@ -98,8 +98,8 @@ typedef struct {
     } at;
     uint8_t ticks_without; /* so many after one another have not come near a rest */
     bool is_there;         /* the next tick goes on from `at`, */
-    uint8_t unyielding; /* unless other joints yield then: a joint whose angle comes to be measured behind its spring
-                              rests elsewhere. In bits */
+    uint8_t unyielding; /* in the plane, unless other joints yield then: a joint whose angle comes to be measured behind
+                              its spring rests elsewhere. In bits. In space a step finds the way */
     brace_loaded_joint_t springs[BRACE_LINK_COUNT]; /* of a limb in space, there */
 } model_place_t;
 
