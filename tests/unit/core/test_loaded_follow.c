@@ -26,7 +26,7 @@ void tearDown(void) {}
 
 static void begin(path_t path)
 {
-    memset(&followed, 0x5a, sizeof followed); /* the first tick takes nothing of it */
+    memset(&followed, 0x5a, sizeof followed); /* the first tick must not read it */
     followed.path = path;
     brace_loaded_collapse(&limb, &weights, &followed.loaded);
     brace_loaded_fixed_collapse(&followed.loaded, &followed.fixed);

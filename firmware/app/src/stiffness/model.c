@@ -251,10 +251,10 @@ static uint8_t unyielding(const brace_loaded_joint_t springs[BRACE_LINK_COUNT])
     return (uint8_t)joints;
 }
 
-/* has_come: to a rest. Where several ticks have not, the next one begins anew. */
-static void note(model_place_t *place, bool has_come)
+/* Where several ticks have found no rest, the next one begins anew. */
+static void note_search(model_place_t *place, bool has_found)
 {
-    place->ticks_without = has_come ? 0u : (uint8_t)(place->ticks_without % STEPS_TO_REST_MOST + 1u);
+    place->ticks_without = has_found ? 0u : (uint8_t)(place->ticks_without % STEPS_TO_REST_MOST + 1u);
     place->is_there = place->ticks_without < STEPS_TO_REST_MOST;
 }
 
@@ -273,7 +273,7 @@ brace_status_t model_loaded(const model_t *model, const brace_limb_t *limb, cons
         if (status == BRACE_OK) {
             report_plane(limb, load.hip.yields_by_rad_per_n_mm, &found, rest);
         }
-        note(place, status == BRACE_OK);
+        note_search(place, status == BRACE_OK);
         return status;
     }
     const brace_space_load_t load = space_load(springs, tip_n, down);
@@ -286,7 +286,7 @@ brace_status_t model_loaded(const model_t *model, const brace_limb_t *limb, cons
     for (int i = 0; i < BRACE_LINK_COUNT; i++) {
         place->springs[i] = springs[i];
     }
-    note(place, status == BRACE_OK);
+    note_search(place, status == BRACE_OK);
     return status == BRACE_OK ? report_space(limb, &found, rest) : status;
 }
 

@@ -97,9 +97,9 @@ typedef struct {
         model_plane_place_t plane;
     } at;
     uint8_t ticks_without; /* so many after one another have not come near a rest */
-    bool is_there;         /* the next tick goes on from `at`, */
-    uint8_t unyielding; /* in the plane, unless other joints yield then: a joint whose angle comes to be measured behind
-                              its spring rests elsewhere. In bits. In space a step finds the way */
+    bool is_there;         /* the next tick may go on from `at` */
+    uint8_t unyielding; /* in the plane: joints that did not yield, in bits. Where others do not in the next tick, the
+                              limb rests elsewhere, and that tick begins anew */
     brace_loaded_joint_t springs[BRACE_LINK_COUNT]; /* of a limb in space, there */
 } model_place_t;
 
@@ -111,8 +111,7 @@ typedef struct {
  *     once may need some ticks. So a limb that stands comes to its rest within rounding
  *   rest (out): after BRACE_OK
  * returns BRACE_OK, or as brace_loaded_follow, brace_loaded_fixed_follow and brace_loaded_space_follow, and as
- *   brace_loaded_space_stiffness. At most 2,600 instructions in the plane, 7,400 in
- *   space. */
+ *   brace_loaded_space_stiffness. At most 2,700 instructions in the plane, 7,600 in space. */
 brace_status_t model_loaded(const model_t *model, const brace_limb_t *limb, const float unbent_rad[BRACE_LINK_COUNT],
                             const brace_loaded_joint_t springs[BRACE_LINK_COUNT], brace_vec3_t tip_n, brace_vec3_t down,
                             model_place_t *place, model_rest_t *rest);

@@ -223,8 +223,8 @@ void stiffness_take(model_t *model, const brace_parameters_t *parameters, bool i
     stiffness_hold_measured_joints(posture, springs);
     posture_settle(posture, NULL);
     const bool is_seen = sound && inside && posture->has_levers;
-    softening->now.is_there =
-        softening->now.is_there && is_seen; /* a limb that is not seen may rest elsewhere by then */
+    /* A limb that is not seen may rest elsewhere when it is seen again. */
+    softening->now.is_there = softening->now.is_there && is_seen;
     const bool computed = is_seen &&
                           take_engaged(model, &parameters->limb, springs, gravity, softening, posture, snapshot,
                                        &engaged, &flags) == BRACE_OK &&

@@ -25,7 +25,7 @@ void stiffness_hold_measured_joints(const posture_t *posture, brace_loaded_joint
 
 /* K of this tick, in the limb's plane and, with a coxa joint, in space. It is K at the equilibrium under the tip's
  * force and the limb's weight, where the force is known; the posture goes to that equilibrium.
- *   softening: what it has found of a limb in space is read; (out): where such a limb rests now
+ *   softening: what it has found of a limb in space is read; (in, out): where the limb rests
  *   snapshot: its forces are read; (out): stiffness, k_is_valid, space, load
  *   is_calibrated: the parameters are of this limb as it was measured last
  * Flags: UNCALIBRATED, STALE (no sound samples; with a valid K: samples so
